@@ -1,29 +1,29 @@
-"""Exceptions with values."""
+"""Exceptions that carry the refused value."""
 
 from __future__ import annotations
 
 
 class FieldError(ValueError):
-    """A value is out of its range."""
+    """Error of a value that is not allowed."""
 
     def __init__(self, message: str, field: str, value: str, allowed: str) -> None:
         super().__init__(message)
         #: Name of the argument, or path of the field of a scene.
         self.field = field
-        #: The value as it was given.
+        #: Refused value, as it was given.
         self.value = value
-        #: What is allowed.
+        #: Allowed values in words.
         self.allowed = allowed
 
 
 class LoadingError(ValueError):
-    """The contact does not reach a loading stage."""
+    """Error of a loading stage whose target the contact cannot reach."""
 
     def __init__(self, message: str, stage: int, smallest_force: float | None) -> None:
         super().__init__(message)
-        #: Number of the stage, from 1.
+        #: Number of the loading stage, from 1.
         self.stage = stage
-        #: Smallest force within reach, N; None if the stage is refused for another reason.
+        #: Smallest force in N that the contact can reach; None if the stage is refused for another reason.
         self.smallest_force = smallest_force
 
 

@@ -1,4 +1,4 @@
-"""The functions of the package."""
+"""Functions of the package."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ if TYPE_CHECKING:
 
     _Curve: TypeAlias = AnyPath | tuple[npt.ArrayLike, npt.ArrayLike]
 
-#: Called with the number of parts that are done and of all parts; an exception stops the computation.
+#: Function that is called with the number of finished parts and the number of all parts. An exception in it stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
-#: Name of a built-in scene, path of a file, text of a scene, an open scene, or a profile made of a form and a roughness.
+#: Name of a built-in scene, path of a scene file, text of a scene, a Scene, or a Profile that was made of a form and a roughness.
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 
-#: A scene whose form and roughness are replaced.
+#: Scene of a flat smooth body, in which form and roughness are replaced.
 _PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"
 _EDGES = {"sub_cell": "SubCell", "grid": "Grid"}
 
 
 def scene(scene: AnyScene, /, **fields: Any) -> Scene:
-    """Opens a built-in scene, a scene file or the text of a scene, with other values of its fields.
+    """Opens a built-in scene, a scene file or the text of a scene, and changes fields of it.
 
-    A field is an argument with two underscores for each point of its path, `adhesion__work="50 mJ/m²"`; None removes an
-    optional part. `docs/scene-file.md` lists the fields.
+    Each further argument changes a field, with two underscores for each point of its path: `adhesion__work="50 mJ/m²"` changes
+    `adhesion.work`. The value None removes an optional part. `docs/scene-file.md` lists the fields.
     """
     if isinstance(scene, Profile):
         if scene.scene is None:
@@ -50,32 +50,35 @@ def scene(scene: AnyScene, /, **fields: Any) -> Scene:
 
 
 def sphere(radius: Quantity) -> Form:
-    """A sphere of this radius, m, as the paraboloid that Hertz and JKR theory take for it."""
+    """Returns a sphere of this radius in m. It is a paraboloid, as in the theories of Hertz and JKR."""
     return Form("Paraboloid", radius=radius)
 
 
 def cone(angle: Quantity) -> Form:
-    """A cone, with the angle between its flank and the surface, rad."""
+    """Returns a cone. `angle` is the angle between its flank and the surface in rad."""
     return Form("Cone", angle=angle)
 
 
 def power(coefficient: Quantity, exponent: Quantity) -> Form:
-    """A body of revolution of the shape b rⁿ, with the coefficient b in m^(1−n)."""
+    """Returns a body of revolution with the depth b rⁿ at the radius r. `coefficient` is b in m^(1−n), `exponent` is n."""
     return Form("Power", coefficient=coefficient, exponent=exponent)
 
 
 def punch(radius: Quantity) -> Form:
-    """A flat punch of this radius, m."""
+    """Returns a flat punch of this radius in m."""
     return Form("Punch", radius=radius)
 
 
 def wavy_sphere(radius: Quantity, amplitude: Quantity, wavelength: Quantity) -> Form:
-    """A sphere with concentric waves of this amplitude and wavelength, all in m."""
+    """Returns a sphere with concentric waves. Radius, amplitude and wavelength are in m."""
     return Form("WavySphere", radius=radius, amplitude=amplitude, wavelength=wavelength)
 
 
 def table(file: str | os.PathLike[str], unit: str | None = None) -> Form:
-    """A body of revolution whose depths at ascending radii are in a file, such as `numpy.save("tip.npy", numpy.c_[radii, depths])`."""
+    """Returns a body of revolution whose radii and depths are in a file. `unit` is their unit if the file states none.
+
+    `numpy.save("tip.npy", numpy.c_[radii, depths])` writes such a file of two arrays.
+    """
     if not isinstance(file, (str, os.PathLike)):
         raise refusal("file", f"an object of the type {type(file).__name__}", "a path, numpy.save('tip.npy', numpy.c_[radii, depths])")
     return Form("Table", file=Path(file).absolute(), unit=unit)
@@ -90,10 +93,11 @@ def self_affine(
     wavelengths: tuple[Quantity, Quantity] | None = None,
     roll_off: Quantity | None = None,
 ) -> Form:
-    """Random self-affine roughness of this Hurst exponent.
+    """Returns a random self-affine roughness with this Hurst exponent.
 
-    Its amplitude is the rms height in m or the rms gradient, its waves are the first and last mode in waves per length or
-    the longest and shortest wavelength in m. Above the wavelength `roll_off`, m, the spectrum of the surface is flat.
+    Its amplitude is given by `rms_height` in m or by `rms_gradient`. Its waves are given by `modes`, the first and the last number of
+    waves per length, or by `wavelengths`, the longest and the shortest one in m. Above the wavelength `roll_off` in m the spectrum of
+    the surface is flat.
     """
     return Form(
         "SelfAffine",
@@ -107,9 +111,9 @@ def self_affine(
 
 
 def measured(file: AnyPath, **options: Any) -> Form:
-    """Roughness of a measured surface in a file, with the fields `roughness.*` of `docs/surfaces.md` as options.
+    """Returns the roughness of a measured surface in a file. Options are the fields `roughness.*` of `docs/surfaces.md`.
 
-    A profile is random with the measured spectrum, or with `as_line=True` the measured profile itself.
+    Profiles are random and have the measured spectrum. With `as_line=True` the profile is the measured one.
     """
     return Form("Measured", file=Path(file).absolute(), **options)
 
@@ -122,9 +126,9 @@ def profile(
     roughness: Form | None = None,
     seed: int = 1,
 ) -> Profile:
-    """The profile of a body with a form and a roughness, on `points` springs along a length, m.
+    """Makes the profile of a body with a form and a roughness, with `points` points along a length in m.
 
-    The same seed gives the same random phases on any machine and for any number of points.
+    A seed gives the same random phases on any machine and for any number of points.
     """
     if roughness is not None and not roughness.values.get("as_line"):
         roughness = Form(roughness.kind, **{**roughness.values, "seed": seed})
@@ -147,12 +151,12 @@ def load(
 ) -> Loop:
     """Loads a separated body through loading stages, and returns its force loop.
 
-    `modulus` is the effective modulus E*, Pa; `work` the work of adhesion, J/m², and `closing_work` that of closing contact,
-    by default the same. A stage is a force (`"10 µN"`, or a number in N), an indentation (`"200 nm"`), a displacement of the
-    instrument (`"displacement 200 nm"`), `"touch"`, `"zero force"`, `"separation"`, or `"3 loops 0 N to 10 µN"`. The
-    instrument has the stiffness `loading_stiffness`, N/m, by default infinite. `edges` is `"sub_cell"` for edges between
-    springs or `"grid"` for whole springs; each stage has `samples` points of the curve. Extremes of the force are exact for any
-    number of them.
+    `modulus` is the effective modulus E* in Pa. `work` is the work of adhesion in J/m² that opens the interface. `closing_work` in J/m²
+    is gained where the interface closes, by default the same. A stage ends at a force (`"10 µN"`, or a number in N), at an indentation
+    (`"200 nm"`), or at a displacement of the instrument (`"displacement 200 nm"`). It may also be `"touch"`, `"zero force"`,
+    `"separation"`, or `"3 loops 0 N to 10 µN"`. The instrument has the stiffness `loading_stiffness` in N/m, by default infinite.
+    `edges` is `"sub_cell"` for edges of contact patches between springs, or `"grid"` for whole springs. The force curve has `samples`
+    points on each stage. The smallest and the largest force do not depend on their number.
     """
     modulus = quantity(modulus, "Pa", "modulus")
     work = quantity(work, "J/m²", "work")
@@ -185,10 +189,10 @@ def load(
 def run(
     scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
 ) -> Outcome:
-    """Computes a scene, as `asperity run` does: on its own profile, and on `profiles` random profiles, by default 16.
+    """Computes a scene as `asperity run` does: on its own profile, and on `profiles` random profiles, by default 16.
 
-    `jobs` threads share the profiles, by default one for each core; no result depends on their number. `progress` is called
-    with the number of profiles that are done and of all.
+    `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number of
+    finished profiles and the number of all profiles.
     """
     call = _call(scene, fields, profiles, jobs, progress)
     loop = _native.Loop.of_scene(call[0], None)
@@ -214,9 +218,10 @@ def find(
     progress: Progress = None,
     **fields: Any,
 ) -> Found:
-    """Finds the number of a scene, or the `preload`, at which a quantity has a value: `where="F_a/F_a,max = 20 %"`.
+    """Finds the value of a field, or of the `preload`, that meets a condition such as `where="F_a/F_a,max = 20 %"`.
 
-    Each random profile is searched for itself. The searched range is by default two decades down and up.
+    The value is found for each of several random profiles. `range` are its limits, by default a hundredth and a hundred times of the
+    value in the scene.
     """
     searched = None if range is None else _range(range)
     return Found(_native.find(_call(scene, fields, profiles, jobs, progress), field, where, searched))
@@ -234,7 +239,7 @@ def preloads(
     progress: Progress = None,
     **fields: Any,
 ) -> Preloads:
-    """Computes the adhesion force for `count` preloads between two forces, N; with `log` at equal ratios."""
+    """Computes the adhesion force after `count` preloads between two forces in N, at equal distances, or with `log` at equal ratios."""
     axis = f"{_range(between)}:{count}" + (":log" if log else "")
     return Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress), axis))
 
@@ -248,7 +253,7 @@ def reversals(
     progress: Progress = None,
     **fields: Any,
 ) -> Reversals:
-    """Computes the unloading of a scene from `count` turning points between two forces, N; by default up to its preload."""
+    """Computes the unloadings of a scene from `count` turning points between two forces in N, by default from first touch to its preload."""
     ends = None if between is None else _range(between)
     count = whole(count, "count", 2, 512)
     return Reversals(_native.reversals(_call(scene, fields, None, None, progress), ends, count))
@@ -265,7 +270,7 @@ def reference(
     progress: Progress = None,
     **fields: Any,
 ) -> Reference:
-    """Computes a scene in three dimensions on random squares of `grid` cells along a side, beside random lines.
+    """Computes a scene in three dimensions on random squares with `grid` cells along a side, and on random profiles for comparison.
 
     `maps` is the number of squares, by default 24 without and 12 with adhesion.
     """
@@ -275,7 +280,7 @@ def reference(
 
 
 def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
-    """What other theories say on a scene, each with its value, its threshold and its reference."""
+    """Returns what other theories say of a scene, each with its number, its threshold and its reference."""
     found: list[Values] = run(scene, profiles=1, **fields).criteria
     return found
 
@@ -291,9 +296,9 @@ def study(
     progress: Progress = None,
     **fields: Any,
 ) -> Study:
-    """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles of each.
+    """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles for each.
 
-    `record` names quantities of `docs/studies.md`.
+    `record` names the quantities to record; `docs/studies.md` lists them.
     """
     values = [(path, [float(value) for value in axis]) for path, axis in axes.items()]
     return Study(_native.study(_call(scene, fields, profiles, jobs, progress), values, list(record)))
@@ -307,12 +312,12 @@ def surface(
     opposite: AnyPath | None = None,
     **options: Any,
 ) -> Surface:
-    """Reads and analyses measured surfaces: a file, several files that are samples of one roughness, or an array.
+    """Reads and analyses a measured surface: a file, several files with measurements of the same surface, or an array.
 
-    An array holds the heights of a profile or a map in m, and `spacing` is the distance between its points, or the distances
-    along its rows and between them. `opposite` is a file of the opposite face. Further options are those of
-    `asperity surface --help`: `unit="um"`, `detrend="tilt"`, `periodic=True`, `interpolate=True`, `channel=1`,
-    `continue_to="10 nm"`, `tip_radius="10 nm"`, `modulus="2.7 MPa"` and others.
+    An array holds the heights of a profile or a map in m. `spacing` is the distance between its points in m, or the two distances along
+    a row and between rows. `opposite` is a file of the opposite surface. `asperity surface --help` lists the further options, for
+    example `unit="um"`, `detrend="tilt"`, `periodic=True`, `interpolate=True`, `channel=1`, `continue_to="10 nm"`,
+    `tip_radius="10 nm"` and `modulus="2.7 MPa"`.
     """
     if isinstance(files, (str, os.PathLike)):
         files = [files]
@@ -342,10 +347,10 @@ def fit(
 ) -> Fit | Fits | EnsembleFit:
     """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
 
-    A curve is a file, or a pair of arrays with displacements in m and forces in N. `free` names the parameters (work,
-    closing_work, modulus, offset, zero, stiffness, radius), or gives the range of each. With `profiles` one work of adhesion is
-    found for all curves of a rough body, by comparison with random profiles. `options` are those of `asperity fit --help` for
-    reading curves: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}` and others.
+    A curve is a file, or a pair of arrays with displacements in m and forces in N. `free` names the parameters to fit: work,
+    closing_work, modulus, offset, zero, stiffness and radius. A dictionary gives their ranges as well. With `profiles`, one work of
+    adhesion is found for all curves of a rough body, by comparison with so many random profiles. `options` state how to read the
+    curves, as `asperity fit --help` lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
     """
     is_single = isinstance(curves, (str, os.PathLike, tuple))
     given: list[Any] = [curves] if is_single else list(cast("Sequence[_Curve]", curves))
@@ -385,10 +390,10 @@ def press(
     periodic: bool = False,
     residual: float = 1e-8,
 ) -> Values:
-    """Presses a rigid square map of heights, m, on an elastic half-space in three dimensions, without adhesion.
+    """Presses a rigid square map of heights in m on an elastic half-space in three dimensions, without adhesion.
 
-    The side of the map is in m, the effective modulus in Pa, the force in N; the map has 32, 64, 128 … cells along a side.
-    `pressure` (Pa) and `gap` (m) of the result are maps; the solution has violations of at most `residual` rms heights.
+    The side of the map is in m, the effective modulus in Pa, the force in N. The map has 32, 64, 128 … cells along a side. The
+    conditions of contact are violated by at most `residual` rms heights. `pressure` in Pa and `gap` in m of the result are maps.
     """
     load = (quantity(side, "m", "side"), quantity(modulus, "Pa", "modulus"), quantity(force, "N", "force"))
     square = numbers(heights, "heights", (2,))
@@ -402,7 +407,7 @@ def press(
 
 
 def presets() -> list[str]:
-    """Names of the built-in scenes."""
+    """Returns the names of the built-in scenes."""
     return _native.presets()
 
 

@@ -1,4 +1,4 @@
-"""The force loop of a loading."""
+"""Force loop of a loading."""
 
 from __future__ import annotations
 
@@ -15,46 +15,46 @@ if TYPE_CHECKING:
 
 
 class Loop:
-    """Force loop of a loading that begins separated, in SI units. Arrays have one value for each point of the curve.
+    """Force loop of a loading that begins with separated bodies. All numbers are in SI units.
 
-    Compression is positive, and the indentation is 0 at first touch. A figure that the loop does not have is None. `kappa`,
-    `tabor`, `regime`, `share` and `pull_off_error` need the form and the roughness of the body, which a profile of heights does
-    not state: for such a profile they are None.
+    Arrays have one value for each point of the curve, except for `released`. Forces are positive in compression, and the indentation
+    is 0 at first touch. A number that does not exist for the loop is None. `kappa`, `tabor`, `regime`, `share` and `pull_off_error` need
+    the form and the roughness of the body. They are None for a profile that is given by its heights.
     """
 
-    #: Index of the loading stage, from 0.
+    #: Index of the loading stage of each point, from 0.
     stage: npt.NDArray[np.int64]
-    #: Indentation, m.
+    #: Indentation d in m.
     d: npt.NDArray[np.float64]
-    #: Force, N.
+    #: Force F in N.
     F: npt.NDArray[np.float64]
-    #: Displacement of the instrument D = d + F/k, m; the indentation if the instrument is rigid.
+    #: Displacement of the instrument D = d + F/k in m, which equals d if the instrument is rigid.
     D: npt.NDArray[np.float64]
-    #: Length in contact, m.
+    #: Total length of all contact patches in m.
     length: npt.NDArray[np.float64]
     #: Number of contact patches.
     patches: npt.NDArray[np.int64]
-    #: Stored elastic energy, J.
+    #: Stored elastic energy in J.
     energy: npt.NDArray[np.float64]
-    #: Released elastic energy of each stage, J; over a closed loop the sum is the dissipated energy.
+    #: Released elastic energy of each loading stage in J. Over a closed loop the sum is the dissipated energy.
     released: npt.NDArray[np.float64]
-    #: Pull-off force, N: minus the smallest force of the last unloading.
+    #: Pull-off force in N: minus the smallest force of the last unloading.
     pull_off: float | None
-    #: Indentation at the pull-off force, m.
+    #: Indentation at the pull-off force in m.
     pull_off_d: float | None
-    #: Preload, N: largest force while loading, since the last separation and before the last unloading.
+    #: Preload in N: largest force between the last separation and the last unloading.
     preload: float | None
-    #: Dissipated energy, J, of a loop that ends separated.
+    #: Dissipated energy in J; None unless the loop ends with separated bodies.
     dissipated: float | None
-    #: Indentation (m) and force (N) of the marked points: jump-in, preload, pull-off, jump-out.
+    #: Indentation in m and force in N of the points that figures mark: jump-in, preload, pull-off, jump-out.
     jumps: dict[str, tuple[float, float]]
-    #: Roughness-adhesion parameter κ of a rough body with adhesion.
+    #: Roughness-adhesion parameter κ; None without roughness or adhesion.
     kappa: float | None
-    #: Tabor number μ of a body with adhesion and a radius of curvature.
+    #: Tabor number μ; None without adhesion or without a radius of curvature.
     tabor: float | None
-    #: Regime of adhesion of a body that was turned at first touch.
+    #: Regime of adhesion turned at first touch, such as "pressure-sensitive".
     regime: str | None
-    #: Pull-off force over that of ideal contact, F_a/F_a,max.
+    #: Pull-off force over the ideal adhesion force, F_a/F_a,max.
     share: float | None
 
     def __init__(self, native: _native.Loop, scene: _native.Scene | None = None) -> None:
@@ -66,7 +66,7 @@ class Loop:
 
     @cached_property
     def pull_off_error(self) -> float | None:
-        """Estimated error of the pull-off force by the number of springs, N, computed when it is first asked for."""
+        """Estimated error of the pull-off force in N that results from the finite number of springs. It is computed at the first access."""
         if self._scene is None:
             return None
         report = _native.run((self._scene, 1, None, None), self._native)
@@ -74,7 +74,7 @@ class Loop:
         return error
 
     def to_pandas(self) -> pd.DataFrame:
-        """The curve as a table of pandas."""
+        """Returns the curve as a pandas DataFrame with one row for each point."""
         import pandas as pd
 
         return pd.DataFrame({name: getattr(self, name) for name in ["stage", "d", "F", "D", "length", "patches", "energy"]})

@@ -30,12 +30,12 @@ __version__: str
 
 _Reals: TypeAlias = npt.NDArray[np.float64]
 _Progress: TypeAlias = Callable[[int, int], object] | None
-# Scene, number of profiles, number of threads, and the callback of the progress.
+# Scene, number of profiles, number of threads, and the function that receives the progress.
 _Call: TypeAlias = tuple[Scene, int | None, int | None, _Progress]
 
 @final
 class Profile:
-    """The profile of heights or of a scene; `asperity.Profile` gives its parts their names."""
+    """Profile of given heights or of a scene. Users see it as `asperity.Profile`."""
 
     def __new__(cls, heights: _Reals, spacing: float) -> Profile: ...
     @staticmethod
@@ -45,7 +45,7 @@ class Profile:
 
 @final
 class Loop:
-    """The loop of a profile of heights or of a computed scene; `asperity.Loop` gives its parts their names."""
+    """Force loop of a profile or of a computed scene. Users see it as `asperity.Loop`."""
 
     @staticmethod
     def of_heights(
@@ -59,7 +59,7 @@ class Loop:
 
 @final
 class Scene:
-    """A checked scene: one problem with material, profile, adhesion, loading and numerics."""
+    """A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of its computation."""
 
     @staticmethod
     def open(name: str) -> Scene: ...
@@ -71,7 +71,7 @@ class Scene:
 
 @final
 class Surface:
-    """An analysed measured surface, from which profiles and scenes are made."""
+    """A measured surface after its analysis. It makes profiles and scenes with the measured spectrum."""
 
     def __new__(cls, words: list[str], map: tuple[_Reals, list[float]] | None) -> Surface: ...
     @property
@@ -81,7 +81,7 @@ class Surface:
 
 @final
 class Report:
-    """A result in the formats of the program."""
+    """A result that can be written in the formats of the program, such as JSON."""
 
     def write(self, format: str) -> bytes: ...
 

@@ -1,4 +1,4 @@
-"""Values of Python in the notation of a scene file."""
+"""Conversion of Python values to the notation of scene files."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-#: A number in SI units, or a text with its unit.
+#: A number in SI units, or a text with a unit such as "2.7 MPa".
 Quantity: TypeAlias = SupportsFloat | str
 
 
 class Form:
-    """Form or roughness of a body, in the notation of a scene file."""
+    """Form or roughness of a body, as functions such as `sphere` and `self_affine` return it."""
 
     def __init__(self, kind: str, **values: Any) -> None:
         self.kind = kind
@@ -31,7 +31,7 @@ class Form:
 
 
 def in_scene(value: Any) -> str:
-    """A value as a scene file writes it; a text stays as it is, so that it may have a unit."""
+    """Returns a value in the notation of a scene file. A text stays unchanged, so it may have a unit."""
     if isinstance(value, str):
         return value
     if value is None or isinstance(value, Form):
@@ -57,12 +57,12 @@ def in_scene(value: Any) -> str:
 
 
 def refusal(field: str, value: object, allowed: str) -> FieldError:
-    """The exception for a value that is not allowed."""
+    """Returns the exception for a value that is not allowed."""
     return FieldError(f"{field} = {value}; allowed: {allowed}", field, str(value), allowed)
 
 
 def quantity(value: Quantity, unit: str, field: str) -> float:
-    """The number of a quantity in SI units: a number, or a text such as `"2.7 MPa"` for a field of the unit `"Pa"`."""
+    """Converts a quantity to a number in the SI unit `unit`: `"2.7 MPa"` becomes 2.7e6 for `"Pa"`. Errors name the argument `field`."""
     if isinstance(value, str):
         return parsed(value, unit, field)
     try:
@@ -74,7 +74,7 @@ def quantity(value: Quantity, unit: str, field: str) -> float:
 
 
 def whole(value: Any, field: str, least: int, most: int) -> int:
-    """A whole number from `least` to `most`."""
+    """Returns `value` if it is a whole number from `least` to `most`, and otherwise raises a FieldError."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -85,7 +85,7 @@ def whole(value: Any, field: str, least: int, most: int) -> int:
 
 
 def numbers(values: npt.ArrayLike, field: str, dimensions: tuple[int, ...] = (1,)) -> npt.NDArray[np.float64]:
-    """The finite numbers of an array with one of these numbers of dimensions, copied only if they do not lie in a row as float64."""
+    """Returns an array of finite numbers as contiguous float64, copied only if needed. `dimensions` are the allowed numbers of axes."""
     import numpy as np
 
     words = " or ".join({1: "one-dimensional", 2: "two-dimensional"}[count] for count in dimensions)
@@ -106,12 +106,12 @@ def numbers(values: npt.ArrayLike, field: str, dimensions: tuple[int, ...] = (1,
 
 
 def in_fields(fields: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Arguments such as `adhesion__work=0.05` as paths of a scene with their values."""
+    """Converts arguments such as `adhesion__work=0.05` to paths of a scene with their values."""
     return [(name.replace("__", "."), in_scene(value)) for name, value in fields.items()]
 
 
 def in_words(options: Mapping[str, Any]) -> list[str]:
-    """Arguments such as `tip_radius="10 nm"` as options of the command line; one without a value is left out."""
+    """Converts arguments such as `tip_radius="10 nm"` to options of the command line. An argument without a value is left out."""
     words = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")

@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 class Profile:
     """Profile of a rigid body: heights in m at equal distances, positive towards the half-space.
 
-    A profile of heights is taken as it is. A profile that `asperity.profile` makes of a form and a roughness knows both in its
-    `scene`, and so has a regime and a Tabor number once it is loaded.
+    Given heights are used unchanged. The function `asperity.profile` makes a profile of a form and a roughness instead, and keeps both
+    in its `scene`. Only a loop of such a profile has a regime and a Tabor number.
     """
 
-    #: Scene with the form and the roughness of the profile; None for a profile of heights.
+    #: Scene with the form and the roughness of the profile; None if the heights were given.
     scene: _native.Scene | None
-    #: Distance between points, m.
+    #: Distance between points in m.
     spacing: float
-    #: Length of the profile, m.
+    #: Length of the profile in m.
     length: float
 
     def __init__(self, heights: npt.ArrayLike, spacing: Quantity) -> None:
@@ -47,17 +47,17 @@ class Profile:
 
     @property
     def x(self) -> npt.NDArray[np.float64]:
-        """Positions of the points along the profile, m, from 0."""
+        """Positions of the points along the profile in m, beginning with 0."""
         return self._columns[0]
 
     @property
     def heights(self) -> npt.NDArray[np.float64]:
-        """Heights, m."""
+        """Heights of the points in m."""
         return self._columns[1]
 
     @property
     def gaps(self) -> npt.NDArray[np.float64]:
-        """Gaps below the highest point, m."""
+        """Gaps in m: depths of the points below the highest point."""
         return self._columns[2]
 
     def __len__(self) -> int:

@@ -1,4 +1,4 @@
-"""Results of the program as objects of Python."""
+"""Results of the program as Python objects."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Values(dict[str, Any]):
-    """Keys and values of a JSON object, which are attributes as well."""
+    """A dictionary of the values of a JSON object, which are also attributes."""
 
     def __getattr__(self, name: str) -> Any:
         try:
@@ -30,7 +30,7 @@ class Values(dict[str, Any]):
 class Result:
     """A result of the program. Its attributes are the keys of the JSON object that the command of the same name prints.
 
-    All numbers are in SI units. A number that a result does not have is None.
+    All numbers are in SI units. A number that does not exist for the result is None.
     """
 
     #: Attributes that `repr` shows, with their units.
@@ -41,7 +41,7 @@ class Result:
         self._values: Values | None = None
 
     def to_dict(self) -> Values:
-        """The result as a dictionary."""
+        """Returns the result as a dictionary."""
         if self._values is None:
             self._values = json.loads(self._report.write("json"), object_hook=Values)
         return self._values
@@ -56,11 +56,11 @@ class Result:
         return sorted({*super().__dir__(), *self.to_dict()})
 
     def to_json(self) -> str:
-        """The result as JSON, with the numbers that the program prints with `--format json`."""
+        """Returns the result as JSON text, with the same numbers as `--format json` of the program."""
         return self._report.write("json").decode()
 
     def to_numpy(self) -> np.ndarray[Any, Any]:
-        """The table of the result as an array with named fields."""
+        """Returns the table of the result as an array with named fields."""
         import io
 
         import numpy as np
@@ -69,13 +69,13 @@ class Result:
         return table
 
     def to_pandas(self) -> pd.DataFrame:
-        """The table of the result as a table of pandas."""
+        """Returns the table of the result as a pandas DataFrame."""
         import pandas as pd
 
         return pd.DataFrame(self.to_numpy())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the result to a file, whose ending is the format: json, csv, npy, txt, and svg, png, pdf of a figure."""
+        """Writes the result to a file. The ending of its name selects the format: json, csv, npy, txt, or svg, png, pdf for a figure."""
         written = self._report.write(os.path.splitext(os.fspath(path))[1].lstrip(".").lower())
         with open(path, "wb") as file:
             file.write(written)
@@ -94,12 +94,12 @@ class Drawn(Result):
     """A result with a figure."""
 
     def _repr_svg_(self) -> str:
-        """The figure, for notebooks."""
+        """Returns the figure for notebooks."""
         return self._report.write("svg").decode()
 
 
 class Outcome(Drawn):
-    """A computed scene: figures, regime, curve, and the results on its random profiles."""
+    """A computed scene: forces, energies, regime and force curve, and the statistics over random profiles."""
 
     _shown = (("adhesion_force", "N"), ("regime", ""))
 
@@ -117,29 +117,29 @@ class Outcome(Drawn):
 
 
 class Ensemble(Result):
-    """A scene on several random profiles: statistics of each quantity, and `lines` with a row for each profile."""
+    """A scene on several random profiles: statistics of each quantity, and `lines` with one row for each profile."""
 
     _shown = (("profiles", ""), ("median", "N"), ("quartiles", "N"))
 
     @property
     def median(self) -> float | None:
-        """Median of the adhesion force over the profiles, N."""
+        """Median of the adhesion force over the profiles in N."""
         return None if self.adhesion_force is None else float(self.adhesion_force.median)
 
     @property
     def quartiles(self) -> list[float] | None:
-        """Lower and upper quartile of the adhesion force over the profiles, N."""
+        """Lower and upper quartile of the adhesion force over the profiles in N."""
         return None if self.adhesion_force is None else list(self.adhesion_force.quartiles)
 
     def values(self, quantity: str = "adhesion_force") -> np.ndarray[Any, Any]:
-        """Values of a quantity on all profiles, in the order of their seeds; NaN for a profile that has none."""
+        """Returns the values of a quantity on all profiles, in the order of their seeds; NaN for a profile without a value."""
         import numpy as np
 
         return np.array([line[quantity] for line in self.lines], dtype=float)
 
 
 class Found(Result):
-    """The number of a scene at which a quantity has a value: median and quartiles over the profiles."""
+    """Value of a field that meets a condition: median and quartiles over the profiles."""
 
     def __repr__(self) -> str:
         return f"<Found: {self.answer}>"
@@ -150,21 +150,21 @@ class Preloads(Drawn):
 
 
 class Reversals(Drawn):
-    """Unloading of a scene from each of many turning points."""
+    """Unloadings of a scene from many turning points."""
 
 
 class Reference(Drawn):
-    """A scene as a line and in three dimensions."""
+    """A scene as a profile on springs and in three dimensions."""
 
 
 class Study(Result):
-    """A scene for all combinations of values, with a record for each of them and each random profile."""
+    """A scene for all combinations of values, with one record for each combination and each random profile."""
 
     _shown = (("profiles", ""),)
 
 
 class Fit(Drawn):
-    """A scene fitted to a curve. Each free parameter is an attribute with `value`, `interval` and further numbers."""
+    """A scene fitted to a force curve. Each fitted parameter is an attribute with `value`, `interval` and other numbers."""
 
     def __getattr__(self, name: str) -> Any:
         parameters = {} if name.startswith("_") else self.to_dict()["parameters"]
@@ -175,34 +175,36 @@ class Fit(Drawn):
 
 
 class Fits(Drawn):
-    """A scene fitted to each of several curves: `curves` has a row for each of them."""
+    """A scene fitted to each of several force curves. `curves` has one row for each curve."""
 
     def to_pandas(self) -> pd.DataFrame:
-        """A row for each curve: values and intervals of the parameters, and the reason of a curve that is not described."""
+        """Returns one row for each curve: values and intervals of the parameters, or the reason why the scene does not describe it."""
         import pandas as pd
 
         return pd.DataFrame(self.curves)
 
 
 class EnsembleFit(Drawn):
-    """One work of adhesion for all curves of a rough body of unknown profile, by comparison with random profiles."""
+    """One work of adhesion for all force curves of a rough body, found by comparison with random profiles."""
 
 
 class Surface(Drawn):
-    """A measured surface: moments with their errors, spectra, and the scenes and profiles that are made of them."""
+    """A measured surface: moments with their errors, and spectra. It makes random profiles and scenes with its spectrum."""
 
     def __init__(self, surface: _native.Surface) -> None:
         super().__init__(surface.report)
         self._surface = surface
 
     def profile(self, length: Quantity, points: int = 16384, *, seed: int = 1) -> Profile:
-        """A random profile of the equivalent line, on `points` springs along a length, m."""
+        """Makes a random profile with the measured spectrum, with `points` points along a length in m."""
         count, number = whole(points, "points", 1, 2**28), whole(seed, "seed", 0, 2**64 - 1)
         return Profile._of(self._surface.profile(quantity(length, "m", "length"), count, number), None)
 
     def scene(self, *, modulus: Quantity, work: Quantity | None = None, **fields: Any) -> _native.Scene:
-        """A scene of the equivalent line over the length of the scan, with the effective modulus in Pa and the work of adhesion
-        in J/m². It names the files of the surface."""
+        """Returns a scene of random profiles with the measured spectrum, as long as the scan. It names the files of the surface.
+
+        `modulus` is the effective modulus in Pa, `work` the work of adhesion in J/m².
+        """
         if self.files[0].file == "array":
             saved = "numpy.save('map.npy', heights) and asperity.surface('map.npy', unit='m', spacing=...)"
             raise ValueError(f"a surface of an array has no file that a scene could name; allowed: profile(), or {saved}")

@@ -56,7 +56,7 @@ impl Report {
 /// The results of a scene on its random profiles, with these further quantities.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
     let Case { document, profiles, jobs, watch } = case;
-    let mut report = |so_far: &Ensemble| watch.report(so_far.computed(), *profiles);
+    let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| watch.report(computed, *profiles);
     let (scene, simulation) = (document.scene(), (Simulation::new(case.document.resolve("")), *jobs));
     Ok(Ensemble::of(scene, further, *profiles, simulation, &|| watch.stop(), &mut report)?)
 }

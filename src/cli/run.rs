@@ -169,8 +169,8 @@ impl RunArguments {
         }
         let further = if self.profiles.lines.is_some() { &Ensemble::FURTHER[..] } else { &[] };
         let mut progress = ProgressLine::default();
-        let mut report = |so_far: &Ensemble| {
-            progress.show(&format!("{} of {count} random profiles", so_far.computed()), None);
+        let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| {
+            progress.show(&format!("{computed} of {count} random profiles"), None);
         };
         let simulation = (Simulation::new(document.resolve("")), self.profiles.threads());
         let ensemble = Ensemble::of(scene, further, count, simulation, &|| false, &mut report);

@@ -3,7 +3,8 @@
 use asperity_data::{path_name, printable};
 use asperity_experiment::{ExperimentError, MeasuredCurve};
 use asperity_scene::quoted;
-use asperity_surface::{ReadOptions, content, read};
+use asperity_surface::files::content;
+use asperity_surface::{ReadOptions, read};
 use std::fmt::Display;
 use std::path::Path;
 

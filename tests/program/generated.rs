@@ -55,3 +55,9 @@ pub fn check(page: &str, name: &str, expected: &str) {
         assert_eq!(found, expected, "the part {name} of {page} is not the program's");
     }
 }
+
+/// Asserts that a page has this sentence, however its lines are broken.
+pub fn assert_says(page: &str, sentence: &str) {
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words(&read(page)).contains(&words(sentence)), "{page} lacks: {sentence}");
+}

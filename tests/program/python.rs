@@ -74,11 +74,7 @@ fn lines_of_python_read_tables() {
     let page = read("docs/results.md");
     let blocks: Vec<&str> =
         page.split("```python\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    let [frame, rows] = blocks[..] else { panic!("not two blocks of Python") };
-    if !can_import(folder, "import csv") {
-        return;
-    }
-    passes(folder, &format!("{rows}{expected}assert [float(row['force']) for row in rows] == expected"));
+    let [frame] = blocks[..] else { panic!("not one block of Python") };
     if !can_import(folder, "import numpy, pandas") {
         return;
     }

@@ -1,5 +1,5 @@
-//! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error; and
-//! reversals, the unloadings from many turning points of one loading.
+//! The exact solver: a body that moves along any loading history in linear time, without a step error. A reversal is the
+//! unloading from one turning point to separation; many reversals need only one loading.
 
 use super::adhesive::tree::TWO_THREADS;
 use super::contact::Contact;
@@ -13,7 +13,8 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
+/// A rigid body that moves from target to target on its elastic foundation. It begins separated, at d = 0 just before first
+/// touch.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
@@ -29,23 +30,25 @@ use std::time::{Duration, Instant};
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 pub trait MovingBody {
-    /// Moves the body to a target and records the motion.
+    /// Moves the body to a target and returns the record of the motion.
     ///
     /// # Errors
-    /// For a target out of reach; the body then stays in place.
+    /// Returns an error for a target out of reach. The body then stays in place.
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
 
     /// Returns the contact at all indentations of the present motion.
     fn leg(&self) -> Leg;
 
-    /// Work counts since the start.
+    /// Returns the counts of computing work since the start.
     fn work(&self) -> Work;
 
-    /// Seconds spent on force curves and their extremes since the start, without the search of the thresholds.
+    /// Returns the seconds spent on force curves and their extremes since the start. The time of finding the patches is not
+    /// included.
     fn curve_seconds(&self) -> f64;
 }
 
-/// A body on its foundation: the present leg and the position on it, the whole state of the model.
+/// The exact solver: a rigid body with its position and the contact at all indentations of its present motion. Both are the
+/// whole state of the model.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
@@ -68,7 +71,7 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// A motion of a body without a curve, as [`Body::move_to`] returns it.
+/// A motion of a body without a force curve, the result of [`Body::move_to`].
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
@@ -87,24 +90,24 @@ pub struct Body {
 pub struct Motion {
     /// Contact at all indentations of the motion.
     pub leg: Leg,
-    /// Smallest indentation of the motion, m.
+    /// Smallest indentation of the motion in m.
     pub low: f64,
-    /// Largest indentation of the motion, m.
+    /// Largest indentation of the motion in m.
     pub high: f64,
     goal: Goal,
 }
 
 impl Body {
-    /// Creates a separated body at d = 0 just before first touch; `samples` (at least 2) curve points are taken in each
-    /// motion.
+    /// Creates a separated body at d = 0, just before first touch. Each motion records `samples` points of its force curve, at
+    /// least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at an indentation (m) of a leg.
+    /// Creates a body at an indentation in m of the motion `leg`, which the body may continue.
     ///
     /// # Errors
-    /// [`ContactError::Stepwise`] for a leg of the stepwise solver, [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -115,15 +118,15 @@ impl Body {
         Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
     }
 
-    /// Present point of the force curve.
+    /// Returns the present point of the force curve.
     pub fn point(&self) -> CurvePoint {
         self.point_of(self.state)
     }
 
-    /// Moves the body to a target without recording a curve; returns `None` if the body is there already.
+    /// Moves the body to a target without recording a force curve. Returns `None` if the body is there already.
     ///
     /// # Errors
-    /// For a target out of reach; the body then stays in place.
+    /// Returns an error for a target out of reach. The body then stays in place.
     pub fn move_to(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let Some(motion) = self.plan(target)? else { return Ok(None) };
         let state = match (motion.leg.direction(), motion.goal) {
@@ -148,7 +151,7 @@ impl Body {
         state.point(self.leg.contact().foundation)
     }
 
-    /// The present leg if it has this direction, else the leg that begins at the present indentation.
+    /// Returns the present leg if it has this direction, else the leg that begins at the present indentation.
     fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
         let leg = if self.is_separated() && direction == Direction::Loading {
             Leg::approach(self.leg.contact())?
@@ -180,7 +183,7 @@ impl Body {
         Ok(Some(Motion { leg, low, high, goal }))
     }
 
-    /// Grid of a motion for the search of extremes, and the stride at which its points are samples of the curve.
+    /// Returns the grid of a motion for the search of extremes, and the stride at which its points are samples of the curve.
     fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
         let stride = SEARCH_INTERVALS.div_ceil(intervals);
@@ -256,14 +259,15 @@ impl Body {
         Ok(record)
     }
 
-    /// Loads this separated body once and unloads it from the turning point of each target, which is reached from
-    /// separation at d = 0. A force is reached where the loading first has at least that force; a tensile force at first
-    /// touch or while attraction draws the bodies together. Calls `see` with the index of each target and its reversal, the
-    /// shallowest target first. Each reversal holds the forces at the indentations `points` (m, ascending). The body stays
-    /// separated.
+    /// Loads this separated body once, and unloads it from the turning point of each target. Each turning point is reached from
+    /// separation at d = 0. A target force is reached where the loading first has at least this force. For a tensile force this
+    /// is at first touch, or while attraction draws the bodies together. Calls `see` with the index of each target and its
+    /// reversal, the shallowest turning point first. Each reversal has the forces at the ascending indentations `points` in m.
+    /// The body stays separated.
     ///
     /// # Errors
-    /// A target that is out of reach or without contact, [`ContactError::OutOfMemory`], or the first error of `see`.
+    /// Returns an error for a target that is out of reach or without contact, [`ContactError::OutOfMemory`], or the first error
+    /// of `see`.
     pub fn reversals(
         &mut self,
         targets: &[Move],
@@ -294,8 +298,9 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces, N, after a turn at first touch and after a turn where the force is back at zero, both
-    /// from separation; `None` where the contact does not pull or never reaches zero force. The body stays in place.
+    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. Both loadings begin at separation. The first turns at first
+    /// touch, the second where the force is back at zero. A force is `None` if the contact does not pull, or if the loading
+    /// never returns to zero force. The body stays in place.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -376,10 +381,10 @@ impl MovingBody for Body {
     }
 }
 
-/// Runs a whole loading history. `after` receives each completed stage and its leg.
+/// Moves `solver` through a whole loading history. Calls `after` with the record and the leg of each completed stage.
 ///
 /// # Errors
-/// The first stage that fails ends the run.
+/// Returns the error of the first stage that fails, or the first error of `after`.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
@@ -413,7 +418,7 @@ pub fn load_body(
     Ok(history)
 }
 
-/// The unloading from one turning point to separation, without an error of discrete steps.
+/// The unloading from one turning point to separation, without a step error.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -429,20 +434,20 @@ pub fn load_body(
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reversal {
-    /// Point of the force curve at which the unloading begins.
+    /// Turning point: the point of the force curve at which the unloading begins.
     pub turn: CurvePoint,
     /// Point of the smallest force on the unloading.
     pub smallest: CurvePoint,
-    /// Indentation at which the last patch detaches, m.
+    /// Indentation in m at which the last patch detaches.
     pub separation: f64,
-    /// Energy dissipated from separation to separation, J.
+    /// Energy in J dissipated on the way from separation to the turning point and back to separation.
     pub dissipated_energy: f64,
-    /// Forces, N, at the given indentations that are not above the turning point, in their order; 0 below the separation.
+    /// Forces in N at the given indentations up to the turning point, in their order. Below the separation the force is 0.
     pub forces: Vec<f64>,
 }
 
 impl Reversal {
-    /// Adhesion force F_a, N: minus the smallest force; `None` where the body does not pull.
+    /// Returns the adhesion force F_a in N, minus the smallest force; `None` if the smallest force is above zero.
     pub fn adhesion_force(&self) -> Option<f64> {
         // Not −F: that would make a force of zero negative.
         Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)

@@ -1,10 +1,10 @@
-//! Branches of a loading history, and the preload and pull-off on them. These depend on the path of the body alone, not on
-//! how it is divided into loading stages.
+//! Branches, preload and pull-off of a loading history. They depend only on the path of the body, not on the division of this
+//! path into loading stages.
 
 use super::history::{CurvePoint, Direction, LegRecord};
 use std::ops::Range;
 
-/// Relative difference within which forces, which are different sums, and indentations count as equal.
+/// Relative difference within which two forces or two indentations count as equal. Equal forces may be different sums.
 pub(super) const ROUNDING: f64 = 1e-9;
 /// Relative motion that counts as rounding, for a force or displacement that is reached again.
 const NO_MOTION: f64 = 4.0 * f64::EPSILON;
@@ -27,12 +27,12 @@ const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 pub struct Branch {
     /// Direction of the motion.
     pub direction: Direction,
-    /// Indices of its stages, including stages that leave the body in place.
+    /// Indices of the stages of the branch. Stages that leave the body in place are included.
     pub stages: Range<usize>,
 }
 
 impl Branch {
-    /// Divides the stages of a history into branches, in their order.
+    /// Divides the stages of a history into branches, and returns the branches in their order.
     pub fn all(legs: &[LegRecord]) -> Vec<Branch> {
         let mut branches: Vec<Branch> = Vec::new();
         for (stage, leg) in legs.iter().enumerate() {
@@ -48,7 +48,7 @@ impl Branch {
         branches
     }
 
-    /// The last unloading of a body in contact.
+    /// Returns the last branch that unloads a body in contact; `None` if there is none.
     pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
         let unloads = |branch: &Branch| {
             branch.direction == Direction::Unloading && branch.touching(legs).next().is_some()
@@ -56,13 +56,13 @@ impl Branch {
         Branch::all(legs).into_iter().rfind(unloads)
     }
 
-    /// Stages of the branch that move in its direction and have contact, with their indices. Stages of a separated body
-    /// have no extremes of the contact.
+    /// Returns the stages of the branch that move in its direction and have contact, with their indices. A stage of a separated
+    /// body has no extremes of the contact.
     fn touching<'l>(&self, legs: &'l [LegRecord]) -> impl DoubleEndedIterator<Item = (usize, &'l LegRecord)> {
         touching(legs, self.stages.clone(), self.direction)
     }
 
-    /// Point of the smallest force in contact, and the index of its stage.
+    /// Returns the point of the smallest force in contact, and the index of its stage; `None` without contact.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let smallest = self.touching(legs).map(|(stage, leg)| (stage, leg.smallest));
         // Of equal forces the one at the smallest indentation, as on one stage.
@@ -88,8 +88,8 @@ fn touching(
     numbered.filter(move |(_, leg)| leg.direction == direction && touches(leg))
 }
 
-/// Finds the preload: the point of the largest force while loading, since the last separation and before the last
-/// unloading, and the index of its stage.
+/// Finds the preload, the point of the largest force while loading, and the index of its stage. Only stages after the last
+/// separation and before the last unloading count.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile, preload_point, pull_off_point};
@@ -112,8 +112,8 @@ pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
 }
 
-/// Finds the pull-off: the point of the smallest force of the last unloading in contact, and the index of its stage. `None`
-/// if that force is above zero, or if the unloading ends in contact while the force still falls.
+/// Finds the pull-off, the point of the smallest force of the last unloading in contact, and the index of its stage. `None` if
+/// this force is above zero, or if the unloading ends in contact while the force still falls.
 pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     let unloading = Branch::last_unloading(legs)?;
     let (stage, least) = unloading.smallest(legs)?;

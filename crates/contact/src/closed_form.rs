@@ -1,11 +1,11 @@
-//! Closed forms that a profile must reproduce: adhesive contact of a power-law body b rⁿ, which includes JKR (n = 2) and the
-//! cone (n = 1), of the flat punch (Kendall), and of a flat face.
+//! Closed forms that a profile must reproduce: the adhesive contact of a power-law body b rⁿ, of a flat punch and of a flat
+//! face. The power law includes the sphere of JKR (n = 2) and the cone (n = 1).
 
 use super::modulus::Modulus;
 use std::f64::consts::PI;
 
-/// A body with the equivalent profile g(x) = c |x|ⁿ on a half-space with adhesion: force and indentation over the contact
-/// radius, and its pull-off.
+/// Closed forms of a body with the equivalent profile g(x) = c |x|ⁿ on an elastic half-space with adhesion. Force and
+/// indentation follow from the contact radius.
 ///
 /// ```
 /// use asperity_contact::{ClosedForm, Modulus};
@@ -19,24 +19,25 @@ use std::f64::consts::PI;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosedForm {
-    /// Coefficient c of the equivalent profile, m^(1−n).
+    /// Coefficient c of the equivalent profile in m^(1−n).
     pub line_coefficient: f64,
-    /// Exponent n > 1/2.
+    /// Exponent n of the equivalent profile, above 1/2.
     pub exponent: f64,
-    /// Effective modulus E*, Pa.
+    /// Effective modulus E* in Pa.
     pub effective_modulus: f64,
-    /// Work of adhesion γ, J/m².
+    /// Work of adhesion γ in J/m².
     pub work_of_adhesion: f64,
 }
 
 impl ClosedForm {
-    /// A sphere of this radius (m), or the summit of a paraboloid: g(x) = x²/R, the contact of Johnson, Kendall and Roberts.
+    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. They also hold
+    /// for a paraboloid with this radius at its summit.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm { line_coefficient: radius.recip(), exponent: 2.0, effective_modulus, work_of_adhesion }
     }
 
-    /// A cone whose flank rises at this angle (rad) from the surface: g(x) = (π/2) |x| tan θ.
+    /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface: g(x) = (π/2) |x| tan θ.
     ///
     /// ```
     /// use asperity_contact::{ClosedForm, Modulus};
@@ -59,14 +60,14 @@ impl ClosedForm {
         }
     }
 
-    /// Indentation d(a) = c aⁿ − √(2π a γ/E*), m, at contact radius a.
+    /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m.
     pub fn indentation(&self, radius: f64) -> f64 {
         // Rule of Hess, eq. (3).
         let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
         self.line_coefficient * radius.powf(self.exponent) - stretch
     }
 
-    /// Force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ), N, at contact radius a.
+    /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a in m.
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
         let pressed =
@@ -74,21 +75,22 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Contact radius, m, and force, N, at pull-off under force control, where dF/da = 0: the smallest force.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This force is the
+    /// smallest of all.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
         (radius, -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
     }
 
-    /// Contact radius, m, and force, N, at pull-off under displacement control, where dd/da = 0.
+    /// Returns the contact radius in m and the force in N at pull-off under displacement control, where dd/da = 0.
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);
         (radius, -(2.0 * n + 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
     }
 
-    /// Contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)), m, for m = `multiple`.
+    /// Returns the contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)) in m, for m = `multiple`.
     fn critical_radius(&self, multiple: f64) -> f64 {
         let n = self.exponent;
         let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.effective_modulus;
@@ -100,8 +102,8 @@ impl ClosedForm {
     }
 }
 
-/// Adhesion force √(8π a³ E* γ), N, of a flat punch of radius a (m) with effective modulus E* (Pa) and work of adhesion γ
-/// (J/m²). Kendall (1971).
+/// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall (1971). Here E* is the
+/// effective modulus in Pa and γ the work of adhesion in J/m².
 ///
 /// ```
 /// use asperity_contact::{flat_punch, ideal_adhesion_force};
@@ -114,8 +116,8 @@ pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) ->
     (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
 }
 
-/// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L (m) with work of adhesion γ (J/m²) and effective
-/// modulus E* (Pa). Popov and Filippov (2012), eq. (14); Kendall (1971).
+/// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). Here γ is the work of adhesion in
+/// J/m² and E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
 pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }

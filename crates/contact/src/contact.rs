@@ -1,4 +1,5 @@
-//! The contact of a rigid profile with an elastic half-space: what stays the same while the body moves.
+//! The contact of a rigid profile with an elastic half-space: profile, modulus and adhesion, which remain the same while the
+//! body moves.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::loading::Closing;
@@ -9,7 +10,8 @@ use super::modulus::Modulus;
 use super::profile::Profile;
 use std::sync::{Arc, OnceLock};
 
-/// A rigid profile on an elastic half-space, with or without adhesion. Loading it gives exact forces, without a step error.
+/// A rigid profile on an elastic half-space, with or without adhesion. Its forces under any loading are exact, without a step
+/// error.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -30,12 +32,12 @@ pub struct Contact {
     pub(super) foundation: Foundation,
     pub(super) edges: Edges,
     pub(super) hess: Option<HessRule>,
-    /// Stiffness k of the instrument that moves the body, N/m; infinite for a rigid one.
+    /// Stiffness k in N/m of the instrument that moves the body; infinite for a rigid instrument.
     pub(super) loading_stiffness: f64,
     closing: Arc<OnceLock<Closing>>,
 }
 
-/// Properties of a [`Contact`] that is being built.
+/// Builder of a [`Contact`], which sets its properties.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Profile};
@@ -59,26 +61,26 @@ pub struct ContactBuilder {
 }
 
 impl ContactBuilder {
-    /// Sets the work of adhesion γ, J/m²; by default 0, a contact without adhesion.
+    /// Sets the work of adhesion γ in J/m². The default is 0, a contact without adhesion.
     #[must_use]
     pub fn work_of_adhesion(self, work: f64) -> Self {
         self.works_of_adhesion([work; 2])
     }
 
-    /// Sets the works of adhesion on closing, γ₁, and on opening, γ, J/m²; γ₁ is at most γ.
+    /// Sets two works of adhesion in J/m²: γ₁ for closing the interface and γ for opening it. γ₁ is at most γ.
     #[must_use]
     pub fn works_of_adhesion(self, works: [f64; 2]) -> Self {
         ContactBuilder { works, ..self }
     }
 
-    /// Sets the stiffness k of the instrument that moves the body, N/m; by default infinite, a rigid instrument. Stages
-    /// [`Move::ToDisplacement`](crate::Move::ToDisplacement) then prescribe D = d + F/k.
+    /// Sets the stiffness k of the instrument that moves the body, in N/m. The default is infinite, a rigid instrument. A stage
+    /// [`Move::ToDisplacement`](crate::Move::ToDisplacement) prescribes the displacement D = d + F/k of the instrument.
     #[must_use]
     pub fn loading_stiffness(self, stiffness: f64) -> Self {
         ContactBuilder { loading_stiffness: stiffness, ..self }
     }
 
-    /// Sets the edge model of the contact patches; by default [`Edges::SubCell`], edges between springs.
+    /// Sets the edge model of the contact patches. The default is [`Edges::SubCell`], edges between springs.
     #[must_use]
     pub fn edges(self, edges: Edges) -> Self {
         ContactBuilder { edges, ..self }
@@ -87,7 +89,7 @@ impl ContactBuilder {
     /// Builds the contact.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a value out of range.
+    /// Returns [`ContactError::Value`] for a value out of its range.
     pub fn build(self) -> Result<Contact, ContactError> {
         let ContactBuilder { profile, modulus, works: [closing, work], loading_stiffness, edges } = self;
         check("work of adhesion", work, (0.0..=LARGEST).contains(&work), "from 0 to 1e50 J/m²")?;
@@ -104,7 +106,7 @@ impl ContactBuilder {
 }
 
 impl Contact {
-    /// Begins a contact of a profile with a half-space of this modulus; by default without adhesion, with edges between
+    /// Begins to build the contact of a profile with a half-space of this modulus. The defaults are no adhesion, edges between
     /// springs and a rigid instrument.
     #[must_use]
     pub fn builder(profile: &Profile, modulus: Modulus) -> ContactBuilder {
@@ -118,8 +120,8 @@ impl Contact {
         Contact { edges: Edges::Grid, loading_stiffness: f64::INFINITY, closing, ..self.clone() }
     }
 
-    /// Begins a contact of the same profile with another modulus, by default without adhesion and with a rigid instrument;
-    /// the edge model remains.
+    /// Begins to build a contact with another modulus and the same profile and edge model. The defaults are no adhesion and a
+    /// rigid instrument.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -139,7 +141,7 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Force at which the last spring touches the rigid body, N.
+    /// Returns the force of full contact in N. Without adhesion it is the force at which the last spring touches the rigid body.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};
@@ -155,38 +157,38 @@ impl Contact {
         self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
     }
 
-    /// Displacement of the instrument at an indentation (m) and a force (N), D = d + F/k, m.
+    /// Returns the displacement D = d + F/k of the instrument in m, for an indentation in m and a force in N.
     pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
         indentation + force / self.loading_stiffness
     }
 
-    /// The profile, which other contacts may share.
+    /// Returns the profile, which other contacts may share.
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
 
-    /// Gaps along the profile, m.
+    /// Returns the gaps along the profile in m.
     pub fn gaps(&self) -> &[f64] {
         self.profile.gaps()
     }
 
-    /// Edge model of the contact patches.
+    /// Returns the edge model of the contact patches.
     pub fn edges(&self) -> Edges {
         self.edges
     }
 
-    /// Effective modulus E*, Pa.
+    /// Returns the effective modulus E* in Pa.
     pub fn effective_modulus(&self) -> f64 {
         self.foundation.effective_modulus
     }
 
-    /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
+    /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1) of Popov and Filippov (2012).
     pub fn spring_stiffness(&self) -> f64 {
         self.foundation.spring_stiffness()
     }
 
-    /// Half the distance between the outermost edges of the contact, m; zero in separation. `patches` and `point` describe
-    /// one state of this contact.
+    /// Returns half the distance between the outermost edges of the contact in m; zero in separation. `patches` and `point`
+    /// belong to the same state of this contact.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         self.foundation.contact_radius(patches, point)
     }
@@ -196,7 +198,7 @@ impl Contact {
         self.hess.is_some()
     }
 
-    /// Rule of Hess; without adhesion the rule with no stretch.
+    /// Returns the rule of Hess; without adhesion its largest stretch is zero.
     pub(super) fn rule(&self) -> HessRule {
         self.hess.unwrap_or(HessRule::NO_ADHESION)
     }

@@ -12,17 +12,18 @@ use std::ops::Range;
 pub struct ContactState {
     pub indentation: f64,
     pub totals: ContactTotals,
-    /// Contact length, in units of the spring spacing.
+    /// Contact length in units of the spring spacing.
     pub length: f64,
-    /// Compression ∫ (d − c) dx in units of the spring spacing, m: the force over the stiffness of one spring.
+    /// Compression ∫ (d − c) dx in m, with x in units of the spring spacing. It is the force over the stiffness of one spring.
     pub compression: f64,
-    /// ∫ (d − c)² dx in units of the spring spacing, m²: twice the stored energy over the stiffness of one spring.
+    /// ∫ (d − c)² dx in m², with x in units of the spring spacing. It is twice the stored energy over the stiffness of one
+    /// spring.
     pub squares: f64,
 }
 
 impl ContactState {
-    /// The contact at an indentation (m), from the totals of its whole springs, or with `slides` of its whole cells and
-    /// edge cells.
+    /// Computes the contact at an indentation in m from the totals of its whole springs, or with `slides` from its whole cells
+    /// and edge cells.
     #[inline]
     pub fn new(
         slides: bool,
@@ -42,12 +43,12 @@ impl ContactState {
         }
     }
 
-    /// Nothing in contact at this indentation, m.
+    /// Returns the state of a separated body at this indentation in m.
     pub fn free(indentation: f64) -> Self {
         ContactState { indentation, ..ContactState::default() }
     }
 
-    /// The contact together with `springs` springs parallel to it, compressed by the indentation: the force of both is F +
+    /// Adds `springs` springs that lie parallel to the contact and are compressed by the indentation. The force of both is F +
     /// k d. An instrument of stiffness k at the displacement D holds the body where this force is k D.
     #[inline]
     pub fn beside(&self, springs: f64) -> Self {
@@ -70,16 +71,16 @@ impl ContactState {
     }
 }
 
-/// Converts a number of springs or patches in contact to an unsigned one.
+/// Converts a number of springs or patches in contact to an unsigned number.
 ///
 /// # Panics
-/// For a negative number, which only a defect of the sums can cause: it must not pass for a result.
+/// Panics for a negative number, which only a defect of the sums can cause. It must not pass for a result.
 pub fn counted(number: i64) -> u64 {
     assert!(number >= 0, "internal error, please report it: {number} springs or patches in contact");
     number.unsigned_abs()
 }
 
-/// Sums along a grid over parts of a contact, each of which is in contact at some of the points.
+/// Sums along a grid of indentations over parts of a contact, each of which is in contact at some of the points.
 pub struct Tally {
     pub grid: Grid,
     /// Change of the totals from each point to the next.
@@ -96,7 +97,7 @@ impl Tally {
         Ok(Tally { grid, changes, edges })
     }
 
-    /// Index of the first point with at least this indentation, m; the number of points if there is none.
+    /// Returns the index of the first point of at least this indentation in m, or the number of points if there is none.
     #[inline]
     pub fn place(&self, indentation: f64) -> usize {
         if indentation > self.grid.high() {
@@ -106,7 +107,8 @@ impl Tally {
         }
     }
 
-    /// Range of indentations for which [`Tally::place`] returns this index, m: above the first and up to the second.
+    /// Returns the range of indentations in m for which [`Tally::place`] returns this index: above the first number and up to
+    /// the second.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
         let below = place.checked_sub(1).map_or(f64::NEG_INFINITY, |before| points[before]);
@@ -147,7 +149,7 @@ impl Tally {
     }
 }
 
-/// Intervals between neighbouring points of a sampled leg for whose ends `may_lie` returns true.
+/// Returns the intervals between neighbouring points of a sampled motion for whose ends `may_lie` returns true.
 pub fn intervals(
     leg: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
@@ -163,8 +165,8 @@ pub enum Extreme {
 }
 
 impl Extreme {
-    /// Returns true if `state` has a smaller (larger) force than `best`. Of equal forces the smallest is taken at the least
-    /// indentation and the largest at the greatest, in whichever order they are found.
+    /// Returns true if `state` has a smaller (larger) force than `best`. Of equal smallest forces the one at the least
+    /// indentation counts, of equal largest forces the one at the greatest, in whichever order they are found.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
         let (one, other) = match self {
             Extreme::Smallest => (state, best),
@@ -173,7 +175,7 @@ impl Extreme {
         (one.compression, one.indentation) < (other.compression, other.indentation)
     }
 
-    /// Returns the contact of the extreme force at the points of a sampled leg, of which there is at least one.
+    /// Returns the contact of the extreme force at the points of a sampled motion, of which there is at least one.
     pub fn of(self, leg: &[ContactState]) -> ContactState {
         leg.iter().fold(leg[0], |best, next| if self.is_beyond(next, &best) { *next } else { best })
     }
@@ -201,7 +203,7 @@ fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
 
-/// A grid of ascending indentations: evenly spaced between exact ends, but for a shorter last interval, or at given points.
+/// Ascending indentations: evenly spaced between two exact ends, except for a shorter last interval, or at given points.
 #[derive(Clone, Debug)]
 pub struct Grid {
     pub points: Vec<f64>,
@@ -209,7 +211,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// A grid of `intervals` equal intervals from `low` to `high`, m; a single point where both coincide.
+    /// Creates a grid of `intervals` equal intervals from `low` to `high` in m; a single point where both coincide.
     pub fn new(low: f64, high: f64, intervals: usize) -> Self {
         let width = (high - low) / intervals as f64;
         // A range too narrow for two different points is also one point at each end.
@@ -225,19 +227,19 @@ impl Grid {
         Grid { points, intervals_per_metre: if even { width.recip() } else { 0.0 } }
     }
 
-    /// A grid at these ascending indentations, m, at least one.
+    /// Creates a grid at these ascending indentations in m, at least one.
     pub fn at(points: Vec<f64>) -> Self {
         Grid { points, intervals_per_metre: 0.0 }
     }
 
-    /// The grid of every `stride`-th point and the last point.
+    /// Returns the grid of every `stride`-th point and the last point.
     pub fn coarser(&self, stride: usize) -> Self {
         let last = self.points.len() - 1;
         let points = (0..last).step_by(stride).chain([last]).map(|index| self.points[index]).collect();
         Grid { points, intervals_per_metre: self.intervals_per_metre / stride as f64 }
     }
 
-    /// Returns false for a grid at given points or of two ends without points between.
+    /// Returns false for a grid at given points, and for a grid of two ends without points between them.
     pub fn is_even(&self) -> bool {
         self.intervals_per_metre > 0.0
     }
@@ -246,7 +248,7 @@ impl Grid {
         self.points[self.points.len() - 1]
     }
 
-    /// Index of the first point that is at least `indentation`, which must not exceed the last point.
+    /// Returns the index of the first point that is at least `indentation`. The indentation must not exceed the last point.
     #[inline]
     pub fn first_at_least(&self, indentation: f64) -> usize {
         if !self.is_even() {
@@ -271,8 +273,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A grid has the requested number of equal intervals, both ends exact; the search finds the same point as a
-        /// scan.
+        /// A grid has the requested number of equal intervals, both ends exact; the search finds the same point as a scan.
         #[test]
         fn points_are_even_and_found(
             low in -1.0..1.0_f64,

@@ -11,7 +11,7 @@ use super::target::Move;
 /// Number of samples of the force curve of a stage, if none is given.
 const SAMPLES: usize = 512;
 
-/// Options of [`Contact::load_with`].
+/// Options of [`Contact::load_with`]: samples and further indentations of the force curve, and a function before each stage.
 ///
 /// ```
 /// use asperity_contact::{Contact, ContactError, LoadOptions, Modulus, Move, Profile};
@@ -35,28 +35,29 @@ pub struct LoadOptions<'a> {
 }
 
 impl<'a> LoadOptions<'a> {
-    /// Sets the number of samples of the force curve on each loading stage, from 2 to a million; by default 512. Extremes of
-    /// the force are exact for any number.
+    /// Sets the number of samples of the force curve on each loading stage, from 2 to a million. The default is 512. Extremes
+    /// of the force are exact for any number of samples.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         LoadOptions { samples: Some(samples), ..self }
     }
 
-    /// Sets ascending indentations, m. Each stage has a point at every one of them that it passes: [`Cycle::at`].
+    /// Sets indentations in m, in ascending order. [`Cycle::at`] returns the point of the force curve at each of them that a
+    /// stage passes.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions { indentations, ..self }
     }
 
-    /// Sets a function that is called before each stage with the index of the stage, from 0. If it returns false, the
-    /// loading ends with [`ContactError::Interrupted`].
+    /// Sets a function that is called before each stage with the index of the stage, from 0. If it returns false, the loading
+    /// ends with [`ContactError::Interrupted`].
     #[must_use]
     pub fn before_stage(self, proceed: &'a mut dyn FnMut(usize) -> bool) -> Self {
         LoadOptions { before_stage: Some(proceed), ..self }
     }
 }
 
-/// Result of a loading history that begins separated.
+/// Result of a loading history that begins separated: force curve, figures and final patches.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -83,7 +84,7 @@ pub struct Cycle {
     leg: Leg,
 }
 
-/// The force curve of a loading history in columns of one length: one row for each point, in the order of the motion.
+/// Force curve of a loading history in columns of equal length. Each row is one point, in the order of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -100,19 +101,19 @@ pub struct Cycle {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Curve {
-    /// Indices of the loading stages, from 0.
+    /// Index of the loading stage of each point, from 0.
     pub stage: Vec<usize>,
-    /// Indentations d, m.
+    /// Indentation d of each point in m.
     pub indentation: Vec<f64>,
-    /// Forces F, N; compression positive.
+    /// Force F at each point in N; compression is positive.
     pub force: Vec<f64>,
-    /// Displacements of the instrument D = d + F/k, m; for a rigid instrument they equal the indentations.
+    /// Displacement D = d + F/k of the instrument at each point in m. For a rigid instrument it equals the indentation.
     pub displacement: Vec<f64>,
-    /// Lengths in contact, m.
+    /// Length in contact at each point in m.
     pub contact_length: Vec<f64>,
-    /// Numbers of contact patches.
+    /// Number of contact patches at each point.
     pub patches: Vec<u64>,
-    /// Stored elastic energies, J.
+    /// Elastic energy stored in the springs at each point in J.
     pub stored_energy: Vec<f64>,
 }
 
@@ -120,8 +121,8 @@ impl Contact {
     /// Loads the separated body through these loading stages, one after the other.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target that
-    /// the contact cannot reach, [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target
+    /// that the contact cannot reach, and [`ContactError::OutOfMemory`].
     pub fn load(&self, stages: &[Move]) -> Result<Cycle, ContactError> {
         self.load_with(stages, LoadOptions::default())
     }
@@ -129,7 +130,8 @@ impl Contact {
     /// Loads the separated body as [`Contact::load`] does, with options.
     ///
     /// # Errors
-    /// As for [`Contact::load`], [`ContactError::Value`] for an option out of its range, and [`ContactError::Interrupted`].
+    /// Returns the errors of [`Contact::load`], [`ContactError::Value`] for an option out of its range, and
+    /// [`ContactError::Interrupted`].
     ///
     /// ```
     /// use asperity_contact::{Contact, LoadOptions, Modulus, Move, Profile};
@@ -165,12 +167,12 @@ impl Contact {
         Ok(Cycle { figures: Figures::of(&history), history, at, leg: body.leg() })
     }
 
-    /// Finds the pull-off after each of several turning points from one loading, at the cost of a few loads. The body loads
-    /// from separation to each of these `ends` and unloads to separation: each result equals [`Contact::load`] of its end
-    /// and [`Move::ToSeparation`]. A tensile force is reached where the loading first has it, at touch or while adhesion
-    /// draws the bodies together.
+    /// Finds the pull-off after each of several turning points. All turning points are on one loading, so the cost is only that
+    /// of a few loadings. The body loads from separation to each of these `ends` and unloads to separation. Each result equals
+    /// the result of [`Contact::load`] with this end and [`Move::ToSeparation`]. A tensile force is reached at first touch, or
+    /// while adhesion draws the bodies together.
     ///
-    /// [`Reversal::forces`] are the forces at those of the ascending `indentations`, m, that are not above the turning point.
+    /// `indentations` are in m, in ascending order. [`Reversal::forces`] has the force at each of them up to the turning point.
     ///
     /// ```
     /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -188,8 +190,8 @@ impl Contact {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50 or for indentations that do not ascend,
-    /// [`ContactError::Stage`] for a target without contact or out of reach, [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and for indentations that do not
+    /// ascend. Returns [`ContactError::Stage`] for a target without contact or out of reach, and [`ContactError::OutOfMemory`].
     pub fn reversals(&self, ends: &[Move], indentations: &[f64]) -> Result<Vec<Reversal>, ContactError> {
         check_targets(ends)?;
         check_ascending(indentations)?;
@@ -204,7 +206,7 @@ impl Contact {
     }
 }
 
-/// Points of a stage at the indentations that it passes, m, in their ascending order.
+/// Returns the points of a stage at the indentations in m that it passes, in their ascending order.
 fn points_between(
     record: &LegRecord,
     leg: &Leg,
@@ -239,44 +241,44 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
 }
 
 impl Cycle {
-    /// Pull-off force, N: minus the smallest force of the last unloading, which may take several stages. `None` if that force
-    /// is above zero, or if the unloading ends in contact while the force still falls.
+    /// Returns the pull-off force in N, minus the smallest force of the last unloading, which may take several stages. `None`
+    /// if the smallest force is above zero, or if the unloading ends in contact while the force still falls.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
     }
 
-    /// Indentation at the pull-off force, m; `None` without a pull-off force.
+    /// Returns the indentation at the pull-off force in m; `None` without a pull-off force.
     #[must_use]
     pub fn pull_off_indentation(&self) -> Option<f64> {
         self.figures.pull_off_indentation
     }
 
-    /// Preload, N: largest force while loading, since the last separation and before the last unloading. `None` if no stage
-    /// loads the body in contact.
+    /// Returns the preload in N, the largest force while loading. Only stages after the last separation and before the last
+    /// unloading count. `None` if no such stage loads the body in contact.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
     }
 
-    /// Dissipated energy, J. `None` if the history ends in contact.
+    /// Returns the dissipated energy in J; `None` if the history ends in contact.
     #[must_use]
     pub fn dissipated_energy(&self) -> Option<f64> {
         self.figures.dissipated_energy
     }
 
-    /// Preload, pull-off, their indentations, and the dissipated energy.
+    /// Returns the preload, the pull-off force, their indentations and ratio, and the dissipated energy.
     #[must_use]
     pub fn figures(&self) -> Figures {
         self.figures
     }
 
-    /// Points of the force curve of all loading stages in their order.
+    /// Returns the points of the force curve of all loading stages in their order.
     pub fn points(&self) -> impl Iterator<Item = &CurvePoint> {
         self.history.legs.iter().flat_map(|leg| &leg.curve)
     }
 
-    /// Force curve of all loading stages in columns.
+    /// Returns the force curve of all loading stages in columns.
     #[must_use]
     pub fn curve(&self) -> Curve {
         let mut curve = Curve::default();
@@ -295,20 +297,20 @@ impl Cycle {
         curve
     }
 
-    /// Points of a stage at the indentations of [`LoadOptions::indentations`] that it passes, in ascending order; empty for
-    /// a stage that does not exist.
+    /// Returns the points of a stage at all [`LoadOptions::indentations`] that the stage passes, in ascending order. The slice
+    /// is empty for a stage that does not exist.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Loading stages with their curves, exact extremes and dissipated energies.
+    /// Returns the records of the loading stages, with their curves, exact extremes and released energies.
     #[must_use]
     pub fn stages(&self) -> &[LegRecord] {
         &self.history.legs
     }
 
-    /// Contact patches at the end, from left to right, with their edges, forces and stretches.
+    /// Returns the contact patches at the end of the history from left to right, with their edges, forces and stretches.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
         let end = self.history.legs.last().and_then(LegRecord::end_in_contact);

@@ -4,11 +4,11 @@ use super::target::Move;
 use asperity_data::{OutOfMemory, format_quantity, rounded_up};
 use thiserror::Error;
 
-/// Limit of the steps of one motion of the stepwise solver.
+/// Largest number of steps of one motion of the stepwise solver.
 pub const STEP_LIMIT: u64 = 10_000_000;
 
-/// Largest value, in SI units, of any quantity of a contact; its inverse is the smallest length, modulus or stiffness.
-/// Products of such values are finite.
+/// Largest value, in SI units, of any quantity of a contact. Its inverse is the smallest length, modulus or stiffness. Products
+/// of such values are finite.
 pub const LARGEST: f64 = 1e50;
 
 /// Reason why a value is refused, or why a body does not move to a target.
@@ -32,9 +32,9 @@ pub enum ContactError {
     Value {
         /// Name of the value.
         name: String,
-        /// The value as it was given, in SI units.
+        /// The given value in SI units.
         value: f64,
-        /// Allowed range, with its unit.
+        /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
     /// A stage of a loading is refused.
@@ -44,53 +44,53 @@ pub enum ContactError {
         index: usize,
         /// Target of the stage.
         target: Move,
-        /// Reason of the refusal.
+        /// Reason of the refusal, an error of another variant.
         reason: Box<ContactError>,
     },
     /// An array does not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// The value of the target, which is infinite or not a number.
+    /// A target is infinite or not a number; the field has its value.
     #[error("{0} is not finite; allowed: finite numbers")]
     NotFinite(f64),
-    /// A tensile force is the target of a separated body.
+    /// A separated body has a tensile force as its target.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
-    /// A turning point has no contact.
+    /// A turning point lies where the body is not in contact.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
-    /// The contact detaches before it falls to the force of the target.
+    /// The contact detaches before the force falls to the target.
     #[error("the contact detaches before that force; smallest force within reach: {smallest:e} N")]
     DetachesBefore {
-        /// Smallest force the contact bears, N.
+        /// Smallest force in N that the contact bears.
         smallest: f64,
     },
-    /// No finite indentation reaches the force.
+    /// The force of the target is not reached at any finite indentation.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,
-    /// The stepwise solver would need too many steps.
+    /// The stepwise solver would need too many steps; the field has the length of a step in m.
     #[error(
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
     TooManySteps(f64),
-    /// A motion or a search needs an exact leg, but the leg is of the stepwise solver.
+    /// A motion or a search needs a [`Leg`](crate::Leg) of the exact solver, but the leg belongs to the stepwise solver.
     #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
     Stepwise,
-    /// A state that the program excludes, with its description: a defect.
+    /// The program has a defect; the field describes the state that should not occur.
     #[error("internal error, please report it: {0}")]
     Internal(&'static str),
-    /// The computation was stopped.
+    /// The caller stopped the computation.
     #[error("interrupted")]
     Interrupted,
 }
 
 impl ContactError {
-    /// Index of the refused stage of a loading, from 0; `None` for an error that is not of a stage.
+    /// Returns the index of the refused stage of a loading, from 0; `None` for an error that does not concern one stage.
     pub fn stage(&self) -> Option<usize> {
         if let ContactError::Stage { index, .. } = self { Some(*index) } else { None }
     }
 
-    /// Smallest force that the contact bears, N, if a stage was refused because its force is smaller.
+    /// Returns the smallest force in N that the contact bears, if a stage was refused because its force is smaller.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() { Some(*smallest) } else { None }
     }
@@ -101,7 +101,7 @@ impl ContactError {
         matches!(self.reason(), NothingToPull | DetachesBefore { .. } | OutOfReach)
     }
 
-    /// Reason why a body does not move to a target, in words, with forces rounded into the allowed range.
+    /// Describes in words why a body does not move to a target. Forces are rounded into the allowed range.
     pub fn in_words(&self, target: Move) -> String {
         match (self, target) {
             (&ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {
@@ -112,13 +112,12 @@ impl ContactError {
         }
     }
 
-    /// The reason without its stage.
+    /// Returns the reason without its stage.
     fn reason(&self) -> &ContactError {
         if let ContactError::Stage { reason, .. } = self { reason } else { self }
     }
 
-    /// Adds the stage to the reason; lack of memory, interruptions and defects concern the whole loading and stay as they
-    /// are.
+    /// Adds the stage to the reason. Lack of memory, interruptions and defects concern the whole loading and remain unchanged.
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }
@@ -140,7 +139,7 @@ pub fn check(name: &str, value: f64, is_allowed: bool, allowed: &'static str) ->
     if is_allowed { Ok(()) } else { Err(ContactError::Value { name: name.to_owned(), value, allowed }) }
 }
 
-/// A value as a user would write it: numbers of ordinary size without an exponent.
+/// Writes a value as a user would write it: numbers of ordinary size without an exponent.
 fn shown(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-3..1e10).contains(&value.abs());
     if is_plain { value.to_string() } else { format!("{value:e}") }

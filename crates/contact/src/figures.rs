@@ -1,11 +1,11 @@
-//! The headline figures of a loading history, and the marked points of its force curve.
+//! The figures of a loading history, such as its preload and pull-off force, and the marked points of its force curve.
 
 use super::body::Reversal;
 use super::branches::{Branch, ROUNDING, preload_point, pull_off_point};
 use super::history::{CurvePoint, Direction, History, LegRecord};
 use super::target::Move;
 
-/// Figures of a loading history; `None` for a figure that the history does not have.
+/// Figures of a loading history: preload, pull-off and dissipated energy. A figure is `None` if the history does not have it.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -21,20 +21,20 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n: largest force while loading, since the last separation and before the last unloading, N; `None` if no
-    /// stage loads the body in contact.
+    /// Preload F_n in N, the largest force while loading after the last separation and before the last unloading. `None` if no
+    /// such stage loads the body in contact.
     pub preload: Option<f64>,
-    /// Indentation at the preload, m; `None` without a preload.
+    /// Indentation at the preload in m; `None` without a preload.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a, N: minus the smallest force of the last unloading, in any number of stages; `None` if that force
-    /// is above zero, or if the unloading ends in contact while the force still falls.
+    /// Adhesion force F_a in N, minus the smallest force of the last unloading, which may take several stages. `None` if the
+    /// smallest force is above zero, or if the unloading ends in contact while the force still falls.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n; `None` without an adhesion force or a compressive preload.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation at the smallest force of the last unloading, m; `None` without an adhesion force. Its relative error is
-    /// larger than the error of the force, which hardly changes near its minimum.
+    /// Indentation in m at the smallest force of the last unloading; `None` without an adhesion force. The force hardly changes
+    /// near its minimum, so the relative error of this indentation exceeds the error of the force.
     pub pull_off_indentation: Option<f64>,
-    /// Dissipated energy, J; `None` if the history ends in contact.
+    /// Dissipated energy in J; `None` if the history ends in contact.
     pub dissipated_energy: Option<f64>,
 }
 
@@ -51,8 +51,8 @@ impl Figures {
         )
     }
 
-    /// Computes the figures of a history that loads from separation to `leg`, the turning point of `reversal`, and unloads
-    /// to separation.
+    /// Computes the figures of a history that loads from separation to the target `leg` and unloads to separation. The target
+    /// is the turning point of `reversal`.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         Figures::at(
@@ -62,8 +62,8 @@ impl Figures {
         )
     }
 
-    /// Figures from the point of the largest force with the target of its stage, the pull-off point, and the released
-    /// energy of all stages, J.
+    /// Computes the figures from the point of the largest force with the target of its stage, the pull-off point, and the
+    /// released energy of all stages in J.
     fn at(pressed: Option<(Move, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
         let preload = pressed.map(|(target, point)| without_rounding(target, point).force);
         // Not −F, which would make a force of zero negative.
@@ -83,7 +83,7 @@ impl Figures {
     }
 }
 
-/// A marked point of a force curve.
+/// Kind of a marked point of a force curve.
 ///
 /// ```
 /// use asperity_contact::{Contact, Mark, Modulus, Move, Profile, marks};
@@ -98,18 +98,18 @@ impl Figures {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// First contact at a tensile force, where the contact forms in a jump.
+    /// First point in contact, if the contact forms there in a jump, at a tensile force.
     JumpIn,
     /// Point of the preload; see [`preload_point`].
     Preload,
-    /// Point of the pull-off at a tensile force; see [`pull_off_point`].
+    /// Point of the pull-off, if the force there is tensile; see [`pull_off_point`].
     PullOff,
-    /// Last contact of the unloading with the pull-off, if the contact is lost in a jump after the pull-off.
+    /// Last point in contact after the pull-off, if the contact is lost there in a jump.
     JumpOut,
 }
 
 impl Mark {
-    /// Technical name.
+    /// Returns the technical name of the mark, such as `pull-off`.
     pub fn name(self) -> &'static str {
         match self {
             Mark::JumpIn => "jump-in",
@@ -120,7 +120,7 @@ impl Mark {
     }
 }
 
-/// The end of a stage; the force that remains at a target force of zero is rounding.
+/// Returns the end of a stage. The force that remains at a target force of zero is rounding and becomes zero.
 fn without_rounding(target: Move, end: CurvePoint) -> CurvePoint {
     match target {
         Move::ToForce(0.0) | Move::ToZeroForce => CurvePoint { force: 0.0, ..end },
@@ -128,7 +128,7 @@ fn without_rounding(target: Move, end: CurvePoint) -> CurvePoint {
     }
 }
 
-/// The marked points that a loading history has, in their order.
+/// Finds the marked points of a loading history, in the order of the [`Mark`] variants.
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     let into_contact = |leg: &LegRecord| {
         let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;

@@ -1,50 +1,50 @@
-//! The elastic foundation by the method of dimensionality reduction, and the rule of Hess.
+//! The elastic foundation of the method of dimensionality reduction, and the rule of Hess.
 
 use super::history::{CurvePoint, Direction, Patch};
 
-/// A foundation of independent springs, equivalent to an elastic half-space.
+/// A foundation of independent springs that is equivalent to an elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foundation {
-    /// Distance Δx between springs, m.
+    /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Effective modulus E*, Pa, eq. (2).
+    /// Effective modulus E* in Pa, eq. (2).
     pub effective_modulus: f64,
-    /// Length L of the foundation, m; infinite if it extends beyond any contact.
+    /// Length L of the foundation in m; infinite if it extends beyond any contact.
     pub length: f64,
 }
 
 impl Foundation {
-    /// Length in contact of this number of cells, m. It is never above the length of the foundation, and equals it where
-    /// the cells cover the foundation, although N times Δx may differ by a rounding.
+    /// Returns the length in contact of this number of cells in m. It is never above the length of the foundation. It equals
+    /// that length where the cells cover the foundation, although N Δx may differ by a rounding.
     #[inline]
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
         if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
     }
 
-    /// Half the distance between the outermost edges of the contact, m; zero in separation. `patches` and `point` describe
-    /// one state. Separated regions between patches are whole cells; the outermost edges may lie inside a cell.
+    /// Returns half the distance between the outermost edges of the contact in m; zero in separation. `patches` and `point`
+    /// describe one state. Separated regions between patches are whole cells; the outermost edges may lie inside a cell.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let outermost = patches.first().zip(patches.last()).map(|(one, other)| other.last - one.first + 1);
         let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
         0.5 * (point.contact_length + between as f64 * self.spacing)
     }
 
-    /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
+    /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1).
     pub fn spring_stiffness(&self) -> f64 {
         self.effective_modulus * self.spacing
     }
 }
 
-/// The rule of Hess, eqs. (3) and (10): largest stretch of the springs of a contact fragment before they detach.
+/// The rule of Hess, eqs. (3) and (10): the largest stretch of the springs of a patch before they detach.
 ///
-/// If the work of adhesion on opening exceeds that on closing, springs attach to a contact patch by the closing rule and detach
-/// from it by the opening rule; between both limits the edges of the patch do not move.
+/// If the work of adhesion on opening exceeds the work on closing, springs attach by the closing rule and detach by the opening
+/// rule. Between both limits the edges of a patch do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
-    /// Largest stretch of a single spring before it detaches, m.
+    /// Largest stretch in m of a single spring before it detaches.
     opening: f64,
-    /// Largest stretch with which a single spring attaches, m; at most `opening`.
+    /// Largest stretch in m with which a single spring attaches, at most `opening`.
     closing: f64,
 }
 
@@ -52,9 +52,9 @@ impl HessRule {
     /// The rule without adhesion: the largest stretch is zero.
     pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
 
-    /// The rule for a work of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
+    /// Creates the rule for the works of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
     ///
-    /// A γ₂ smaller than γ₁ is replaced by γ₁: a spring would detach where it had just attached.
+    /// A γ₂ smaller than γ₁ is replaced by γ₁. Otherwise a spring would detach where it had just attached.
     pub fn from_works(foundation: Foundation, closing: f64, opening: f64) -> Self {
         let stretch = |work: f64| {
             // The quotient γ/E* first: scaling both by one power of two then changes no bit.
@@ -65,7 +65,7 @@ impl HessRule {
         HessRule { opening: stretch(opening).max(closing), closing }
     }
 
-    /// Largest stretch of a fragment of one spring, m: on unloading before it detaches, on loading as it attaches.
+    /// Returns the largest stretch of a patch of one spring in m: on unloading before it detaches, on loading as it attaches.
     pub fn stretch(&self, direction: Direction) -> f64 {
         match direction {
             Direction::Loading => self.closing,
@@ -78,7 +78,7 @@ impl HessRule {
         self.opening == self.closing
     }
 
-    /// Largest stretch Δl_max = √(π n Δx γ/E*) of a fragment of n = `springs` springs, m, eq. (10).
+    /// Returns the largest stretch Δl_max = √(π n Δx γ/E*) in m of a patch of n = `springs` springs, eq. (10).
     ///
     /// Rounding keeps the order: the value never falls with the number of springs.
     pub fn largest_stretch(&self, direction: Direction, springs: usize) -> f64 {
@@ -92,8 +92,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// All cells are as long as the foundation, to the last bit; fewer have their own length, and more are no
-        /// longer.
+        /// All cells are as long as the foundation, to the last bit; fewer have their own length, and more are no longer.
         #[test]
         fn no_contact_is_longer_than_the_foundation(springs in 2_usize..400, length in 1e-6..10.0_f64) {
             let spacing = length / springs as f64;

@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of the motion to one target.
+/// Record of the motion of a body to the target of one loading stage.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -28,29 +28,29 @@ pub struct LegRecord {
     pub target: Move,
     /// Direction of the motion.
     pub direction: Direction,
-    /// Force curve: samples, and on an unloading leg the points of the smallest force and of the smallest displacement. A
-    /// jump into or out of contact has a point before and a point after it.
+    /// Force curve of the motion: the samples, and on unloading also the points of the smallest force and of the smallest
+    /// displacement. A jump into or out of contact has one point before it and one point after it.
     pub curve: Vec<CurvePoint>,
-    /// Point of the largest force on a loading leg, exact to rounding; on an unloading leg its beginning.
+    /// On loading the point of the largest force, exact to rounding; on unloading the first point.
     pub largest: CurvePoint,
-    /// Point of the smallest force on an unloading leg, exact to rounding; on a loading leg the smallest of `curve`.
+    /// On unloading the point of the smallest force, exact to rounding; on loading the point of the smallest force in `curve`.
     pub smallest: CurvePoint,
     /// Number of springs that attached.
     pub attached: u64,
     /// Number of springs that detached.
     pub detached: u64,
-    /// Released elastic energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same sum over the
-    /// springs that attached, and so negative where adhesion stretches springs. It is the work ∫F dd of the leg less the
-    /// growth of the stored elastic energy; over a closed loop it sums to the dissipated energy.
+    /// Released elastic energy in J: ½ Δk Σ e² over the springs that detached with a stretch e, minus the same sum over the
+    /// springs that attached. The energy is negative where adhesion stretches springs. It equals the work ∫F dd of the motion
+    /// minus the growth of the stored elastic energy. Over a closed loop it sums to the dissipated energy.
     pub released_energy: f64,
-    /// Energy that a compliant instrument and the moving body lose in the jumps of the leg, J, exact for any number of
-    /// samples: ∮F dD over a history is the sum of `released_energy` and `jump_energy`. Consecutive legs in one direction
-    /// are one motion.
+    /// Energy in J that a compliant instrument and the moving body lose in the jumps of the motion, exact for any number of
+    /// samples. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over its stages. Consecutive
+    /// stages in one direction count as one motion.
     pub jump_energy: f64,
 }
 
 impl LegRecord {
-    /// Record of a leg that ends where it begins.
+    /// Creates the record of a motion that ends where it begins.
     pub fn still(target: Move, here: CurvePoint) -> Self {
         LegRecord {
             target,
@@ -65,7 +65,7 @@ impl LegRecord {
         }
     }
 
-    /// Record of a motion of a separated body that touches nothing, from one indentation to another, m.
+    /// Creates the record of a motion of a separated body that touches nothing, from one indentation to another in m.
     pub fn free(target: Move, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(CurvePoint::free);
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
@@ -80,8 +80,8 @@ impl LegRecord {
         }
     }
 
-    /// Record of a motion: the ascending points of its curve, the points of its smallest and largest force, the points
-    /// before and after the motion, and the released elastic energy, J.
+    /// Creates the record of a motion from the ascending points of its curve, the points of its smallest and largest force, the
+    /// points before and after the motion, and the released elastic energy in J.
     pub(super) fn moved(
         (target, direction): (Move, Direction),
         mut curve: Vec<CurvePoint>,
@@ -109,23 +109,23 @@ impl LegRecord {
         LegRecord { direction, curve, largest, smallest, attached, detached, released_energy, ..still }
     }
 
-    /// Last point of the curve; `None` if the body is separated there.
+    /// Returns the last point of the curve; `None` if the body is separated there.
     pub fn end_in_contact(&self) -> Option<CurvePoint> {
         self.curve.last().copied().filter(|point| point.springs > 0)
     }
 
-    /// Indentation at the beginning, m.
+    /// Returns the indentation at the beginning of the motion in m.
     pub fn start(&self) -> f64 {
         self.curve.first().map_or(0.0, |point| point.indentation)
     }
 
-    /// Indentation at the end, m.
+    /// Returns the indentation at the end of the motion in m.
     pub fn end(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.indentation)
     }
 }
 
-/// A whole loading history.
+/// A whole loading history: the records of its motions, the final patches and the computing work.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
@@ -139,15 +139,15 @@ impl LegRecord {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    /// Records of the legs, in order.
+    /// Records of the loading stages, in order.
     pub legs: Vec<LegRecord>,
-    /// Patches in contact after the last leg, from left to right.
+    /// Patches in contact after the last stage, from left to right.
     pub contacts: Vec<Patch>,
-    /// Work counts.
+    /// Counts of the computing work.
     pub work: Work,
 }
 
-/// Work counts: the same on every machine, unlike times.
+/// Counts of computing work. Unlike times, they are the same on every machine.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
@@ -165,35 +165,35 @@ pub struct History {
 #[cfg_attr(feature = "serde", derive(Serialize))]
 #[non_exhaustive]
 pub struct Work {
-    /// Number of springs of the line.
+    /// Number of springs of the profile.
     pub springs: u64,
-    /// Number of random phases drawn.
+    /// Number of random phases drawn for the profile.
     pub random_phases: u64,
-    /// Number of Fourier transforms of the whole line.
+    /// Number of Fourier transforms of the whole profile.
     pub transforms: u64,
-    /// Number of nodes of the contact tree.
+    /// Number of nodes of the contact tree, see [`ContactTree`](crate::ContactTree).
     pub tree_nodes: u64,
-    /// Number of passes over the tree for loading legs.
+    /// Number of passes over the contact tree for loadings.
     pub loading_passes: u64,
-    /// Number of passes over the tree for unloading legs.
+    /// Number of passes over the contact tree for unloadings.
     pub unloading_passes: u64,
-    /// Number of passes for F_a(d=0) and F_a(F=0).
+    /// Number of passes over the contact tree for the adhesion forces F_a(d=0) and F_a(F=0).
     pub passes_without_preload: u64,
     /// Number of evaluations of the rule of Hess.
     pub hess_evaluations: u64,
-    /// Number of springs sorted by threshold in the intervals that may hold an extreme of the force.
+    /// Number of attachments and detachments sorted by indentation in the search for extremes of the force.
     pub events_sorted: u64,
-    /// Number of springs attached on the legs of the loading history; `joins` in files.
+    /// Number of springs that attached during the loading history. Files call it `joins`.
     #[cfg_attr(feature = "serde", serde(rename = "joins"))]
     pub attached: u64,
-    /// Number of springs detached on the legs of the loading history; `leaves` in files.
+    /// Number of springs that detached during the loading history. Files call it `leaves`.
     #[cfg_attr(feature = "serde", serde(rename = "leaves"))]
     pub detached: u64,
     /// Number of steps of the stepwise solver.
     pub steps: u64,
-    /// Number of relaxation sweeps of the stepwise solver over the line.
+    /// Number of relaxation sweeps of the stepwise solver over the profile.
     pub relaxation_sweeps: u64,
-    /// Number of springs visited in relaxation sweeps.
+    /// Number of springs that the stepwise solver visited in relaxation sweeps.
     pub spring_updates: u64,
     /// Number of heights counted into the histogram of heights.
     pub heights_binned: u64,
@@ -206,7 +206,7 @@ impl Work {
     }
 }
 
-/// Direction of a leg.
+/// Direction of a motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Direction, Modulus, Move, Profile};
@@ -239,33 +239,33 @@ pub enum Direction {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CurvePoint {
-    /// Indentation d, m; 0 at first touch.
+    /// Indentation d in m; 0 at first touch.
     pub indentation: f64,
-    /// Force F, N; compression positive.
+    /// Force F in N; compression is positive.
     pub force: f64,
-    /// Length in contact, m.
+    /// Length in contact in m.
     pub contact_length: f64,
     /// Number of springs in contact.
     pub springs: u64,
     /// Number of contact patches.
     pub fragments: u64,
-    /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
+    /// Stored elastic energy in J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
     pub stored_energy: f64,
 }
 
 impl CurvePoint {
-    /// The point of a body that touches nothing at an indentation, m.
+    /// Returns the point of a body that touches nothing at an indentation in m.
     pub(crate) fn free(indentation: f64) -> Self {
         CurvePoint { indentation, ..CurvePoint::default() }
     }
 
-    /// Displacement D = d + F/k, m, of an instrument of stiffness k, N/m, that holds the body at this point.
+    /// Returns the displacement D = d + F/k in m of an instrument of stiffness k (N/m) that holds the body at this point.
     pub fn displacement(&self, stiffness: f64) -> f64 {
         self.indentation + self.force / stiffness
     }
 }
 
-/// A contact patch: springs in contact without a gap between them. In JSON the array `[first, last]`.
+/// A contact patch: a run of neighbouring springs in contact. In JSON it is the array `[first, last]`.
 ///
 /// ```
 /// use asperity_contact::Patch;
@@ -284,17 +284,18 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Returns the indices of the springs in contact.
+    /// Returns the indices of the springs of the patch.
     pub fn springs(self) -> Range<usize> {
         self.first..self.last + 1
     }
 
-    /// Returns the index of the spring in the middle.
+    /// Returns the index of the spring in the middle of the patch.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Returns the contact patches from left to right; `contact` is true for each spring of the line in contact.
+    /// Finds the contact patches from left to right. `contact` yields true for each spring in contact and false for each free
+    /// spring.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {
@@ -317,9 +318,9 @@ impl From<Patch> for (usize, usize) {
 pub(super) enum Goal {
     Indentation(f64),
     Force(f64),
-    /// A displacement of an instrument that is not rigid, m.
+    /// A displacement in m of an instrument that is not rigid.
     Displacement(f64),
-    /// Detachment of the last patch; the indentation of the body afterwards, m, where the target gives one.
+    /// Detachment of the last patch. The number is the indentation of the body afterwards in m, where the target gives one.
     Separation(Option<f64>),
 }
 
@@ -336,8 +337,8 @@ impl From<Move> for Goal {
     }
 }
 
-/// Returns the direction and the goal of the motion of a body at `here` to a target, with an instrument of this stiffness,
-/// N/m; `None` if the body is there already.
+/// Returns the direction and the goal of the motion of a body at `here` to a target, with an instrument of this stiffness in
+/// N/m. `None` if the body is there already.
 pub(super) fn plan(
     target: Move,
     here: CurvePoint,

@@ -1,6 +1,6 @@
-//! Intervals of indentations of a leg, in which extremes and crossings of the force are searched.
+//! Intervals of the indentations of a motion, in which extremes and crossings of the force are searched.
 //!
-//! An interval is divided at its middle event until the bounds of the force exclude a part or a part has no event inside.
+//! An interval is divided at its middle event, until the bounds of the force exclude a part or a part has no event inside.
 
 use super::adhesive::levels::{EdgeSum, Slider};
 use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
@@ -15,7 +15,7 @@ struct Step {
     totals: ContactTotals,
 }
 
-/// Edge cells of a fragment over the indentations at which it fills one span.
+/// Edge cells of a patch over the indentations at which it fills one span.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
     pub slider: Slider,
@@ -23,10 +23,10 @@ pub struct Piece {
     pub to: f64,
 }
 
-/// Part of a leg between two indentations, with the events inside.
+/// Part of a motion between two indentations, with the events inside.
 pub struct Interval {
     slides: bool,
-    /// Instrument as a number of springs parallel to the contact; see [`ContactState::beside`].
+    /// The instrument as a number of springs parallel to the contact; see [`ContactState::beside`].
     instrument: f64,
     scale: GapScale,
     /// The contact at the lowest indentation, then the events; sorted by [`Interval::sort`].
@@ -37,11 +37,11 @@ pub struct Interval {
     high: ContactState,
 }
 
-/// At least one interval of a sampled leg, ascending, in which a force is searched.
+/// Ascending intervals of a sampled motion in which a force is searched, at least one.
 pub struct Intervals(Vec<Interval>);
 
 impl Intervals {
-    /// Creates intervals from the contact at the ends of each; `instrument` is a number of springs parallel to the contact.
+    /// Creates intervals from the contact at both ends of each. `instrument` is a number of springs parallel to the contact.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let of = |&[low, high]: &[ContactState; 2]| {
             let steps = Rc::new(vec![Step { threshold: low.indentation, totals: low.totals }]);
@@ -54,7 +54,7 @@ impl Intervals {
         (self.0[0].low.indentation, self.0[self.0.len() - 1].high.indentation)
     }
 
-    /// Index range of the intervals that overlap the indentations from `from` to `to`, m.
+    /// Returns the index range of the intervals that overlap the indentations from `from` to `to` in m.
     pub fn between(&self, from: f64, to: f64) -> Range<usize> {
         let first = self.0.partition_point(|interval| interval.high.indentation < from);
         let end = self.0.partition_point(|interval| interval.low.indentation < to);
@@ -62,7 +62,7 @@ impl Intervals {
         first..end.max(first)
     }
 
-    /// Adds springs or cells that are in contact from one indentation up to another, m.
+    /// Adds springs or cells that are in contact from one indentation up to another in m.
     pub fn add_events(&mut self, from: f64, to: f64, totals: ContactTotals) {
         for (threshold, totals) in [(from, totals), (to, -totals)] {
             // At most one, which does not begin there.
@@ -111,7 +111,7 @@ impl Interval {
         (self.low.indentation, self.high.indentation)
     }
 
-    /// Whole springs or cells in contact at an indentation, m.
+    /// Returns the whole springs or cells in contact at an indentation in m.
     fn totals(&self, indentation: f64) -> ContactTotals {
         let above = self.steps.partition_point(|step| step.threshold <= indentation);
         self.steps[above.saturating_sub(1)].totals
@@ -121,7 +121,7 @@ impl Interval {
         self.pieces.iter().filter(move |piece| piece.is_at(indentation)).map(|piece| piece.slider)
     }
 
-    /// The contact at the indentation `at`, if no event lies between `from` and `at` (m): no edge jumps and no fragment
+    /// Returns the contact at the indentation `at` (m), if no event lies between `from` and `at`: no edge jumps, and no patch
     /// merges or splits. The force is convex in `at`.
     fn steady(&self, from: f64, at: f64) -> ContactState {
         let mut edges = EdgeSum::default();
@@ -130,15 +130,15 @@ impl Interval {
             .beside(self.instrument)
     }
 
-    /// Derivative of the compression with respect to the indentation, in cells, at `at` (m), if no event lies between the
-    /// lower end and `at`.
+    /// Returns the derivative of the compression with respect to the indentation, in cells, at `at` in m, if no event lies
+    /// between the lower end and `at`.
     fn stiffness(&self, at: f64) -> f64 {
         let from = self.low.indentation;
         let edges: f64 = self.sliders(from).map(|slider| slider.stiffness(at)).sum();
         self.totals(from).whole(self.slides) as f64 + edges + self.instrument
     }
 
-    /// Indentation of the smallest force between the lower end and `last`, m, if no event lies between.
+    /// Returns the indentation in m of the smallest force between the lower end and `last`, if no event lies between.
     fn flattest(&self, last: f64) -> f64 {
         let low = self.low.indentation;
         if self.stiffness(low) >= 0.0 {
@@ -147,7 +147,7 @@ impl Interval {
         if self.stiffness(last) <= 0.0 { last } else { bisect(low, last, |at| self.stiffness(at) >= 0.0) }
     }
 
-    /// The contact at the middle event inside; `None` without an event.
+    /// Returns the contact at the middle event inside; `None` without an event.
     fn middle(&self) -> Option<ContactState> {
         let ((low, high), steps) = (self.ends(), &self.steps);
         let first = steps.partition_point(|step| step.threshold <= low);
@@ -163,7 +163,8 @@ impl Interval {
         Interval { steps: Rc::clone(&self.steps), pieces, low, high, ..*self }
     }
 
-    /// Replaces `best` by the contact of the extreme force inside, if that is beyond `best`; neither end is.
+    /// Replaces `best` by the contact of the extreme force inside, if its force is beyond `best`. No force at an end is beyond
+    /// `best`.
     pub fn extreme(&self, extreme: Extreme, best: &mut ContactState) {
         let (from, to) = self.ends();
         if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
@@ -188,8 +189,8 @@ impl Interval {
         self.between(self.low, middle).extreme(extreme, best);
     }
 
-    /// ∫ |C − E| dd over the interval, in cells times m², on loading (`loads`) or unloading. C is the compression of
-    /// contact and instrument; E is its extreme so far, on loading the largest and on unloading the smallest. Where C turns
+    /// Computes ∫ |C − E| dd over the interval in cells times m², on loading (`loads`) or unloading. C is the compression of
+    /// contact and instrument. E is its extreme so far, the largest on loading and the smallest on unloading. Where C turns
     /// back from E the body jumps.
     pub fn jumped(&self, loads: bool, extreme: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
@@ -228,8 +229,8 @@ impl Interval {
         (self.work(back, to) - level * (to - back)) + (self.work(from, flattest) - least * (flattest - from))
     }
 
-    /// ∫ C dd over a range of indentations without an event inside, m, where C is the compression: half of the growth of
-    /// its squares, less the squared stretch with which springs attach at the sliding edges.
+    /// Computes ∫ C dd over a range of indentations in m without an event inside, where C is the compression. The integral is
+    /// half of the growth of ∫ (d − c)² dx minus the squared stretch with which springs attach at the sliding edges.
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
         let surface = |at: f64| self.sliders(from).map(|slider| slider.surface(at)).sum::<f64>();
@@ -237,7 +238,7 @@ impl Interval {
         0.5 * (squares - (surface(high) - surface(low)) + self.instrument * (high - low) * (high + low))
     }
 
-    /// Returns the smallest indentation in the interval with at least this compression; the compression at the lower end is
+    /// Returns the smallest indentation in the interval with at least this compression. The compression at the lower end is
     /// smaller.
     pub fn first_at_least(&self, wanted: f64) -> Option<f64> {
         if upper_bound(&self.low, &self.high) < wanted {
@@ -254,8 +255,7 @@ impl Interval {
         found.or_else(|| (self.high.compression >= wanted).then_some(to))
     }
 
-    /// Returns the largest indentation in the interval with at most this compression; the compression at the upper end is
-    /// larger.
+    /// Returns the largest indentation in the interval with at most this compression. The compression at the upper end is larger.
     pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
         let (from, to) = self.ends();
         if lower_bound(&self.low, &self.high) > wanted || from >= to {
@@ -285,12 +285,12 @@ impl Piece {
     }
 }
 
-/// Limit of the halvings of an interval in a search: more than any two floating-point numbers need.
+/// Largest number of halvings of an interval in a search, more than any two floating-point numbers need.
 const HALVINGS: usize = 2200;
 /// Number of guesses by interpolation before a crossing is searched by halving alone.
 const GUESSES: usize = 20;
 
-/// The smallest number in (low, high] for which `is_past` is true; `is_past(high)` is true.
+/// Finds the smallest number in (low, high] for which `is_past` is true; `is_past(high)` is true.
 pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = low + 0.5 * (high - low);
@@ -302,23 +302,23 @@ pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64
     high
 }
 
-/// The smallest number in (low, high] at which `value`, which rises through zero once, is at least zero; at `low` it is
+/// Finds the smallest number in (low, high] at which `value` is at least zero. `value` rises through zero once; at `low` it is
 /// negative.
 pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (low, high) = enclose(low, high, &value, |value| value >= 0.0);
     bisect(low, high, |at| value(at) >= 0.0)
 }
 
-/// The largest number in [low, high) at which `value`, which rises through zero once, is at most zero; at `high` it is
+/// Finds the largest number in [low, high) at which `value` is at most zero. `value` rises through zero once; at `high` it is
 /// positive.
 pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (from, to) = enclose(low, high, &value, |value| value > 0.0);
     bisect(from, to, |at| value(at) > 0.0).next_down().max(low)
 }
 
-/// Narrows an interval around a crossing by interpolation: its lower end stays before the crossing and its upper end past it.
+/// Narrows an interval around a crossing by interpolation. Its lower end stays before the crossing, its upper end past it.
 ///
-/// The value at an end that stays is halved (the Illinois rule), so that both ends move; an interval that narrows slowly is
+/// The value at an end that stays is halved (the Illinois rule), so that both ends move. An interval that narrows slowly is
 /// halved as well.
 fn enclose(
     mut low: f64,

@@ -1,24 +1,22 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
-//!
 //! # Rules
 //!
-//! The rigid line on the elastic foundation: attachment and detachment of each spring, and the force.
+//! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
+//! rules of the method of dimensionality reduction, with the rule of Hess for adhesion. Here c is the gap of a spring, d the
+//! indentation and Δl_max(n) the largest stretch of a patch of n springs. The paper, whose equations are cited by number, is
+//! Popov and Filippov (2012). The rules are:
 //!
-//! Everything here follows the rules of equilibrium of the method of dimensionality reduction with the
-//! rule of Hess:
+//! * *touch*: a free spring attaches when its gap is closed, c ≤ d;
+//! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
+//! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
-//! * *touch*: a free spring whose gap is closed, c ≤ d, comes into contact;
-//! * *grow*: a free spring beside a fragment of n springs comes into contact when
-//!   d ≥ c − Δl_max(n), eq. (10);
-//! * *detach*: within a fragment of n springs the most stretched one detaches when d ≤ c − Δl_max(n), but
-//!   not while its gap is closed.
-//!
-//! A [`Contact`] is what stays the same while the body moves, a [`Leg`] the contact at all indentations of a motion in
-//! one direction, and a [`Body`] a leg and the position on it. [`Leg`] applies these rules in one pass over a tree;
-//! [`Stepwise`] moves by small steps and relaxes, as the paper does. Functions that allocate return
-//! [`ContactError::OutOfMemory`]; other errors are listed.
+//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A [`Leg`] is the
+//! contact at all indentations of a motion in one direction, and a [`Body`] is a leg with the position on it. A [`Leg`] follows
+//! from these rules in one pass over a tree. [`Stepwise`] moves by small steps and relaxes after each step, as the paper does.
+//! Any function that allocates may return [`ContactError::OutOfMemory`]; the documentation of a function lists all other
+//! errors.
 
 mod adhesive;
 mod body;

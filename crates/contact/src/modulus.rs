@@ -2,7 +2,7 @@
 
 use super::error::{ContactError, check, is_positive};
 
-/// Effective modulus E* of two bodies in contact, Pa: a number from 1e-50 to 1e50.
+/// Effective modulus E* of two bodies in contact, from 1e-50 to 1e50 Pa.
 ///
 /// ```
 /// use asperity_contact::Modulus;
@@ -20,21 +20,21 @@ pub struct Modulus(f64);
 const PASCALS: &str = "from 1e-50 to 1e50 Pa";
 
 impl Modulus {
-    /// An effective modulus E*, Pa.
+    /// Creates an effective modulus E* from a number in Pa.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a number that is not from 1e-50 to 1e50.
+    /// Returns [`ContactError::Value`] for a number that is not from 1e-50 to 1e50.
     pub fn effective(pascals: f64) -> Result<Self, ContactError> {
         check("effective modulus", pascals, is_positive(pascals), PASCALS)?;
         Ok(Modulus(pascals))
     }
 
-    /// Effective modulus E/(1 − ν²) of an isotropic body with Young's modulus E (Pa) and Poisson's ratio ν under a rigid
-    /// body.
+    /// Computes the effective modulus E/(1 − ν²) of an isotropic elastic body against a rigid body. E is Young's modulus in Pa
+    /// and ν is Poisson's ratio.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a Young's modulus that is not from 1e-50 to 1e50 Pa, and for a Poisson's ratio that is
-    /// not above −1 and at most 0.5.
+    /// Returns [`ContactError::Value`] for a Young's modulus that is not from 1e-50 to 1e50 Pa. Returns the same for a
+    /// Poisson's ratio that is not above −1 or is above 0.5.
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
         check("Young's modulus", youngs_modulus, is_positive(youngs_modulus), PASCALS)?;
         let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
@@ -43,8 +43,8 @@ impl Modulus {
         Modulus::effective(youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio)))
     }
 
-    /// Effective modulus of two elastic bodies, 1/E* = 1/E₁* + 1/E₂*, from the effective modulus of each body under a rigid
-    /// body; eq. (2).
+    /// Computes the effective modulus E* of two elastic bodies: 1/E* = 1/E₁* + 1/E₂*, eq. (2) of Popov and Filippov (2012). E₁*
+    /// and E₂* are the effective moduli of each body against a rigid body.
     ///
     /// ```
     /// use asperity_contact::Modulus;
@@ -55,13 +55,13 @@ impl Modulus {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::Value`] for an effective modulus of both below 1e-50 Pa.
+    /// Returns [`ContactError::Value`] for a result below 1e-50 Pa.
     pub fn pair(one: Modulus, other: Modulus) -> Result<Self, ContactError> {
         let (softer, stiffer) = (one.0.min(other.0), one.0.max(other.0));
         Modulus::effective(softer / (1.0 + softer / stiffer))
     }
 
-    /// The effective modulus E*, Pa.
+    /// Returns the effective modulus E* in Pa.
     pub fn pascals(self) -> f64 {
         self.0
     }

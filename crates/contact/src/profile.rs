@@ -9,10 +9,10 @@ use std::sync::{Arc, OnceLock};
 /// Largest number of points of a profile.
 const MOST_POINTS: usize = 1 << 28;
 
-/// One-dimensional equivalent profile of a rigid body: heights at equally spaced points, positive towards the half-space.
+/// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points, positive towards the half-space.
 ///
-/// N points at a spacing Δx cover the length N Δx; each point lies in the middle of its cell. Clones share their memory, and
-/// all contacts of a profile share its contact trees.
+/// N points at a spacing Δx cover the length N Δx, and each point lies in the middle of its cell. Clones of a profile share
+/// their memory. All contacts of a profile share its [contact trees](ContactTree).
 ///
 /// ```
 /// use asperity_contact::Profile;
@@ -33,22 +33,22 @@ pub struct Profile {
     summit: f64,
 }
 
-/// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge model. A tree is built
-/// when a contact first needs it.
+/// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge model. A tree is built when a
+/// contact first needs it.
 #[derive(Debug)]
 pub struct Springs {
     pub gaps: Arc<Vec<f64>>,
     pub deepest: f64,
-    /// One tree for each edge model, by its number.
+    /// One tree for each edge model, by the number of the edge model.
     trees: [OnceLock<Arc<ContactTree>>; 2],
 }
 
 impl Profile {
-    /// Creates a profile of measured or computed heights (m) at this spacing (m). The memory of a `Vec` becomes the memory
-    /// of the gaps; a slice is copied.
+    /// Creates a profile from measured or computed heights in m at this spacing in m. The memory of a `Vec` is reused; a slice
+    /// is copied.
     ///
     /// # Errors
-    /// [`ContactError::Value`] without points, or for a spacing or a height out of its range.
+    /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height out of its range.
     pub fn from_heights(heights: impl Into<Vec<f64>>, spacing: f64) -> Result<Self, ContactError> {
         let mut heights = heights.into();
         let [_, summit] = ends(&heights, LARGEST).map_err(|index| {
@@ -59,8 +59,8 @@ impl Profile {
         Ok(Profile { summit, ..Profile::from_gaps(heights, spacing)? })
     }
 
-    /// Creates a profile of gaps below its highest point (m) at this spacing (m); at least one of them is 0. A shared `Arc`
-    /// is not copied.
+    /// Creates a profile from gaps at this spacing in m. A gap is the depth in m of a point below the highest point, so at
+    /// least one gap is 0. A shared `Arc` is not copied.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -71,7 +71,8 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::Value`] without points, for a spacing or a gap out of its range, or if the smallest gap is not 0.
+    /// Returns [`ContactError::Value`] for a profile without points, for a spacing or a gap out of its range, or if the
+    /// smallest gap is not 0.
     pub fn from_gaps(gaps: impl Into<Arc<Vec<f64>>>, spacing: f64) -> Result<Self, ContactError> {
         let gaps = gaps.into();
         let points = gaps.len();
@@ -89,11 +90,11 @@ impl Profile {
         Ok(Profile { springs, spacing, length, first: 0, summit: 0.0 })
     }
 
-    /// The same profile on a foundation of this length (m) whose spring with the index `first` is the first one under the
-    /// body. A punch covers a part of its foundation.
+    /// Places the profile on a foundation of this length in m. The spring with the index `first` is the first one under the
+    /// body. A flat punch, for example, covers only a part of its foundation.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a length that is out of its range or too short for the profile at this place.
+    /// Returns [`ContactError::Value`] for a length that is out of its range or too short for the profile at this place.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -111,65 +112,66 @@ impl Profile {
         Ok(Profile { length, first, ..self })
     }
 
-    /// Moves the profile in height, so that its highest point lies at this height, m.
+    /// Moves the profile in height, so that its highest point lies at this height in m.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
+    /// Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
     pub fn with_summit(self, summit: f64) -> Result<Self, ContactError> {
         check("height of the highest point", summit, summit.abs() <= LARGEST, "from -1e50 to 1e50 m")?;
         Ok(Profile { summit, ..self })
     }
 
-    /// Number of points.
+    /// Returns the number of points.
     pub fn points(&self) -> usize {
         self.gaps().len()
     }
 
-    /// Distance Δx between points, m.
+    /// Returns the distance Δx between neighbouring points in m.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// Length of the foundation under the profile, m: the number of points times their distance, except under a punch.
+    /// Returns the length of the foundation under the profile in m. Except under a punch it is the number of points times their
+    /// distance.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Gaps below the highest point, m, at least 0.
+    /// Returns the gaps below the highest point in m, each at least 0.
     pub fn gaps(&self) -> &[f64] {
         &self.springs.gaps
     }
 
-    /// Gaps below the highest point, m, in the memory of the profile.
+    /// Returns the gaps below the highest point in m, without a copy.
     pub fn shared_gaps(&self) -> &Arc<Vec<f64>> {
         &self.springs.gaps
     }
 
-    /// Largest gap, m.
+    /// Returns the largest gap in m.
     pub fn deepest(&self) -> f64 {
         self.springs.deepest
     }
 
-    /// Heights, m, to rounding.
+    /// Returns the heights of the points in m, exact to rounding.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps().iter().map(|gap| self.summit - gap)
     }
 
-    /// Position x of the point with this index, m, from the left end of the foundation.
+    /// Returns the position x in m of the point with this index, from the left end of the foundation.
     pub fn position(&self, index: usize) -> f64 {
         self.place(index as f64 + 0.5)
     }
 
-    /// Position, m, of a place in cells from the left end of the first cell under the body.
+    /// Returns the position in m of a place that is given in cells from the left end of the first cell under the body.
     pub(super) fn place(&self, cells: f64) -> f64 {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the contact tree for an edge model, unless the profile has it already, in the memory of a former tree. Without
-    /// this call the first contact with adhesion builds it.
+    /// Builds the contact tree for an edge model, unless the profile has it already. The new tree reuses the memory of the tree
+    /// `memory`. Without this call the first contact with adhesion builds the tree.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
     ///
     /// ```
     /// use asperity_contact::{ContactTree, Edges, Profile};
@@ -184,7 +186,8 @@ impl Profile {
         self.springs.tree_in(memory, edges).map(|_| ())
     }
 
-    /// Returns a contact tree that nothing else uses, for the reuse of its memory; an empty tree if there is none.
+    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can reuse. The tree is empty if
+    /// there is none, or if a clone or a contact still uses it.
     pub fn into_tree(self) -> ContactTree {
         let trees = Arc::into_inner(self.springs).map(|springs| springs.trees);
         let trees = trees.into_iter().flatten().filter_map(OnceLock::into_inner);
@@ -192,7 +195,7 @@ impl Profile {
     }
 }
 
-/// Equal profiles have the same heights at the same places.
+/// Two profiles are equal if they have the same heights at the same places.
 impl PartialEq for Profile {
     fn eq(&self, other: &Self) -> bool {
         let of = |profile: &Self| [profile.spacing, profile.length, profile.summit];
@@ -201,7 +204,7 @@ impl PartialEq for Profile {
 }
 
 impl Springs {
-    /// Fixed-point scale of exact sums over the gaps.
+    /// Returns the fixed-point scale of exact sums over the gaps.
     pub fn scale(&self) -> GapScale {
         GapScale::for_gaps_up_to(self.deepest)
     }
@@ -225,7 +228,7 @@ fn value(name: String, value: f64, allowed: &'static str) -> ContactError {
     ContactError::Value { name, value, allowed }
 }
 
-/// Smallest and largest value; the error is the index of the first value whose magnitude is not at most `most`.
+/// Returns the smallest and the largest value. The error is the index of the first value whose magnitude is not at most `most`.
 fn ends(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
     // In parallel: a sequence of comparisons would wait for each one.
     let (mut smallest, mut largest, mut is_number) = ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8], true);

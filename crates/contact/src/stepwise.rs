@@ -1,7 +1,8 @@
-//! The stepwise solver: it moves by a small step, relaxes to equilibrium and repeats, as the paper does.
+//! The stepwise solver, which works as Popov and Filippov (2012) do: it moves by a small step, relaxes to equilibrium and
+//! repeats.
 //!
-//! The error is of the order of the step Δd; each step costs a few sweeps over the whole line. The solver shares only the
-//! rules and the sums with the exact solver.
+//! The error is of the order of the step Δd, and each step costs a few sweeps over the whole profile. This solver shares only
+//! the rules and the sums with the exact solver.
 
 use super::adhesive::levels::EdgeCells;
 use super::body::MovingBody;
@@ -15,7 +16,7 @@ use super::target::Move;
 use super::totals::ContactTotals;
 use asperity_data::resized;
 
-/// A body that moves by small steps and relaxes after each.
+/// The stepwise solver: a body that moves by small steps and relaxes to equilibrium after each step.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Edges, Modulus, Move, MovingBody, Profile, Stepwise};
@@ -40,18 +41,19 @@ pub struct Stepwise<'a> {
     direction: Direction,
     indentation: f64,
     totals: ContactTotals,
-    /// Σ e² over the springs detached on the present leg, less the same sum over the springs attached, m².
+    /// Σ e² in m² over the springs detached on the present motion, minus the same sum over the springs attached.
     squared_stretch: f64,
-    /// Whether each spring is in contact.
+    /// True for each spring in contact.
     holds: Vec<bool>,
-    /// Indentation at which each spring last attached or detached, m.
+    /// Indentation in m at which each spring last attached or detached.
     thresholds: Vec<f64>,
     work: Work,
 }
 
 impl<'a> Stepwise<'a> {
-    /// Creates a separated body of whole springs that moves by steps of `step`, m. `samples` is the number of curve points
-    /// of each motion. The run ends as soon as `stop` returns true after a step.
+    /// Creates a separated body of whole springs that moves by steps of the length `step` in m. Each motion records `samples`
+    /// points of its force curve, at least 2. `stop` is called before each step; if it returns true, the motion ends with
+    /// [`ContactError::Interrupted`].
     pub fn new(
         contact: &'a Contact,
         step: f64,
@@ -74,7 +76,7 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    /// Attaches or detaches a spring at the indentation `at`, m; a spring that detaches was held to exactly `at`, since the
+    /// Attaches or detaches a spring at the indentation `at` in m. A spring that detaches was held to exactly `at`, because the
     /// overshoot of a step is no property of the contact.
     fn change(&mut self, index: usize, attaches: bool, at: f64) {
         let gap = self.contact.gaps()[index];
@@ -86,7 +88,7 @@ impl<'a> Stepwise<'a> {
         self.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };
     }
 
-    /// Sweeps until no spring touches and no fragment grows.
+    /// Sweeps until no spring touches and no patch grows.
     fn relax_loading(&mut self) {
         let (gaps, at) = (self.contact.gaps(), self.indentation);
         loop {
@@ -107,7 +109,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Extends each fragment over its neighbours as long as the rule allows.
+    /// Extends each patch over its neighbours as long as the rule of Hess allows.
     fn grow_fragments(&mut self) {
         let (gaps, at) = (self.contact.gaps(), self.indentation);
         let mut first = 0;
@@ -127,7 +129,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Sweeps until every fragment holds its most stretched spring.
+    /// Sweeps until every patch holds its most stretched spring.
     fn relax_unloading(&mut self, held_until: f64) {
         let (gaps, at) = (self.contact.gaps(), self.indentation);
         loop {

@@ -1,9 +1,9 @@
-//! Targets of a motion.
+//! Targets of the motion of a body.
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Target of a body: one loading stage.
+/// Target of one loading stage of a body.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -19,17 +19,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Move {
-    /// Until the force first reaches this value, N (compression positive).
+    /// Moves until the force first reaches this value in N; compression is positive.
     ToForce(f64),
-    /// To this indentation, m (0 at first touch).
+    /// Moves to this indentation in m; 0 is the first touch.
     ToIndentation(f64),
-    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, where k is the loading stiffness
-    /// of the contact. For a rigid instrument D is the indentation.
+    /// Moves until the displacement D = d + F/k of the instrument first reaches this value in m. Here k is the loading
+    /// stiffness of the contact. For a rigid instrument D is the indentation.
     ToDisplacement(f64),
-    /// To the indentation of first touch, d = 0.
+    /// Moves to the indentation of first touch, d = 0.
     ToTouch,
-    /// Until the force is zero; from separation, past first touch until the force is back at zero.
+    /// Moves until the force is zero. From separation the body moves past first touch until the force is back at zero.
     ToZeroForce,
-    /// To separation.
+    /// Moves until the bodies separate.
     ToSeparation,
 }

@@ -1,10 +1,10 @@
-//! Springs that touch one by one: contact without adhesion, where a spring is in contact exactly while its gap is closed,
-//! and the contact of the stepwise solver.
+//! Springs that touch one by one. They describe contact without adhesion, where a spring is in contact exactly while its gap is
+//! closed, and the contact of the stepwise solver.
 //!
 //! Without adhesion the contact depends on the indentation alone, and the force does not decrease with the indentation. A
-//! *cell*, the line between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are summed
-//! exactly, as whole numbers of quanta; a partly filled cell adds its part at each point inside it, which is accurate for
-//! any slope and indentation.
+//! *cell*, the profile between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are summed
+//! exactly, as whole numbers of quanta. A partly filled cell adds its part at each point inside it, which is accurate for any
+//! slope and indentation.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::levels::Slider;
@@ -15,11 +15,11 @@ use super::interval::{Intervals, Piece};
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 
-/// Springs each of which is in contact from an indentation of its own on.
+/// Springs, each of which is in contact from its own indentation on.
 #[derive(Clone, Copy, Debug)]
 pub struct Thresholds<'a> {
     gaps: &'a [f64],
-    /// Indentation from which each spring is in contact, m: −∞ always, +∞ never; the gaps where edges lie between springs.
+    /// Indentation in m from which each spring is in contact: −∞ always, +∞ never; the gaps where edges lie between springs.
     /// Empty for a body that touches nothing.
     thresholds: &'a [f64],
     slides: bool,
@@ -76,16 +76,16 @@ impl<'a> Thresholds<'a> {
         }
     }
 
-    /// The half cells at both ends of the foundation, each with the gap of its spring, m; none for whole springs.
+    /// Returns the half cells at both ends of the foundation, each with the gap of its spring in m; none for whole springs.
     fn ends(&self) -> impl Iterator<Item = (f64, Slider)> {
         let ends = [self.thresholds.first(), self.thresholds.last()].into_iter().flatten();
         ends.filter(|_| self.slides).map(|&gap| (gap, Slider::half_cell(gap)))
     }
 
-    /// What a range of neighbouring springs adds to the totals once all of them are in contact.
+    /// Returns what a range of neighbouring springs adds to the totals once all of them are in contact.
     ///
-    /// They add one fragment, less one for each neighbour that touches earlier; of equal thresholds the left spring counts
-    /// as the later. Where edges lie between springs they also add the cells to these neighbours.
+    /// They add one patch, minus one for each neighbour that touches earlier. Of equal thresholds the left spring counts as the
+    /// later. Where edges lie between springs, the range also adds the cells to these neighbours.
     #[inline]
     fn totals(&self, springs: Range<usize>) -> ContactTotals {
         let Range { start, end } = springs;

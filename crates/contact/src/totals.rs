@@ -1,9 +1,10 @@
 //! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
-/// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the smallest power of two above its largest gap.
+/// Fixed-point scale of the gaps of one profile. Its unit, the quantum, is 2⁻⁶² of the smallest power of two above the largest
+/// gap.
 ///
-/// Sums of quanta are integers: they do not depend on the order of the springs, and a spring that attaches and
-/// detaches again changes no bit, so that loading and unloading agree bit for bit on the same contact.
+/// Sums of quanta are integers and do not depend on the order of the springs. A spring that attaches and detaches again changes
+/// no bit. So loading and unloading agree bit for bit on the same contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapScale {
     quanta_per_metre: f64,
@@ -16,18 +17,18 @@ impl Default for GapScale {
     }
 }
 
-/// Number of bits of a gap in quanta: gaps below 2^62 quanta fit an `i64`, and a sum of 2^28 gaps an `i128`.
+/// Number of bits of a gap in quanta. Gaps below 2^62 quanta fit an `i64`, and a sum of 2^28 gaps an `i128`.
 const GAP_BITS: i32 = 62;
 
-/// Largest exponent of the scale, so that scale and quantum are both normal numbers.
+/// Largest exponent of the scale, for which scale and quantum are both normal numbers.
 const LARGEST_SCALE_EXPONENT: i32 = 1000;
 
-/// Digits of a double behind its exponent, and the exponent of 1 in its bits.
+/// Number of bits of a double behind its exponent, and the exponent of 1 in its bits.
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 const EXPONENT_BIAS: i32 = f64::MAX_EXP - 1;
 
 impl GapScale {
-    /// Scale for gaps up to `largest` (m, finite, at least zero).
+    /// Creates the scale for gaps up to `largest` (m, finite, at least zero).
     pub fn for_gaps_up_to(largest: f64) -> Self {
         // The smallest power of two above the largest gap, which may be zero.
         let above = (largest.max(f64::MIN_POSITIVE).to_bits() >> MANTISSA_BITS) as i32 - EXPONENT_BIAS + 1;
@@ -37,13 +38,13 @@ impl GapScale {
         GapScale { quanta_per_metre: power_of_two(exponent), quantum: power_of_two(-exponent) }
     }
 
-    /// A gap in quanta, rounded down.
+    /// Returns a gap (m) in quanta, rounded down.
     #[inline]
     pub fn quanta(&self, gap: f64) -> i64 {
         (gap * self.quanta_per_metre) as i64
     }
 
-    /// Size of a quantum, m; a gap in a sum is rounded by less than a quantum.
+    /// Returns the size of a quantum in m. A gap in a sum is rounded by less than a quantum.
     #[cfg(test)]
     pub fn quantum(&self) -> f64 {
         self.quantum
@@ -53,11 +54,11 @@ impl GapScale {
 /// Number of low bits that squared quanta lose in a sum of squares, so that 2^28 squares fit an `i128`.
 const SQUARE_BITS: u32 = 28;
 
-/// Sums of the gaps and of their squares over at most four springs, or over at most four cells (five springs), in the units
-/// of [`ContactTotals`].
+/// Sums the gaps and their squares over at most four springs, or over at most four cells (five springs), in the units of
+/// [`ContactTotals`].
 ///
-/// Four quanta below 2^62 fit into 64 bits, and four of their squares into 128. The line is straight between springs: the
-/// mean square along a cell is (mean gap)² + (difference)²/12.
+/// Four quanta below 2^62 fit into 64 bits, and four of their squares into 128. The profile is straight between springs. The
+/// mean square along a cell is therefore (mean gap)² + (difference)²/12.
 #[inline]
 pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     let (mut sum, mut squares, mut squared_differences) = (0_u64, 0_u128, 0_u128);
@@ -78,20 +79,19 @@ pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     [i128::from(sum), ((squares + twelfth(squared_differences)) >> SQUARE_BITS).cast_signed()]
 }
 
-/// A twelfth of a number, up to 13 too small; a division of 128 bits would take longer than all other sums.
+/// Returns a twelfth of a number, at most 13 too small. A division of 128 bits would take longer than all other sums.
 #[inline]
 fn twelfth(number: u128) -> u128 {
     let [high, low] = [(number >> 64) as u64, number as u64];
     (u128::from(high / 12) << 64) + u128::from(high % 12) * u128::from(u64::MAX / 12) + u128::from(low / 12)
 }
 
-/// The springs in contact at one indentation: their number, the number of fragments, and the sums of their gaps and squared
-/// gaps.
+/// The springs in contact at one indentation: their number, the number of patches, and the sums of their gaps and squared gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTotals {
     /// Number of springs in contact.
     pub springs: i64,
-    /// Number of fragments.
+    /// Number of patches.
     pub fragments: i64,
     /// Sum of the gaps of the springs, or of the mean gaps of their cells, in quanta of a [`GapScale`].
     pub quanta: i128,
@@ -100,7 +100,7 @@ pub struct ContactTotals {
 }
 
 impl ContactTotals {
-    /// Totals of one patch: of its springs, or with `slides` of the cells between its springs.
+    /// Computes the totals of one patch: of its springs, or with `slides` of the cells between its springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals { springs: gaps.len() as i64, fragments: 1, ..Self::default() };
         let mut add = |[quanta, squares]: [i128; 2]| {
@@ -114,19 +114,18 @@ impl ContactTotals {
         totals
     }
 
-    /// Number of whole springs, or with `slides` of whole cells: in each fragment one less than its springs.
+    /// Returns the number of whole springs, or with `slides` of whole cells, one fewer in each patch than springs.
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
         self.springs - if slides { self.fragments } else { 0 }
     }
 
-    /// Compression Σ (d − c_i), m, of `count` springs, or ∫ (d − c) dx in cells times metres of `count` cells. It is the
-    /// force over the stiffness of one spring.
+    /// Computes the compression Σ (d − c_i) in m of `count` springs, or ∫ (d − c) dx in cells times metres of `count` cells. It
+    /// is the force over the stiffness of one spring.
     ///
-    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
-    /// 2u |result| + n 2^(e−62): the gaps are summed exactly, n d is taken as an exact product of two
-    /// numbers, and only their difference is rounded. Below a largest gap of about 2^−938 m a quantum is
-    /// 2^−1000 m and no less.
+    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most 2u |result| + n 2^(e−62). The
+    /// gaps are summed exactly, n d is an exact product of two numbers, and only their difference is rounded. For a largest gap
+    /// below about 2^−938 m a quantum is 2^−1000 m and no smaller.
     #[inline]
     pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
@@ -143,10 +142,10 @@ impl ContactTotals {
         difference + (error + (product_error - low))
     }
 
-    /// Sum of squared compressions Σ (d − c)² of `count` springs or cells, m².
+    /// Computes the sum of squared compressions Σ (d − c)² in m² of `count` springs or cells.
     ///
-    /// Sums of nested spans at one indentation are integers that differ by the squares of the springs between them, each
-    /// with an error below 2^28 squared quanta: a relative error of 1e-15 for a stretch of 1e-7 of the largest gap.
+    /// Sums of nested spans at one indentation are integers. They differ by the squares of the springs between the spans, each
+    /// with an error below 2^28 squared quanta. This is a relative error of 1e-15 for a stretch of 1e-7 of the largest gap.
     pub(super) fn squares_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let scale = SquareScale::new(*scale, indentation.abs());
         let (squares, remainder) = scale.at(self, count, indentation);
@@ -174,7 +173,7 @@ impl std::ops::AddAssign for ContactTotals {
     }
 }
 
-/// Unit of sums of squared stretches: coarser than the quantum of the gaps where an indentation far exceeds all gaps.
+/// Unit of sums of squared stretches. It is coarser than the quantum of the gaps where an indentation far exceeds all gaps.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareScale {
     quanta_per_metre: f64,
@@ -183,7 +182,7 @@ pub struct SquareScale {
 }
 
 impl SquareScale {
-    /// Unit for gaps of this scale and indentations of at most `largest` in magnitude, m.
+    /// Creates the unit for gaps of this scale and indentations between `−largest` and `largest` in m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let GapScale { mut quanta_per_metre, mut quantum } = scale;
         let mut coarser = 0;
@@ -193,7 +192,8 @@ impl SquareScale {
         SquareScale { quanta_per_metre, quantum, coarser }
     }
 
-    /// Σ (c − θ)² over `count` springs or cells at the indentation θ (m), as an integer in this unit and a remainder in m².
+    /// Computes Σ (c − θ)² over `count` springs or cells at the indentation θ in m, as an integer in this unit and a remainder
+    /// in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
         let shifted = |sum: i128, bits: u32| sum.checked_shr(bits).unwrap_or(0);
         let (first, second) =

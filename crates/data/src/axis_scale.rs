@@ -1,18 +1,18 @@
-//! Scales of axes.
+//! Linear and logarithmic scales of axes.
 
-/// Scale of an axis: the mapping of numbers to coordinates along it.
+/// Scale of an axis, which maps each number to a coordinate along the axis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
-    /// Linear: equal distances for equal differences.
+    /// Linear scale: the coordinate is the number.
     #[default]
     Linear,
-    /// Logarithmic, by the decimal logarithm; all values are above zero.
+    /// Logarithmic scale: the coordinate is the decimal logarithm of the number.
     Logarithmic,
 }
 
 impl AxisScale {
-    /// Coordinate of a number; not finite for a number without a logarithm.
+    /// Returns the coordinate of a number. A number that is not positive has no finite coordinate on a logarithmic scale.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -24,8 +24,8 @@ impl AxisScale {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }
 
-    /// Fractional index of a number among ascending values, 0 at the first value: interpolated between two values, and
-    /// extrapolated beyond the ends by the nearest distance.
+    /// Returns where `number` lies among ascending `values`, as a fractional index: 1.5 is in the middle between the values
+    /// with the indices 1 and 2. Beyond the ends it extrapolates with the nearest two values. Fewer than two values give 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);
@@ -36,7 +36,7 @@ impl AxisScale {
         }
     }
 
-    /// Number at a coordinate.
+    /// Returns the number at a coordinate.
     pub fn number(self, coordinate: f64) -> f64 {
         if self == AxisScale::Logarithmic { 10_f64.powf(coordinate) } else { coordinate }
     }

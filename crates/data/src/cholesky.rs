@@ -1,4 +1,4 @@
-//! Small symmetric systems of equations.
+//! Small systems of equations with a symmetric matrix.
 
 /// Cholesky factor L of a symmetric positive definite matrix M = L Lᵀ.
 ///
@@ -12,12 +12,13 @@
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cholesky {
     size: usize,
-    /// Lower triangle L, stored row by row of the full matrix.
+    /// Lower triangle L in a full matrix, stored row by row.
     factor: Vec<f64>,
 }
 
 impl Cholesky {
-    /// Factorises a matrix of `size` rows, of which only the lower triangle is used. `None` unless it is positive definite.
+    /// Factorises a matrix with `size` rows, stored row by row. Only its lower triangle is used. Returns `None` unless the
+    /// matrix is positive definite.
     pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
         for row in 0..size {
             for column in 0..=row {
@@ -35,7 +36,7 @@ impl Cholesky {
         Some(Cholesky { size, factor: matrix })
     }
 
-    /// Solution x of M x = b.
+    /// Returns the solution x of M x = `right`.
     pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
         let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in 0..self.size {
@@ -45,7 +46,8 @@ impl Cholesky {
         self.solve_transposed(right)
     }
 
-    /// Solution x of Lᵀ x = b. For independent normal b of variance 1, x has the covariance M⁻¹.
+    /// Returns the solution x of Lᵀ x = `right`. If `right` is normally distributed with independent entries of variance 1, x
+    /// has the covariance M⁻¹.
     pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
         let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in (0..self.size).rev() {
@@ -55,14 +57,15 @@ impl Cholesky {
         right
     }
 
-    /// √(M⁻¹)ᵢᵢ: the standard error of parameter i, if M is an information matrix.
+    /// Returns √(M⁻¹)ᵢᵢ for i = `index`. If M is an information matrix, this is the standard error of parameter i.
     pub fn standard_error(&self, index: usize) -> f64 {
         let mut gradient = vec![0.0; self.size];
         gradient[index] = 1.0;
         self.variance(&gradient).sqrt()
     }
 
-    /// vᵀ M⁻¹ v for a vector v: the variance of a quantity with the gradient v, if M is an information matrix.
+    /// Returns vᵀ M⁻¹ v for v = `gradient`. If M is an information matrix, this is the variance of a quantity with this
+    /// gradient.
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let solved = self.solve(gradient.to_vec());
         gradient.iter().zip(solved).map(|(a, b)| a * b).sum()

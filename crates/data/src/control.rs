@@ -1,8 +1,9 @@
-//! Threads, stop and progress of a long computation.
+//! Number of threads, stop and progress of a long computation.
 
 use crate::parallel;
 
-/// Threads, stop and progress of a long computation. By default it takes all cores, never stops early and reports nothing.
+/// Settings of a long computation: the number of threads, when to stop, and where to report progress. The default uses all
+/// cores, never stops early and reports nothing.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -28,41 +29,41 @@ impl Default for Control<'_> {
 }
 
 impl<'a> Control<'a> {
-    /// Computes on this number of threads. No bit of a result depends on it; computations refuse 0.
+    /// Sets the number of threads, at least 1. The result is the same to the bit for any number of threads.
     #[must_use]
     pub fn on_threads(self, threads: usize) -> Self {
         Control { threads, ..self }
     }
 
-    /// Ends the computation with an error as soon as `stop` returns true.
+    /// Sets the function that stops the computation. The computation ends with an error soon after `stop` returns true.
     #[must_use]
     pub fn stopped_by(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
         Control { stop, ..self }
     }
 
-    /// Passes to `report`, on the calling thread, how much is done so far, in the unit that the computation names: profiles,
-    /// records or curves.
+    /// Sets the function that receives the progress. The function is called on the calling thread. Its argument is the number
+    /// of finished profiles, records or curves, depending on the computation.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
         Control { report: Some(report), ..self }
     }
 
-    /// Number of threads.
+    /// Returns the number of threads.
     pub fn threads(&self) -> usize {
         self.threads
     }
 
-    /// Function that returns true once the computation is to end.
+    /// Returns the function that is asked whether the computation has to stop.
     pub fn stop(&self) -> &'a (dyn Fn() -> bool + Sync) {
         self.stop
     }
 
-    /// Returns true once the computation is to end.
+    /// Returns true if the computation has to stop.
     pub fn is_stopped(&self) -> bool {
         (self.stop)()
     }
 
-    /// Reports how much is done so far.
+    /// Reports how much is done so far to the function of [`reporting_to`](Control::reporting_to), if there is one.
     pub fn report(&mut self, done: u64) {
         if let Some(report) = &mut self.report {
             report(done);

@@ -1,19 +1,19 @@
-//! SHA-256 of files, the same as `sha256sum` prints, to identify copies of a file.
+//! SHA-256 of files, which identifies copies of a file. The program `sha256sum` prints the same digits.
 
 use super::read::{ReadError, open_regular};
 use sha2::{Digest, Sha256};
 use std::io::Read;
 use std::path::Path;
 
-/// Bytes read at a time.
+/// Number of bytes that are read at a time.
 const BUFFER: usize = 1 << 16;
 
-/// The hash in 64 hexadecimal digits.
+/// Returns the SHA-256 of all bytes that `hasher` has received, as 64 hexadecimal digits.
 pub fn hexadecimal(hasher: Sha256) -> String {
     hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns the SHA-256 of a file, in hexadecimal digits.
+/// Returns the SHA-256 of a file, as 64 hexadecimal digits.
 pub fn sha256_of(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let (mut hasher, mut buffer) = (Sha256::new(), vec![0; BUFFER]);

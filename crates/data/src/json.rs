@@ -6,7 +6,7 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io;
 use std::io::Write;
 
-/// Writes a value as JSON on one line. If the value is an object, the entries `head` (a key and a text each) come first.
+/// Writes a value as JSON on one line. If the value is an object, the keys and texts of `head` become its first entries.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     value: &impl Serialize,
@@ -22,12 +22,12 @@ pub fn write_json(
     writeln!(out)
 }
 
-/// JSON format that escapes characters which JSON allows but a terminal may obey; the text reads back unchanged.
+/// JSON format that also escapes the control characters that JSON allows, which a terminal might obey.
 #[derive(Default)]
 struct Printable {
-    /// Entries that go first into the outermost object, until they are written.
+    /// Entries that still have to be written first into the outermost object.
     head: Vec<u8>,
-    /// True if the next key needs a comma, since it follows the first entries.
+    /// True if the next key needs a comma, because it follows the first entries.
     follows: bool,
 }
 

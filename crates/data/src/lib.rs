@@ -23,6 +23,12 @@ mod read;
 mod table;
 mod text;
 #[cfg(feature = "files")]
+mod text_cells;
+#[cfg(feature = "files")]
+mod text_lines;
+#[cfg(feature = "files")]
+mod text_names;
+#[cfg(feature = "files")]
 mod write;
 
 pub use axis_scale::AxisScale;
@@ -57,5 +63,13 @@ pub use text::{
 #[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
 
-/// First characters of a CSV file that begins with its scene.
+/// Tables of numbers in text, as instruments and programs write them: for the readers of surfaces and of force curves.
+#[cfg(feature = "files")]
+pub mod text_table {
+    pub use crate::text_cells::{Decimal, ONE_MARK, Separator, TextCell};
+    pub use crate::text_lines::{COMMENT, TextFault, each_line};
+    pub use crate::text_names::{HeadLines, Role, TextColumn, is_one_of};
+}
+
+/// First characters of a CSV file of results. The comments that begin in this way state the program and the scene.
 pub const PROVENANCE: &str = "# asperity ";

@@ -1,23 +1,23 @@
-//! Reuse of the memory of large arrays: fresh memory costs about as much time as a pass over it, because the system clears
-//! each page at its first access.
+//! Large arrays: reuse of their memory, and errors for lack of memory.
 //!
-//! Memory in proportion to the input is reserved before use, since a failed allocation elsewhere ends the process.
+//! Fresh memory costs about as much time as a pass over it, because the system clears each page at its first access. Memory
+//! in proportion to the input is reserved before use. A failed allocation would otherwise end the process.
 
 use std::hint::black_box;
 use thiserror::Error;
 
-/// Ratio of the capacity of a buffer to the required number of values above which the buffer is released.
+/// A buffer is released if its capacity is more than this many times the required number of values.
 const MOST_SPARE: usize = 4;
-/// Number of values; a buffer with room for up to [`MOST_SPARE`] times as many is never released.
+/// Least number of values for this rule. A buffer for [`MOST_SPARE`] times as many is never released.
 const SMALL: usize = 1 << 16;
 
-/// Bytes checked in addition to the known arrays, for stacks of threads and small arrays. More than any block that the
-/// allocator of glibc keeps for reuse, so that the check has no side effect.
+/// Bytes checked in addition to the known arrays, for stacks of threads and small arrays. The number exceeds any block that
+/// the allocator of glibc keeps for reuse, so the check has no side effect.
 const BESIDE: u64 = 33 << 20;
-/// Number of bytes below which no check is made.
+/// Number of bytes below which the check passes at once.
 const FEW: u64 = 1 << 20;
 
-/// Error: the system cannot provide this number of bytes.
+/// Error for lack of memory. The number is the number of bytes that the system cannot provide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("not enough memory for {} MiB", .0.div_ceil(1 << 20))]
 pub struct OutOfMemory(u64);
@@ -28,7 +28,7 @@ impl OutOfMemory {
     }
 }
 
-/// Checks that the system can provide this many more bytes now; the bytes are neither used nor kept.
+/// Checks that the system could provide this many more bytes now. Fewer than 1 MiB always pass. No memory stays reserved.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());
@@ -41,7 +41,8 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     Ok(())
 }
 
-/// An empty vector with room for `count` values, in the memory of `values` if that suffices.
+/// Returns an empty vector with room for `count` values. The vector reuses the memory of `values` if this memory is large
+/// enough.
 pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
@@ -49,7 +50,8 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
     Ok(values)
 }
 
-/// A vector of `count` values, in the memory of `values` if that suffices: the previous values, then copies of `fill`.
+/// Returns a vector of `count` values: the previous ones, then copies of `fill`. The vector reuses the memory of `values` if
+/// possible.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());
@@ -58,21 +60,21 @@ pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Ve
     Ok(values)
 }
 
-/// Collects `count` values into a vector; returns an error instead of ending the process for lack of memory.
+/// Collects `count` values into a vector. Lack of memory is an error and does not end the process.
 pub fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
     let mut gathered = emptied(Vec::new(), count)?;
     gathered.extend(values);
     Ok(gathered)
 }
 
-/// Appends a value; returns an error for lack of memory.
+/// Appends a value. Lack of memory is an error.
 pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
     reserve(values, 1)?;
     values.push(value);
     Ok(())
 }
 
-/// Reserves room for `more` values, and some to spare; returns an error for lack of memory.
+/// Reserves room for at least `more` further values. Lack of memory is an error.
 pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     values.try_reserve(more).map_err(|_| OutOfMemory::of::<T>(values.len() + more))
 }

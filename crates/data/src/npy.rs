@@ -1,22 +1,22 @@
-//! Header of a file of a NumPy array, which states its type, order and shape.
+//! Header of a NumPy file (`.npy`), which states the type, the order and the shape of its array.
 
 use std::io;
 use std::io::Write;
 
-/// First bytes of an array.
+/// First bytes of a NumPy file.
 pub const SIGNATURE: &[u8] = b"\x93NUMPY";
 
-/// Version of the format in which the length of the header has two bytes.
+/// Version of the format whose header has a length of two bytes.
 const SHORT_HEADER: [u8; 2] = [1, 0];
 
-/// Number of bytes before the header in that version.
+/// Number of bytes before the header in this version.
 const PREFIX: usize = SIGNATURE.len() + SHORT_HEADER.len() + 2;
 
 /// Prefix and header together are a multiple of this number of bytes.
 const ALIGNMENT: usize = 64;
 
-/// Writes the prefix and the header of an array. `descr` is its type in Python's notation, `shape` its lengths as between
-/// the brackets of a Python tuple.
+/// Writes the signature and the header of a NumPy file. `descr` is the type of a value in Python's notation, such as `'<f8'`.
+/// `shape` has the lengths of the axes as in a Python tuple, without its brackets.
 pub fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;

@@ -1,9 +1,9 @@
-//! Numerics shared by the rooms: sums, means, quantiles, straight lines, interpolation, quadrature, and Student's distribution.
+//! Sums, means, quantiles, fitted straight lines, interpolation, quadrature, and Student's distribution.
 
 use std::cell::Cell;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
-/// Compensated sum (Neumaier), with an error below 2u |Σ t| + O(n u²) Σ |t|.
+/// Sum with compensated rounding errors (Neumaier). For n terms t its error is below 2u |Σ t| + O(n u²) Σ |t|, with u = 2⁻⁵³.
 ///
 /// ```
 /// let mut sum = asperity_data::CompensatedSum::default();
@@ -26,31 +26,32 @@ impl CompensatedSum {
         self.value = sum;
     }
 
-    /// The sum of all terms.
+    /// Returns the sum of all terms.
     pub fn total(self) -> f64 {
         self.value + self.error
     }
 }
 
-/// Mean of values; NaN for an empty slice.
+/// Returns the mean of the values; NaN for an empty slice.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Root mean square of values; `None` without values.
+/// Returns the root mean square of the values; `None` without values.
 pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let (count, squares) =
         values.into_iter().fold((0_u64, 0.0), |(n, sum), value| (n + 1, sum + value.powi(2)));
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 
-/// Sample standard deviation of values (divisor n − 1) about their mean.
+/// Returns the sample standard deviation (divisor n − 1) of n values about their mean. Fewer than two values give NaN.
 pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
     let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// Median of values, which it reorders; the mean of the two middle values of an even number. `None` without values.
+/// Returns the median and reorders the values. The median of an even number of values is the mean of the middle two. Returns
+/// `None` without values.
 ///
 /// ```
 /// assert_eq!(asperity_data::median(&mut [3.0, 1.0, 2.0, 10.0]), Some(2.5));
@@ -65,8 +66,8 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
 }
 
-/// Quantile of ascending values, of which there is at least one: `share` is 0 at the first value and 1 at the last, with
-/// interpolation between neighbours.
+/// Returns a quantile of ascending values by linear interpolation. A `share` of 0 gives the first value, 0.5 the median, 1
+/// the last value. The slice must not be empty.
 ///
 /// ```
 /// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), 5.0);
@@ -78,13 +79,13 @@ pub fn quantile(ascending: &[f64], share: f64) -> f64 {
     between(ascending[low], ascending[(low + 1).min(last)], place - low as f64)
 }
 
-/// Linear interpolation: `from` at share 0, `to` at share 1.
+/// Interpolates linearly between `from` at share 0 and `to` at share 1.
 #[inline]
 pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + share * (to - from)
 }
 
-/// Slope of the least-squares line through points (x, y); `None` for fewer than two different x.
+/// Returns the slope of the least-squares line through points (x, y); `None` for fewer than two different x.
 ///
 /// ```
 /// assert_eq!(asperity_data::slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
@@ -97,17 +98,17 @@ pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     Some(product / square).filter(|slope| slope.is_finite())
 }
 
-/// Nodes in (−1, 1) and weights of Gauss-Legendre quadrature with this number of nodes.
+/// Returns the nodes in (−1, 1) and the weights of the Gauss-Legendre quadrature with `COUNT` nodes.
 pub fn gauss_nodes<const COUNT: usize>() -> [(f64, f64); COUNT] {
     std::array::from_fn(|index| gauss_node(COUNT, index))
 }
 
-/// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature with this number of nodes.
+/// Returns the nodes in (0, π/2) and the weights of the Gauss-Legendre quadrature with `COUNT` nodes.
 pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT] {
     gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))
 }
 
-/// Zero number `index` of the Legendre polynomial of this degree, and the weight of this quadrature node.
+/// Returns zero number `index` of the Legendre polynomial of this degree, with its weight in the quadrature.
 fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
     let count = degree as f64;
     let mut x = (PI * (index as f64 + 0.75) / (count + 0.5)).cos();
@@ -125,11 +126,11 @@ fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
 }
 
 thread_local! {
-    /// Cache of the last quantile, with its degrees of freedom: most samples in a row have the same size.
+    /// Degrees of freedom and value of the last quantile. Most samples in a row have the same size.
     static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-/// Two-sided 5 % quantile of Student's distribution: |t| exceeds it with a probability of 5 %.
+/// Returns the value that |t| of Student's distribution exceeds with a probability of 5 %, for at least 1 degree of freedom.
 pub fn student_quantile(freedom: u32) -> f64 {
     if KNOWN.get().0 != freedom {
         KNOWN.set((freedom, student_t(freedom)));
@@ -150,7 +151,7 @@ fn student_t(freedom: u32) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Probability that |t| of Student's distribution is at most `t` (Abramowitz and Stegun, 26.7.3 and 26.7.4).
+/// Returns the probability that |t| of Student's distribution is at most `t` (Abramowitz and Stegun, 26.7.3 and 26.7.4).
 fn share_within(t: f64, freedom: u32) -> f64 {
     let angle = (t / f64::from(freedom).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();

@@ -1,11 +1,11 @@
-//! JSON objects made from a list of keys and values, whose order they keep.
+//! JSON objects made from a list of keys and values. The keys keep the order of the list.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A JSON object made by `object!`; its entries are nested pairs.
+/// A JSON object made by the macro `object!`. `E` is `()`, or a pair of the first entry and the others.
 pub struct Object<E>(pub E);
 
-/// Entries of an object: none, or a first entry and the others.
+/// Entries of an object: none, or the first entry and a pair of the others.
 pub(crate) trait Entries {
     fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error>;
 }
@@ -16,10 +16,10 @@ impl Entries for () {
     }
 }
 
-/// A key with its value.
+/// An entry of an object: a key and its value.
 pub struct ObjectEntry<T>(pub &'static str, pub T);
 
-/// A key with an optional value; the entry is omitted for `None`.
+/// An entry of an object that is omitted if its value is `None`.
 pub struct Optional<T>(pub &'static str, pub Option<T>);
 
 impl<T: Serialize, R: Entries> Entries for (ObjectEntry<T>, R) {
@@ -46,7 +46,7 @@ impl<E: Entries> Serialize for Object<E> {
     }
 }
 
-/// A JSON object of these keys and values, for serialisation; an entry `"key"?: option` is omitted for `None`.
+/// Makes a JSON object of keys and values for serialisation. An entry `"key"?: option` is omitted if the option is `None`.
 #[macro_export]
 macro_rules! object {
     (@entries) => { () };

@@ -1,4 +1,4 @@
-//! Independent computations in parallel, with results that do not depend on the number of threads.
+//! Independent computations in parallel. No result depends on the number of threads.
 
 use std::cell::Cell;
 use std::io;
@@ -8,11 +8,11 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
 thread_local! {
-    /// True on one of several threads that already keep all cores busy.
+    /// True on a thread that is one of several, which already keep all cores busy.
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `work` on this thread; functions of this module then start no further threads inside `work`.
+/// Runs `work` on this thread. The functions of this module then start no further threads inside `work`.
 pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     let before = ONE_OF_MANY.replace(true);
     let result = work();
@@ -20,10 +20,11 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Runs `work` on `count` threads of a scope, or on fewer if the system refuses some; none of them starts threads itself.
+/// Runs `work` on `count` threads of a scope, or on fewer if the system refuses some. The threads start no threads of their
+/// own.
 ///
 /// # Errors
-/// The error of the system if it starts none of at least one thread.
+/// Returns the error of the system if it starts none of at least one thread.
 pub(crate) fn begin_threads<'scope>(
     scope: &'scope Scope<'scope, '_>,
     count: usize,
@@ -37,11 +38,12 @@ pub(crate) fn begin_threads<'scope>(
     if begun.iter().any(Result::is_ok) { Ok(()) } else { begun.into_iter().collect() }
 }
 
-/// Results for the numbers below `count`, in their order, computed on `jobs` threads (fewer if the system refuses some),
-/// each with its own `worker`. A failed number does not affect the results of the numbers before it.
+/// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the results in order. Each thread
+/// first calls `worker` and then computes its results with the function that it gets. If the system refuses some threads, the
+/// others do all the work.
 ///
 /// # Errors
-/// The error of the smallest number that fails.
+/// Returns the error of the smallest number that fails.
 ///
 /// ```
 /// use asperity_data::on_threads;
@@ -82,13 +84,14 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Number of threads to use for a computation started on this thread: one for each core, or 1 if this thread is one of many.
+/// Returns the number of threads for a computation: one for each core, or 1 inside [`on_this_thread`] and on threads that
+/// this module has started.
 pub fn threads() -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
-/// Runs both functions, the first on a second thread if that is `worth` it and the system starts one in time.
+/// Runs both functions and returns both results. If `worth` is true, the first one runs on a second thread where possible.
 pub fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,

@@ -2,15 +2,16 @@
 
 use crate::numerics::CompensatedSum;
 
-/// Number of terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the rest.
+/// Number of terms that a sum of powers adds directly. The Euler-Maclaurin formula gives the sum of all other terms.
 const DIRECT_TERMS: u64 = 64;
 
-/// B₂/2!, B₄/4!, … of the Euler-Maclaurin formula: after 64 direct terms the first omitted one is below 1e-18 of the sum.
+/// Coefficients B₂/2!, B₄/4!, … of the Euler-Maclaurin formula. After 64 direct terms the first omitted one is below 1e-18 of
+/// the sum.
 const EULER_MACLAURIN: [f64; 5] =
     [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
 
-/// Σ k^exponent for k = `first` … `last`, 0 without terms, with a relative error of a few units in the last place, in a
-/// time that does not depend on the number of terms.
+/// Returns Σ k^exponent for k from `first` (at least 1) to `last`; 0 if `last` is below `first`. The relative error is a few
+/// units in the last place. The time does not depend on the number of terms.
 ///
 /// ```
 /// let exact: f64 = (1..=100_000).rev().map(|k| f64::from(k).powi(-2)).sum();
@@ -45,10 +46,10 @@ pub fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     sum.total()
 }
 
-/// ∫ q^power dq from `low` to `high`, accurate also where power → −1.
+/// Returns ∫ q^power dq from `low` to `high`, which is also accurate for a power near −1.
 ///
-/// With s = power + 1 it is (high^s − low^s)/s, or low^s (e^(s ln(high/low)) − 1)/s: the difference where the powers
-/// differ much and `expm1` where they do not, with the logarithm as the limit at s = 0.
+/// With s = power + 1 the integral is (high^s − low^s)/s. Where both powers nearly agree, it is computed as low^s `expm1`(s
+/// ln(high/low))/s; for s = 0 it is ln(high/low).
 pub fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
     let s = power + 1.0;
     // For neighbouring ends their quotient would lose significant digits.

@@ -2,10 +2,10 @@
 
 use crate::text::{SI_PREFIXES, shown, si_prefix};
 
-/// Number of significant digits of a quantity written for readers.
+/// Number of significant digits of a quantity in text for readers.
 const DIGITS: usize = 4;
 
-/// Units with their names and with units to choose from, for messages.
+/// SI units, each with its name and the units that a message proposes.
 const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("m", "unit of length", "m, mm, µm, nm"),
     ("N", "unit of force", "N, mN, µN, nN"),
@@ -18,7 +18,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi, %"),
 ];
 
-/// Reason why a typed text is not a quantity.
+/// Error of a typed text that is not a quantity of the expected unit. The string is the whole message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(pub String);
@@ -45,15 +45,15 @@ impl QuantityError {
     }
 }
 
-/// Parses a number typed for a field of this unit, in SI units: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
+/// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
 ///
-/// Unit and blanks are optional. A lone `m` is the prefix milli, except for fields in metres, where it is the unit:
-/// there `50m` is fifty metres and `50mm` fifty millimetres. Angles may also be in degrees, `30°` or `30 deg`, and
-/// numbers without a unit take `%`, and `Ki`, `Mi` and `Gi` for powers of 1024. The number is the one nearest to the typed text; no digit is
-/// lost to the prefix.
+/// The unit and blanks are optional. A lone `m` is the prefix milli. If `unit` is `m`, it is the metre: `50m` is then fifty
+/// metres, and `50mm` fifty millimetres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in
+/// `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024. A decimal prefix loses no digit: the result is the `f64` nearest to the
+/// typed value.
 ///
 /// # Errors
-/// A text that is not a number, has another unit, or is not finite.
+/// Returns an error if the text is not a number, has another unit, or is not finite.
 ///
 /// ```
 /// use asperity_data::parse_quantity;
@@ -77,13 +77,14 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     value.filter(|value| value.is_finite()).ok_or_else(too_large)
 }
 
-/// Adds a unit to a typed number that has none: `50` with the unit `mJ/m²` becomes `50 mJ/m²`. Any other text stays as it is.
+/// Appends a unit to a typed number that has none: `50` with the unit `mJ/m²` becomes `50 mJ/m²`. Other texts stay unchanged.
 pub fn in_unit(typed: &str, unit: &str) -> String {
     let is_number = split_number(typed.trim()).is_some_and(|(.., suffix)| suffix.trim().is_empty());
     if is_number && !unit.is_empty() { format!("{} {unit}", typed.trim()) } else { typed.to_owned() }
 }
 
-/// The unit, with its prefix, of a written quantity: `mJ/m²` for `50 mJ/m²`; empty for a number without a unit.
+/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. A number without a unit gives an empty
+/// text.
 pub fn unit_of(shown: &str) -> &str {
     shown.trim_start_matches(['=', ' ']).split_once(' ').map_or("", |(_, unit)| unit)
 }
@@ -117,8 +118,8 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     Some((digits, 0, rest))
 }
 
-/// Power of ten and further factor to SI units that the text after a number means, in a field of this unit; `None` for
-/// another unit.
+/// Returns the power of ten and the further factor by which a suffix such as `MPa` converts a number to the SI unit `unit`.
+/// Returns `None` if the suffix belongs to another unit.
 fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
     let suffix = canonical(suffix);
     let unit = canonical(unit);
@@ -144,19 +145,19 @@ fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
     })
 }
 
-/// A unit in one spelling: `J/m²`, `J/m^2` and `J / m2` become the same.
+/// Returns a unit in one spelling: `J/m²`, `J/m^2` and `J / m2` become the same.
 fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// Returns true if a unit may have an SI prefix: not powers of a metre, for which the power would apply to the prefix too.
+/// Returns true if a unit may have an SI prefix. In a power of a metre the power would apply to the prefix too.
 fn has_prefixes(unit: &str) -> bool {
     !unit.contains(['−', '(', '³'])
 }
 
-/// A value with its unit for readers, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
+/// Formats a value with its unit for readers, to four significant digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
 ///
-/// Numbers without a unit have no prefix; where they are much smaller or larger than one they have an exponent.
+/// The unit gets an SI prefix. A number without a unit gets an exponent where it is much smaller or larger than one.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_quantity(2.356e-5, "N"), "23.56 µN");
@@ -165,10 +166,11 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
     format_rounded(value, DIGITS, unit)
 }
 
-/// Magnitude below which a quantity with a unit is written as zero: far below the smallest prefix, so the result of rounding.
+/// Magnitude below which a quantity with a unit is written as zero. It is far below the smallest prefix, so only rounding
+/// errors are as small.
 const ROUNDING: f64 = 1e-36;
 
-/// A value with its unit, to this number of significant digits.
+/// Formats a value with its unit, to `digits` significant digits, from 1 to 4.
 pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     // The number next to zero is a state just after a jump at zero.
     let least = if unit == "1" || unit.is_empty() { f64::MIN_POSITIVE } else { ROUNDING };
@@ -177,7 +179,7 @@ pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
-/// A value with its unit, to the second digit of its uncertainty: `50.05 mJ/m²` for ± 0.13 mJ/m².
+/// Formats a value with its unit, down to the second digit of its uncertainty: `50.05 mJ/m²` for ± 0.13 mJ/m².
 ///
 /// ```
 /// assert_eq!(asperity_data::format_within(0.050_123, 0.001, "J/m²"), "50.1 mJ/m²");
@@ -195,7 +197,8 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     }
 }
 
-/// A range with its unit, written once where both ends have the same prefix: `0.33 to 35 µN`, `26 nN to 35 µN`.
+/// Formats a range with its unit, to `digits` significant digits: `0.33 to 35 µN`. Ends with different prefixes both have a
+/// unit: `26 nN to 35 µN`.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
@@ -204,8 +207,7 @@ pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> Strin
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }
 
-/// Joins the ends of a range, each a value with its unit. A unit that both share is written once, and so are equal
-/// ends.
+/// Joins the formatted ends of a range. A unit that both ends share is written once; two equal ends give one value.
 pub fn one_unit([low, high]: [String; 2]) -> String {
     if low == high {
         return low;
@@ -216,12 +218,12 @@ pub fn one_unit([low, high]: [String; 2]) -> String {
     }
 }
 
-/// A value with its unit and all its digits: [`parse_quantity`] reads the same value back.
+/// Formats a value with its unit and all its digits. [`parse_quantity`] reads the same value back.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)
 }
 
-/// A value, given its digits and exponent as `scientific`, with the usual prefix of its unit.
+/// Formats a value with the usual prefix of its unit. `scientific` has its digits and exponent.
 fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let plain = unit == "1" || unit.is_empty();
     let unit_after = if plain { String::new() } else { format!(" {unit}") };
@@ -239,7 +241,7 @@ fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     }
 }
 
-/// A decimal mantissa times a power of ten, with an exponent if the number is much smaller or larger than one.
+/// Formats a mantissa times a power of ten, with an exponent if the number is much smaller or larger than one.
 fn decimal(mantissa: &str, exponent: i32) -> String {
     match exponent {
         -3..6 => shifted(mantissa, exponent),
@@ -247,7 +249,7 @@ fn decimal(mantissa: &str, exponent: i32) -> String {
     }
 }
 
-/// A decimal mantissa of one digit before the point times a power of ten, without trailing zeros.
+/// Formats a mantissa with one digit before the point times a power of ten, without trailing zeros.
 fn shifted(mantissa: &str, power: i32) -> String {
     let sign = if mantissa.starts_with('-') { "-" } else { "" };
     let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();

@@ -1,7 +1,7 @@
-//! Reading of files that users name: regular files only, up to a limit of their size.
+//! Reading of files that users name. Only regular files up to a largest size are read.
 //!
-//! Opening a pipe waits for its writer, a terminal waits for its user, and a device may never end. The size in the metadata
-//! of a file is no bound: a file may grow while it is read, and some systems state a size of zero for files with content.
+//! To open a pipe would wait for its writer, to open a terminal for its user, and a device may never end. The size that the
+//! system states is no bound, because a file may grow while it is read. Some systems state zero for files with content.
 
 use std::fs::{File, OpenOptions};
 use std::io;
@@ -9,7 +9,7 @@ use std::io::Read;
 use std::path::Path;
 use thiserror::Error;
 
-/// Reason why a file was not read. The caller prepends the name of the file.
+/// Reason why a file was not read. The message lacks the name of the file, which the caller prepends.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The path is a folder.
@@ -24,21 +24,21 @@ pub enum ReadError {
     /// The file is longer than allowed.
     #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
     TooLong {
-        /// Largest allowed length, bytes.
+        /// Largest allowed length in bytes.
         limit: usize,
     },
-    /// The bytes are not text.
+    /// The bytes are not text in UTF-8.
     #[error("this is not UTF-8 text: byte {byte} is not")]
     NotText {
         /// Index of the first invalid byte.
         byte: usize,
     },
-    /// The system refused to read, or has no memory for the content.
+    /// The system refused to read, or there is not enough memory for the content.
     #[error("cannot be read: {}", reason(.0))]
     Failed(#[from] io::Error),
 }
 
-/// Message of the system, in plain words where the reason is simple.
+/// Message of the system, in plain words where the file is missing.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -46,7 +46,7 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Opens a regular file for reading; never waits for a writer or for a terminal.
+/// Opens a regular file for reading, and refuses pipes, terminals and devices without waiting.
 pub fn open_regular(path: &Path) -> Result<File, ReadError> {
     // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
     // as far as its kind is known in advance.
@@ -78,12 +78,12 @@ pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     }
 }
 
-/// Reads a regular file of at most `limit` bytes as text.
+/// Reads a regular file of at most `limit` bytes as text in UTF-8.
 pub fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError> {
     into_text(read_regular(path, limit)?)
 }
 
-/// Reads a source up to its end, at most `limit` bytes: for standard input and other streams that the caller can wait for.
+/// Reads a stream to its end, at most `limit` bytes. The caller must be able to wait for the stream, as for standard input.
 pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     // One more byte distinguishes a file of the limit from a longer one.
@@ -91,7 +91,7 @@ pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadErro
     if bytes.len() > limit { Err(ReadError::TooLong { limit }) } else { Ok(bytes) }
 }
 
-/// Converts bytes to text without a copy.
+/// Converts bytes in UTF-8 to text without a copy.
 pub fn into_text(bytes: Vec<u8>) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| ReadError::NotText { byte: error.utf8_error().valid_up_to() })
 }

@@ -1,6 +1,6 @@
 //! Tables of results, written as CSV, as a NumPy array or as JSON objects.
 //!
-//! CSV begins with comments that state how it was made. An array has one field for each column.
+//! A CSV file begins with comments that state how the table was made. A NumPy array has one field for each column.
 
 use super::npy;
 use serde::ser::{Serialize, Serializer};
@@ -11,22 +11,22 @@ use std::io;
 use std::io::Write;
 use std::rc::Rc;
 
-/// Kind of the values in a column.
+/// Type of the values in a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A real number.
     Real,
-    /// An integer, at least 0.
+    /// An integer of at least 0.
     Whole,
     /// Text of at most this many characters.
     Text(usize),
 }
 
-/// Function that gives the value of a row in one column.
+/// Function that returns the value of a column for a row.
 type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
-/// Named columns, and rows that are made one by one as they are written.
+/// A table of named columns. Each row is computed when it is written.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
     /// Counts the rows without computing their values, which may take time.
@@ -34,7 +34,7 @@ pub struct Table<'a> {
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table under construction: its rows, and the columns added so far.
+/// A table under construction, with its rows and the columns added so far.
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
@@ -42,14 +42,15 @@ pub struct TableOf<'a, T> {
 }
 
 impl<'a> Table<'a> {
-    /// Begins a table; `rows` gives an iterator over its rows each time it is called.
+    /// Begins a table without columns. Each call of `rows` returns an iterator over all rows.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
         TableOf { rows: Rc::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
     }
 }
 
 impl<'a, T: 'a> TableOf<'a, T> {
-    /// Adds a column. A missing value is empty in CSV, `null` in JSON and NaN in an array.
+    /// Adds a column; `value` computes the entry of a row. A missing entry is empty in CSV, `null` in JSON and NaN in an
+    /// array.
     pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -61,17 +62,17 @@ impl<'a, T: 'a> TableOf<'a, T> {
         self
     }
 
-    /// Adds a column of real numbers.
+    /// Adds a column of real numbers; `value` computes the entry of a row.
     pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
         self.with(name, Kind::Real, value)
     }
 
-    /// Adds a column of integers that are at least 0.
+    /// Adds a column of integers of at least 0; `value` computes the entry of a row.
     pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
         self.with(name, Kind::Whole, value)
     }
 
-    /// Returns the table with all its columns.
+    /// Ends the construction and returns the table.
     pub fn done(self) -> Table<'a> {
         let (rows, values) = (self.rows, Rc::new(self.values));
         let counted = Rc::clone(&rows);
@@ -84,17 +85,17 @@ impl<'a, T: 'a> TableOf<'a, T> {
 }
 
 impl Table<'_> {
-    /// Names of the columns, each with the kind of its values.
+    /// Returns the names of the columns, each with the type of its values.
     pub fn columns(&self) -> &[(Cow<'static, str>, Kind)] {
         &self.columns
     }
 
-    /// The rows, made one by one.
+    /// Computes the rows one by one. A row has one value for each column.
     pub fn rows(&self) -> impl Iterator<Item = Vec<Value>> {
         (self.rows)()
     }
 
-    /// Writes comma-separated values after comments with the lines of `provenance`, which say how the table was made.
+    /// Writes the table as CSV. The lines of `provenance` come first, as comments that state how the table was made.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))?;
         let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
@@ -153,7 +154,7 @@ impl Table<'_> {
     }
 }
 
-/// A CSV cell; in quotes by RFC 4180 if it contains a separator, a quote or a line break.
+/// Returns a CSV cell, in quotes by RFC 4180 if it contains a separator, a quote or a line break.
 fn quoted(text: &str) -> Cow<'_, str> {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\"")).into()
@@ -162,7 +163,7 @@ fn quoted(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// A JSON array with one object for each row.
+/// Serialises the table as a JSON array with one object for each row.
 impl Serialize for Table<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq((self.rows)().map(|row| Object(&self.columns, row)))

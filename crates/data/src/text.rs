@@ -1,13 +1,12 @@
-//! Text: SI prefixes, grouped digits, and text of foreign origin (titles, names of files, headers, arguments) made safe for
-//! a terminal, a picture or a message.
+//! Text for readers: SI prefixes, grouped digits, and the escape of text from files and arguments.
 //!
-//! A control character can clear a screen, write to the clipboard or invalidate the XML of a picture. A bidirectional
-//! control changes the apparent order of text. Both are replaced by their numbers; all other characters are kept.
+//! A control character can clear a screen, write to the clipboard or invalidate the XML of a picture. A bidirectional control
+//! changes the apparent order of text. Both are replaced by their codes; all other characters are kept.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// SI prefixes that are read, with their powers of ten. Only the first prefix of every third power is written.
+/// SI prefixes that are read, with their powers of ten. Of several prefixes for a power, the first one is written.
 pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
     ("z", -21),
@@ -29,12 +28,12 @@ pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("E", 18),
 ];
 
-/// The SI prefix that is written for a power of ten; `None` for a power without one.
+/// Returns the SI prefix for a power of ten, or `None` if the power has none.
 pub fn si_prefix(power: i32) -> Option<&'static str> {
     SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
 }
 
-/// A number rounded to `digits` significant digits.
+/// Rounds a number to `digits` significant digits.
 ///
 /// ```
 /// assert_eq!(asperity_data::round_to(0.1 + 0.2, 12), 0.3);
@@ -43,15 +42,15 @@ pub fn round_to(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
-/// The smallest number of four digits that is not below a value.
+/// Returns the smallest number of four significant digits that is not below `value`.
 pub fn rounded_up(value: f64) -> f64 {
     let nearest = round_to(value, 4);
     let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
     if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
 }
 
-/// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and marks,
-/// separators of lines and paragraphs, and invisible characters, which terminals give different widths.
+/// Returns true for a character that could change how other text is displayed. Such characters are control characters (C0,
+/// DEL, C1), bidirectional controls, separators of lines and paragraphs, and invisible characters of uncertain width.
 pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -64,17 +63,17 @@ pub fn is_control(c: char) -> bool {
     c.is_control() || bidirectional || invisible
 }
 
-/// Text on one line, with its control characters escaped as in Rust: `\n`, `\u{1b}`.
+/// Escapes all control characters as Rust does, also line breaks: `\n`, `\u{1b}`. The result is one line.
 pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
 
-/// Text of several lines with escaped control characters except for line breaks.
+/// Escapes all control characters except for line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
 
-/// Name of a file or folder on one line, with control characters escaped.
+/// Returns a path as text on one line, with its control characters escaped.
 pub fn path_name(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
@@ -94,7 +93,7 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// An integer with its thousands separated by blanks.
+/// Formats an integer with a blank between groups of three digits.
 ///
 /// ```
 /// assert_eq!(asperity_data::grouped(131_072), "131 072");
@@ -111,7 +110,7 @@ pub fn grouped(count: u64) -> String {
     grouped
 }
 
-/// A number of bytes in binary units, as `1.5 MiB`.
+/// Formats a number of bytes with a binary unit, such as `1.5 MiB`.
 pub fn memory_size(bytes: u64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB"];
     let mut size = bytes as f64;
@@ -124,7 +123,7 @@ pub fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// A relative error in per cent, to one significant digit, or two if the first is 1: as accurate as an estimate is.
+/// Formats a relative error (1 is 100 %) in per cent, to one significant digit, or to two if the first digit is 1.
 pub fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {
@@ -142,7 +141,7 @@ pub fn per_cent(error: f64) -> String {
 /// Units, without prefixes, that stay on one line with the number before them.
 const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
 
-/// Returns true for one of the units, with or without a prefix, and with punctuation after it.
+/// Returns true for one of these units, with or without a prefix, also if punctuation follows.
 fn is_unit(word: &str) -> bool {
     let word = word.trim_end_matches([',', ';', ':', '.', ')']);
     let without_prefix =
@@ -150,14 +149,14 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
 }
 
-/// Returns true if no line may break between two words: within a number with separated thousands, or before its unit.
+/// Returns true if no line may break between two words: inside a number with separated thousands, or before its unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
     word.ends_with(|c: char| c.is_ascii_digit()) && (is_group || is_unit(next))
 }
 
-/// Words of a text; a number and its unit are one word.
+/// Splits a text into words. A number and its unit are one word.
 fn words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for next in text.split_whitespace() {
@@ -169,7 +168,7 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Lines of at most `width` characters, broken between words and within longer ones.
+/// Breaks a text into lines of at most `width` characters, between words and inside words longer than a line.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut room = width;
@@ -195,10 +194,10 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Number of characters from which on a value or name is shortened in messages.
+/// Number of characters after which a message cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Text of foreign origin for a message: one line, shortened, with escaped control characters.
+/// Prepares text from a file or a user for a message: cut after 80 characters, on one line, with control characters escaped.
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

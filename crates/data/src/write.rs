@@ -1,4 +1,4 @@
-//! Atomic writing of files, which overwrites an existing file only on request.
+//! Atomic writing of files. An existing file is replaced only on request.
 
 use crate::text::path_name;
 use std::fs;
@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 use thiserror::Error;
 
-/// Size in bytes of the buffer before a file.
+/// Size in bytes of the buffer for output.
 const BUFFER: usize = 1 << 18;
 
 /// Reason why a file was not written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The file exists, and overwriting was not requested.
+    /// The file exists, and the caller did not ask to replace it.
     #[error("{}: there is a file of that name already", path_name(.0))]
     Exists(PathBuf),
     /// The path does not name a file that can be written.
@@ -23,7 +23,7 @@ pub enum WriteError {
     Unsuitable {
         /// Path of the file.
         path: PathBuf,
-        /// Reason why it cannot be written.
+        /// Reason why the file cannot be written.
         fault: String,
     },
     /// The system refused to write.
@@ -31,7 +31,7 @@ pub enum WriteError {
     Failed {
         /// Path of the file.
         path: PathBuf,
-        /// Answer of the system.
+        /// Error of the system.
         reason: io::Error,
     },
 }
@@ -46,12 +46,13 @@ impl WriteError {
     }
 }
 
-/// Checks before a long computation that [`write_new`] could write a file now; nothing is left behind.
+/// Checks before a long computation that [`write_new`] could write the file now. No file is left behind.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
 
-/// Writes a file as [`write_new_file`] does, or into a pipe or a device, where it waits for a reader.
+/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. Writing into a pipe waits until
+/// another program reads it.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -64,11 +65,11 @@ pub fn write_new(
     fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
-/// Writes a regular file through a temporary one in the same folder: a reader sees the old file or the whole new one,
+/// Writes a regular file through a temporary file in the same folder. Other programs see the old file or the whole new one,
 /// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
 ///
-/// On Linux no end of the process leaves anything behind. Elsewhere, and on file systems without files that have no
-/// name, a killed process may leave a file `.asperity-….tmp`.
+/// On Linux the temporary file has no name until it is complete, so a process that is killed while it writes leaves nothing
+/// behind. On other systems, and on file systems without such files, a killed process may leave a file `.asperity-….tmp`.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
@@ -94,10 +95,10 @@ pub fn write_new_file(
     sync_folder(folder_of(&place)).map_err(failed)
 }
 
-/// A file that is being written, removed unless it is given a name.
+/// A file that is being written. It is removed unless it gets a name.
 struct Temporary {
     file: File,
-    /// Temporary path of the file. On Linux the file has none, so that the system removes it however the process ends.
+    /// Temporary path of the file; `None` on Linux, where the system removes the file however the process ends.
     name: Option<TempPath>,
 }
 
@@ -168,7 +169,7 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Waits until the entries of a folder have reached the disk.
+/// Waits until the names of the files in a folder have reached the disk.
 pub fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
@@ -193,8 +194,8 @@ fn fill(
     buffered.flush()
 }
 
-/// Path to which `path` leads through links, existing or not, with the permissions of the file that it replaces; `None` for
-/// a pipe or a device.
+/// Returns the path to which `path` leads through links, with the permissions of the file there, if it exists. Returns `None`
+/// for a pipe or a device.
 fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permissions>)>, WriteError> {
     let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
     let found = fs::metadata(path);

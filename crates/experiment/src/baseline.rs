@@ -24,7 +24,7 @@ impl Baseline {
         Baseline { count, mean, slope, noise }
     }
 
-    /// Deviations of values from the line; the first value lies at the beginning of the line.
+    /// Returns the deviations of `values` from the line. The first value lies at the beginning of the line.
     pub fn rests(self, values: &[f64]) -> impl Iterator<Item = f64> {
         let middle = 0.5 * (self.count - 1.0);
         values
@@ -34,8 +34,9 @@ impl Baseline {
     }
 }
 
-/// Sums of squared residuals of the least-squares polynomial with `terms` terms through the first value, the first two, and
-/// so on; computed by rotations of each row into the triangle of the rows before.
+/// Returns the sums of squared residuals of least-squares polynomials with `terms` terms. The first sum belongs to the
+/// first value, the second to the first two values, and so on. Each new row is rotated into the triangular matrix of the
+/// rows before.
 pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
@@ -60,7 +61,7 @@ pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) 
     values.enumerate().map(add).collect()
 }
 
-/// Orthonormal columns that span these columns; zero for a column that depends on the columns before it.
+/// Returns orthonormal columns that span the given columns. A column that depends on the columns before it becomes zero.
 pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {

@@ -1,15 +1,16 @@
-//! The columns of a measured curve: which ones hold displacement, force and segment, and their units.
+//! The columns of a measured curve: which columns hold displacement, force and segment, and in which units.
 
 use crate::metadata::Metadata;
 use crate::options::CurveOptions;
 use asperity_data::shown;
+use asperity_data::text_table::TextColumn;
 use asperity_data::{format_quantity, parse_quantity};
-use asperity_surface::TextColumn;
-use asperity_surface::{Place, SurfaceError, refused};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
 
-/// Term, SI unit and example unit of displacement and force, and the names of their columns as letters, preferred names
-/// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the
-/// instrument; the force before a deflection.
+/// For displacement and force: name in words, SI unit, example of a unit, and known names of columns as letters. Preferred
+/// names come first. The displacement of the instrument is preferred to the displacement of the body, which lacks the
+/// deflection of the instrument. A force is preferred to a deflection.
 const QUANTITIES: [(&str, &str, &str, &str); 2] = [
     (
         "displacement",
@@ -28,23 +29,24 @@ const QUANTITIES: [(&str, &str, &str, &str); 2] = [
          cantilever memsdisplacement memsdispl tb fn f",
     ),
 ];
-/// Names of a column with the displacement of the body alone.
+/// Names of columns with the displacement of the body, without the deflection of the instrument.
 const OF_BODY: &str =
     "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
 /// Names of a column of segments.
 const SEGMENT: &str = "segment segmentname segmenttype phase direction";
-/// Words for approach and for retraction in the names of columns side by side, and words for a pause in those of segments.
+/// Words for approach and for retraction in the names of columns side by side, and words for a pause in the names of
+/// segments.
 const DIRECTIONS: [&str; 2] = [
     "approach approaching extend extension ext ex trace loading advance forward",
     "retraction retract retracting ret rt retrace withdraw unloading backward",
 ];
 const PAUSES: &str = "pause hold dwell delay wait";
-/// Displacement that counts one row while rows have no displacement, m.
+/// Displacement per row in m, used before the rows have displacements.
 const OF_ROW: f64 = 1e-9;
 /// Option that helps if the columns are not recognised.
 const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
     beside its approach, such as --columns 1,2,1,3";
-/// Options that a file without names and units needs beside its columns.
+/// Options that a file without names and units needs in addition to `--columns`.
 const UNITS: &str = "; with it --units, such as --units nm,nN, since the file states no units";
 
 /// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
@@ -57,20 +59,20 @@ pub(crate) struct Pair {
 /// The columns of a file that are used.
 #[derive(Debug)]
 pub(crate) struct Choice {
-    /// One pair, or one for an approach and one for the retraction beside it.
+    /// One pair, or two pairs: one for an approach, one for the retraction beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
-    /// Travel, m, over which forces without a column of displacements are evenly spaced.
+    /// Travel of the piezo in m, over which forces without a column of displacements are evenly spaced.
     pub ramp: Option<f64>,
-    /// Name of the column if it holds the displacement of the body, without the deflection of the instrument.
+    /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
     pub of_body: Option<String>,
     /// The columns with their units, in words.
     pub assumed: String,
-    /// Sentences on names and units of the file that the options overrule.
+    /// Sentences on names and units of the file that the options replace.
     pub statements: Vec<String>,
 }
 
-/// Statements of the file beside its columns.
+/// What the file states besides its columns.
 #[derive(Clone, Copy)]
 pub(crate) struct Stated<'a> {
     pub metadata: &'a Metadata,
@@ -177,7 +179,7 @@ impl Choice {
     }
 }
 
-/// SI value of 1 in a column of a quantity, and its unit in words: as the options state, else as the file states. A
+/// Returns the SI value of 1 in a column of a quantity, and the unit in words. The options have precedence over the file. A
 /// deflection becomes a force by the stiffness that the file states.
 fn of_one(
     quantity: usize,
@@ -220,8 +222,8 @@ fn of_one(
     Ok((value, shown(text)))
 }
 
-/// SI value of 1 in a column of a deflection in this unit, a length or a voltage, and what makes it a force; `None` for
-/// another unit.
+/// Returns the SI value of 1 in a column of a deflection, which is a length or a voltage, and what makes it a force.
+/// Returns `None` for another unit.
 fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String), SurfaceError>> {
     let (of_length, of_voltage) = (unit(text, "m"), unit(text, "V"));
     let stiffness = metadata.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
@@ -243,7 +245,7 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String)
     })
 }
 
-/// Statements in the name of a column.
+/// What the name of a column says.
 #[derive(Clone, Debug)]
 struct Named {
     /// 0 approach, 1 retraction.
@@ -281,8 +283,8 @@ impl Named {
     }
 }
 
-/// Indices of the columns of displacement and force that names identify, twice if approach and retraction are side by side;
-/// the error is the term of the quantity that no name identifies.
+/// Returns the indices of the columns of displacement and force that names identify, twice if approach and retraction are
+/// side by side. The error is the name of the quantity that no column names.
 fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     let of = |quantity: usize, direction: Option<usize>| {
         let is = |known: &str| {

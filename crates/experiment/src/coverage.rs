@@ -1,7 +1,7 @@
-//! The intervals of many fits of curves with known values hold these values.
+//! Test: the intervals of many fits hold the known values of their curves.
 
 use crate::error::ExperimentError;
-use crate::fit::{FitResult, FittedParameter};
+use crate::fit_result::{FitResult, FittedParameter};
 use crate::made::{fitted, free, measured, noise, random, truth};
 use crate::parameter::Parameter;
 use asperity_data::on_threads;

@@ -1,4 +1,4 @@
-//! A measured force curve: its segments, with pressing positive; the zero of its force, its drift and its noise.
+//! A measured force curve: its segments, the zero of its force, its drift and its noise. Pressing is positive.
 
 use crate::baseline::{ends, right_angled};
 use crate::error::{ExperimentError, refused};
@@ -11,69 +11,70 @@ use crate::zero::FreeParts;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
 use asperity_data::mean;
-use asperity_surface::content;
+use asperity_surface::files::content;
 use std::path::Path;
 
 /// Largest number of points that a fit uses; of more points, neighbours are averaged.
 const MOST_POINTS: usize = 4096;
 const FEWEST_POINTS: usize = 4 * FEWEST;
-/// Noise over the range of the force that is assumed for a curve without noise.
+/// Noise that is assumed for a curve without noise, as a share of the range of the force.
 const NO_NOISE: f64 = 1e-6;
-/// Force at the end of the approach, in standard deviations of the noise, below which it counts as tensile: its sign is
-/// then in doubt.
+/// Force at the end of the approach, in standard deviations of the noise. A force below this value is a tension, so the
+/// sign of the file is in doubt.
 const PULLS: f64 = -5.0;
 
-/// A measured curve in SI units: displacement of the instrument, m, which grows on pressing, and force, N, without the
-/// force before contact; compression is positive.
+/// Measured force curve in SI units: displacement of the instrument in m and force in N. The displacement grows on
+/// pressing, compression is positive, and the force is zero before contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// Displacements of the instrument, m.
+    /// Displacement of the instrument at each point, in m.
     pub displacement: Vec<f64>,
-    /// Forces, N.
+    /// Force at each point, in N.
     pub force: Vec<f64>,
-    /// Index of the segment of each point; segments with even indices press.
+    /// Index of the segment of each point, from 0. The body is pressed in segments with even indices and pulled in segments
+    /// with odd indices.
     pub segment: Vec<usize>,
-    /// Number of the first points, which are before contact.
+    /// Number of points at the beginning of the curve that lie before contact.
     pub(crate) free: usize,
-    /// Displacement, m, at which the contact seems to begin.
+    /// Estimated displacement at which the contact begins, in m.
     pub touch: f64,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
     /// Number of points of the file that are used.
     pub points: usize,
-    /// Number of points left out since a value is missing.
+    /// Number of points of the file that are left out because a value is missing.
     pub missing: usize,
-    /// Displacements, m, at which the segments end.
+    /// Displacement at the end of each segment, in m.
     pub(crate) turns: Vec<f64>,
-    /// Changes of the force, N, that remain in the curve without contact: over time, over the displacement, and from before
-    /// to after contact; 0 where there is none.
+    /// Changes of the force that remain in the curve without contact, in N: over time, over the displacement, and from
+    /// before to after contact. A change that was not found is 0.
     pub(crate) remaining: [f64; 3],
     /// Time and displacement of each point, as shares of the whole curve.
     pub(crate) shares: [Vec<f64>; 2],
     /// Whether the zero of the force, a drift and a tilt were estimated from the points without contact and subtracted.
     pub(crate) is_estimated: [bool; 3],
-    /// Name and value of the stiffness of the instrument that the file states, N/m.
+    /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub(crate) stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement if it is the displacement of the body, without the deflection of the
-    /// instrument.
+    /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
     pub(crate) of_body: Option<String>,
-    /// Sentences on what was assumed and done to the curve; the first one has columns, units and points.
+    /// Sentences about the assumptions and changes made when the curve was read. The first sentence names columns, units
+    /// and points.
     pub statements: Vec<String>,
 }
 
 impl MeasuredCurve {
-    /// Reads a curve of at most 1 GiB: text, CSV or a NumPy array, also compressed by gzip.
+    /// Reads a curve from a file of at most 1 GiB: text, CSV or a NumPy array, each also compressed by gzip.
     ///
     /// # Errors
-    /// The file cannot be read, or the curve lacks a part before contact, a contact or a turning point.
+    /// The file cannot be read. The curve has no part before contact, no contact or no turning point.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
 
-    /// Reads a curve from the content of a file; the name of the file identifies formats that are no text.
+    /// Reads a curve from the content of a file. The name of the file identifies binary formats, which are refused.
     ///
     /// # Errors
-    /// As [`MeasuredCurve::read`].
+    /// The same as the errors of [`MeasuredCurve::read`].
     ///
     /// ```
     /// use asperity_experiment::{CurveOptions, MeasuredCurve};
@@ -91,11 +92,11 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
     }
 
-    /// Takes a curve from displacements (m) and forces (N) in the order of time. A point with a value that is not finite is
-    /// left out. The options of files have no effect: columns, units and the ramp.
+    /// Makes a curve from displacements in m and forces in N, in the order of time. A point with a value that is not finite
+    /// is left out. Options that describe a file have no effect: columns, units and the travel of the piezo.
     ///
     /// # Errors
-    /// Numbers of values that differ, and as [`MeasuredCurve::read`].
+    /// The slices differ in length. The errors of [`MeasuredCurve::read`] are possible too.
     ///
     /// ```
     /// use asperity_experiment::{CurveOptions, MeasuredCurve};
@@ -118,7 +119,7 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
     }
 
-    /// Returns true if a file has columns of displacement and force, even if it is not used as a curve.
+    /// Returns true if the file has columns of displacement and force. The curve may still be unfit for use.
     pub fn is_in(path: &Path) -> bool {
         let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
@@ -215,19 +216,20 @@ impl MeasuredCurve {
         })
     }
 
-    /// Displacement, m, and force, N, of each point.
+    /// Returns the displacement in m and the force in N of each point.
     pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
         self.displacement.iter().copied().zip(self.force.iter().copied())
     }
 
-    /// Largest tension of the retractions, N, positive; `None` if it does not exceed the noise.
+    /// Returns the largest tension of the retractions in N, as a positive number; `None` if it is at most 5 times the
+    /// noise.
     pub fn pull_off_force(&self) -> Option<f64> {
         let pulled = self.force.iter().zip(&self.segment).filter(|(_, segment)| *segment % 2 == 1);
         let force = -ends(pulled.map(|(force, _)| *force)).0;
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
-    /// The curve with at most about `count` of its points, evenly chosen; `None` if it has few more.
+    /// Returns the curve with about `count` of its points, evenly chosen; `None` if it has fewer than twice as many.
     pub(crate) fn thinned(&self, count: usize) -> Option<MeasuredCurve> {
         let step = self.force.len() / count;
         if step < 2 {
@@ -248,8 +250,8 @@ impl MeasuredCurve {
         })
     }
 
-    /// Orthonormal columns for the zero of the force, a removed drift and a removed tilt, as far as they were estimated
-    /// from the curve: each model refines them. `has_zero` is true if the zero is a free parameter.
+    /// Returns orthonormal columns for the zero of the force, the removed drift and the removed tilt, if these were
+    /// estimated from the curve. Each model refines the estimates. `has_zero` is true if the zero is a free parameter.
     pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
         let [time, displacement] = self.shares.clone();
         let columns = [vec![1.0; time.len()], time, displacement];
@@ -259,8 +261,8 @@ impl MeasuredCurve {
     }
 }
 
-/// Brings approach and retraction into the order of time if they are not, and says in words what was done. Columns side by
-/// side may begin at their turn; a file may begin with the retraction.
+/// Brings approach and retraction into the order of time, and says in words what was done. Columns side by side may begin
+/// at the turning point, and a file may begin with the retraction.
 fn in_order(
     displacement: &mut [f64],
     force: &mut [f64],
@@ -288,7 +290,7 @@ fn in_order(
     Some("the retraction comes first and was put behind the approach")
 }
 
-/// Numbers of points that are used, before or after contact, and of pauses, in words.
+/// Returns the numbers of points that are used, that lie before or after contact, and that belong to pauses, in words.
 fn counted(points: &Points, kept: &[usize], free: &FreeParts, options: &CurveOptions) -> Vec<String> {
     let sum = |of: &dyn Fn(usize) -> bool| {
         let counted = (0..points.counts.len()).filter(|index| of(*index)).map(|index| points.counts[index]);
@@ -317,7 +319,7 @@ fn counted(points: &Points, kept: &[usize], free: &FreeParts, options: &CurveOpt
     words
 }
 
-/// Returns an error for a force that is negative where the body presses most.
+/// Returns an error if the force is negative where the body is pressed most.
 fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
     let first = points.of(points.segment[0]);
     let count = (first.len() / 20).max(1);

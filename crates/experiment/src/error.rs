@@ -1,11 +1,11 @@
-//! The reason why a curve is not read or not fitted.
+//! The reasons why a curve cannot be read or fitted.
 
 use asperity_contact::ContactError;
 use asperity_scene::RunError;
 use asperity_surface::SurfaceError;
 use thiserror::Error;
 
-/// Reason why a curve cannot be read or fitted. The caller prepends the name of the file or scene.
+/// Reason why a curve cannot be read or fitted. The caller puts the name of the file or scene before the message.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
@@ -15,9 +15,9 @@ pub enum ExperimentError {
     /// The curve or the scene cannot be fitted.
     #[error("{found}; allowed: {allowed}")]
     Refused {
-        /// What was found, in words.
+        /// The curve, option or scene that was found, in words.
         found: String,
-        /// What is allowed, and the option that helps.
+        /// What is allowed instead, with the option that helps.
         allowed: String,
     },
     /// A computation failed or was stopped.

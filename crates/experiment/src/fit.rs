@@ -1,131 +1,33 @@
-//! Fit of the parameters of a scene to a measured curve, with their errors, and the parameters that the curve cannot
-//! separate.
+//! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit also finds the
+//! parameters that the curve cannot separate.
 
 use crate::baseline::dot;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
+use crate::fit_result::{FitResult, FittedParameter};
 use crate::model::Model;
 use crate::parameter::{Coordinate, Free, Parameter, Values};
 use crate::population::WRONG_SIDE;
-use crate::reason::{Reason, reason};
+use crate::reason::reason;
 use crate::scene::{with_values, wrong};
 use crate::search::{Found, MISFIT, Search};
 use crate::space::Space;
 use crate::statistics::{block_error, correlated, correlation, spread, widen};
-use asperity_data::{Control, format_within};
+use asperity_data::{Control, format_rounded};
 use asperity_scene::Document;
 use asperity_scene::Simulation;
 use asperity_scene::scene_tabor_number;
-use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Correlation above which parameters are not separated, and half width of a 95 % interval of a logarithm above which it is
-/// undetermined.
+/// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
+/// parameter is undetermined.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
-/// Number of points that are enough for a curve whose residuals are no noise.
+/// Number of points that are enough for a curve whose residuals are more than noise.
 const ENOUGH: usize = 400;
-/// Half width of the 95 % interval of a normal distribution, in standard deviations.
+/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// A fitted parameter with its errors.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-#[non_exhaustive]
-pub struct FittedParameter {
-    /// Which parameter it is.
-    #[serde(skip)]
-    pub parameter: Parameter,
-    /// Value of the smallest residuals; all values are in the SI unit of the parameter.
-    pub value: f64,
-    /// Ends of the 95 % interval; the whole range where the profile is random and the model does not describe the curve.
-    #[serde(flatten, serialize_with = "low_and_high")]
-    pub interval: (f64, f64),
-    /// Standard error due to the noise.
-    pub noise_error: f64,
-    /// Value at which the search began.
-    pub start: f64,
-    /// Range in which the value was searched.
-    pub range: (f64, f64),
-}
-
-fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Result<S::Ok, S::Error> {
-    let mut map = serializer.serialize_map(Some(2))?;
-    map.serialize_entry("low", low)?;
-    map.serialize_entry("high", high)?;
-    map.end()
-}
-
-impl FittedParameter {
-    /// A value of the parameter in words, with the digits that its interval determines, unless it is the whole range.
-    pub fn text(&self, value: f64) -> String {
-        let half = 0.5 * (self.interval.1 - self.interval.0);
-        format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
-    }
-}
-
-/// Result of a fit.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[non_exhaustive]
-pub struct FitResult {
-    /// The free parameters with their errors.
-    #[serde(serialize_with = "by_name")]
-    pub parameters: Vec<FittedParameter>,
-    /// Root mean square residual of all points, N.
-    pub residual: f64,
-    /// Root mean square residual over the noise.
-    pub residual_over_noise: f64,
-    /// Share of the points whose residual exceeds 5 times the noise.
-    pub beyond_five_sigma: f64,
-    /// Root mean square residual of the points in contact over the noise; points inside a jump of the model count as
-    /// described, and other single points count as 5 times that root mean square.
-    pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve
-    /// equally well.
-    #[serde(skip)]
-    pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values.
-    pub tabor: Option<f64>,
-    /// Why the model does not describe the curve; `None` if it does.
-    pub reason: Option<Reason>,
-    /// Correlation of each pair of parameters.
-    pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs of parameters that the curve cannot separate; a pair of the same parameter for one that the curve does not
-    /// determine.
-    pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Change of the scene by the file of the curve, in words.
-    #[serde(skip)]
-    pub instrument: Option<String>,
-    /// Number of curves computed by the fit.
-    pub evaluations: usize,
-    /// Force of the model at each point, N, including the zero and the drift of the curve, which the fit refines.
-    #[serde(skip)]
-    pub model: Vec<f64>,
-    /// The scene with the fitted values, loaded as the measured curve was.
-    #[serde(rename = "scene", serialize_with = "scene_of")]
-    pub document: Document,
-}
-
-fn by_name<S: Serializer>(parameters: &[FittedParameter], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(parameters.iter().map(|one| (one.parameter, one)))
-}
-
-fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, S::Error> {
-    document.scene().serialize(serializer)
-}
-
-impl FitResult {
-    /// Returns true if the model describes the curve.
-    pub fn describes(&self) -> bool {
-        self.misfit <= MISFIT
-    }
-
-    /// Returns true if the model does not describe the curve and the profile of the scene is random: the specimen has another
-    /// one, and the values found say nothing about it.
-    pub fn has_other_profile(&self) -> bool {
-        !self.describes() && self.document.scene().seed().is_some()
-    }
-}
-
-/// A fit to be made: a scene and its free parameters.
+/// Fit of a scene, with its free parameters, to a measured curve.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -154,37 +56,40 @@ pub struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// A fit of this scene, without a free parameter so far.
+    /// Makes a fit of a scene without free parameters.
     pub fn of(document: &'a Document) -> Self {
         Fit { document, free: Vec::new() }
     }
 
-    /// Frees a parameter, in a range of its own if it is a [`Free::within`].
+    /// Adds a free parameter, which is searched in its own range if it comes from [`Free::within`].
     #[must_use]
     pub fn free(mut self, free: impl Into<Free>) -> Self {
         self.free.push(free.into());
         self
     }
 
-    /// Fits the free parameters to a curve, on one thread. The progress is the number of curves computed so far.
+    /// Fits the free parameters to a curve on one thread. The reported progress is the number of curves computed so far.
     ///
-    /// A population of parameter sets is drawn over the ranges, evenly in their logarithms. The assumed noise starts large,
-    /// where jumps count little, and is lowered to the noise of the curve. At each step likely sets are copied, unlikely
-    /// sets are dropped, and all are moved (sequential Monte Carlo). A point on the wrong side of a jump counts by the
-    /// logarithm of its residual. Zero, drift and tilt are estimated anew with each model. The population is drawn twice if
-    /// the residual remains above the noise, and the better one is kept. Residuals that are no noise are divided into four
-    /// parts of each segment; the errors are then the scatter of the values if parts are weighted anew (jackknife).
+    /// The search is a sequential Monte Carlo method. A population of parameter sets is drawn over the ranges, evenly in
+    /// the logarithms of most parameters. The assumed noise starts large, so that jumps count little, and is lowered to the
+    /// noise of the curve. At each step likely sets are copied, unlikely sets are dropped, and all sets are moved. A point
+    /// on the wrong side of a jump counts by the logarithm of its residual.
+    ///
+    /// Each model comes with its own estimate of zero, drift and tilt of the force. Another population is drawn if the
+    /// residual remains above the noise, and the better population is kept. If the residuals are more than noise, each
+    /// segment is divided into four parts. The errors then come from the scatter of the values as the weights of the parts
+    /// change (jackknife).
     ///
     /// # Errors
-    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. A value of the curve is not allowed,
-    /// a computation fails, or `stop` returns true.
+    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. The curve is unsuitable, a
+    /// computation fails, or the fit is stopped.
     pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
         find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))
     }
 }
 
-/// Fits parameters of a scene to a curve; `report` receives the number of computed curves.
+/// Fits parameters of a scene to a curve. `report` receives the number of curves computed so far.
 fn find(
     curve: &MeasuredCurve,
     document: &Document,
@@ -196,6 +101,8 @@ fn find(
     let mut simulation = Simulation::new(given.resolve(""));
     let instrument = curve.with_instrument(given).map_err(wrong)?.1;
     let (document, space) = Space::of(curve, given, &mut simulation, free, stop)?;
+    let is_fixed = space.coordinates.iter().all(|one| one.parameter != Parameter::Offset);
+    let assumptions = instrument.into_iter().chain(is_fixed.then(|| fixed_touch(curve))).collect();
     let Searched { found, rests, misfit, evaluations } =
         searched(curve, &document, &mut simulation, &space, report)?;
     if let Some(free) = space.extended(&found.best.at, free) {
@@ -268,14 +175,27 @@ fn find(
         reason: reason.transpose()?,
         correlations,
         not_distinguished,
-        instrument,
+        assumptions,
         evaluations,
         model,
         document: found,
     })
 }
 
-/// The result of the search, with the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
+/// The first touch that a fit takes from the curve if it does not search the offset, in words. A displacement off by half the
+/// distance of two points shifts the modulus by more than its interval where the noise is small.
+fn fixed_touch(curve: &MeasuredCurve) -> String {
+    let distances = curve.displacement.iter().map(|at| (at - curve.touch).abs());
+    let next = distances.filter(|distance| *distance > 0.0).fold(f64::INFINITY, f64::min);
+    let [touch, next] = [curve.touch, next].map(|at| format_rounded(at, 3, "m"));
+    format!(
+        "First touch was taken at the point at {touch}, and the next point is {next} away. The offset was not fitted, so the \
+         intervals leave out this uncertainty: --free {} fits it.",
+        Parameter::Offset.name()
+    )
+}
+
+/// Result of a search: the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
 /// computed.
 struct Searched {
     found: Found,
@@ -284,8 +204,8 @@ struct Searched {
     evaluations: usize,
 }
 
-/// Searches the parameters. If the residuals of a part of the points are no noise, the search uses these points alone: more of
-/// them would not average the residuals out.
+/// Searches the parameters. If the residuals of a part of the points are more than noise, the search uses only these
+/// points, because further points would not reduce the residuals.
 fn searched(
     curve: &MeasuredCurve,
     document: &Document,
@@ -321,6 +241,7 @@ mod tests {
         Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
     };
     use crate::options::Drift;
+    use crate::reason::Reason;
     use asperity_contact::Move;
 
     /// Asserts that the values differ from the truth by at most a few standard errors, and that the residuals are as large
@@ -358,6 +279,22 @@ mod tests {
         let scene = fit.document.scene();
         assert_eq!(scene.adhesion.unwrap().work(), Some(work));
         assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
+    }
+
+    /// First touch lies between two points: an offset that is not fitted shifts the modulus beyond its interval, which is said.
+    #[test]
+    fn an_offset_that_is_not_fitted_is_named() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let [fixed, free] = ["work,modulus", "work,modulus,offset"].map(|free| fitted(&curve, &made, free));
+        let truth = truth(&made, Parameter::Modulus);
+        let holds = |fit: &FitResult| {
+            let (low, high) = fit.parameters[1].interval;
+            (low..=high).contains(&truth)
+        };
+        assert!(!holds(&fixed) && holds(&free), "{truth:e} {:?} {:?}", fixed.parameters, free.parameters);
+        let of_offset = |fit: &FitResult| fit.assumptions.iter().any(|text| text.contains("--free offset"));
+        assert!(of_offset(&fixed) && !of_offset(&free), "{:?}", fixed.assumptions);
     }
 
     /// A point in the middle of the jump at pull-off changes neither the fit nor the number of curves computed for it; as far

@@ -1,9 +1,10 @@
 //! Binary files of instruments, which are refused with the way to a text.
 
-use asperity_surface::{Place, SurfaceError, refused};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
 use std::path::Path;
 
-/// Ends of the names of binary files, the first bytes that identify them, what they are, and how the curve becomes a text.
+/// For each binary format: ends of file names, first bytes, name, and the way to a text file.
 const FORMATS: [(&[&str], &[u8], &str, &str); 12] = [
     (
         &["jpk-force", "jpk-force-map", "jpk-qi-data", "jpk-qi-series"],
@@ -34,7 +35,7 @@ const FORMATS: [(&[&str], &[u8], &str, &str); 12] = [
     (&["zip"], b"PK", "an archive", "the files in it"),
 ];
 
-/// Returns an error for a file that is no text: what it is, and how its curve becomes a text.
+/// Returns an error for a binary file. The error names the format and the way to a text file.
 pub(crate) fn check_is_text(path: &Path, bytes: &[u8]) -> Result<(), SurfaceError> {
     let is_wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     if is_wide || !bytes.contains(&0) {

@@ -1,4 +1,4 @@
-//! The parts of a curve without contact: where they end, and the drift and tilt of their force.
+//! The parts of a curve without contact: where they end, and the drift and the tilt of their force.
 
 use crate::baseline::{Baseline, dot, ends, growing, right_angled, take_off};
 use crate::statistics::correlated;
@@ -6,35 +6,34 @@ use crate::statistics::correlated;
 /// Smallest number of points without contact, and of points in contact.
 pub(crate) const FEWEST: usize = 10;
 const FEWEST_IN_CONTACT: usize = 4;
-/// Gain of a contact over a straight line (number of points times the decrease of the logarithm of the sum of squared
-/// residuals) from which on the contact is not attributed to noise.
+/// Least gain by a contact over a straight line. The gain is the number of points times the decrease of the logarithm of
+/// the sum of squared residuals. A smaller gain is attributed to noise.
 const GAIN: f64 = 40.0;
-/// Deviation of the last points from the line before them, in standard errors, from which on they are in contact.
+/// Deviation of the last points from the line before them, in standard errors, above which these points are in contact.
 const DEVIATES: f64 = 4.0;
-/// The last n-th of the points without contact, for these n, is compared with the points before.
+/// Values of n: the last n-th of the points without contact is compared with the points before.
 const PARTS: [usize; 3] = [5, 10, 20];
-/// A line is in contact from its first point on if its slope exceeds this share of the slope in contact, and the force
-/// before contact changes by more than the second share of its range.
+/// A segment is in contact from its first point if two shares are exceeded: the slope of its beginning by the first share
+/// of the slope in contact, and the change of the force before contact by the second share of the range of the force.
 const STEEP: f64 = 0.5;
 const NOTABLE: f64 = 0.05;
 
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NoBaseline {
-    /// The segment has only this few points.
+    /// The segment has too few points: this number.
     Few,
-    /// The segment is a straight line: range and noise of the force, N.
+    /// The segment is a straight line, with this range and this noise of the force in N.
     Straight(f64, f64),
     /// The force changes from the first point on.
     InContact,
 }
 
-/// Returns the number of the first values of a segment, which are before contact. The noise is assumed to be at least
-/// `least`.
+/// Returns the number of values before contact at the beginning of a segment. The noise is assumed to be at least `least`.
 ///
-/// The contact begins where a straight line before and a parabola behind describe the segment best. This finds the steep
-/// part of the contact; its weak beginning is found by going back from there until the last points no longer deviate from
-/// the line through the points before them.
+/// The contact begins where a straight line before it and a parabola behind it describe the segment best. This place lies
+/// in the steep part of the contact. Its weak beginning is found by going back until the last points no longer deviate from
+/// the line through the points before.
 pub(crate) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
     let count = values.len();
     if count < 2 * FEWEST {
@@ -71,8 +70,8 @@ pub(crate) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline
     Ok(free)
 }
 
-/// Reduces the number `free` of the first values until the last of them do not deviate from the line through the values
-/// before.
+/// Reduces the number `free` of values without contact until the last of these values do not deviate from the line through
+/// the values before.
 fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     let deviates = |free: usize, last: usize| {
         let line = Baseline::through(&values[..free - last]);
@@ -93,9 +92,9 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     free
 }
 
-/// Drift, tilt and step of the force without contact, N, each with a standard error. The drift is the change from the first
-/// to the last point of the curve, and the tilt the change over the range of the displacement. The step is the difference
-/// between the force after and before contact that neither drift nor tilt explains.
+/// Drift, tilt and step of the force without contact in N, each with a standard error. The drift is the change from the
+/// first to the last point of the curve. The tilt is the change over the range of the displacement. The step is the
+/// difference of the force after and before contact that neither drift nor tilt explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Slopes {
     pub zero: f64,
@@ -105,8 +104,9 @@ pub(crate) struct Slopes {
 }
 
 impl Slopes {
-    /// Fits the slopes that `is_asked` for to points of (time, displacement, 1 after contact or 0 before, force), with time
-    /// and displacement as shares of the whole curve; the others are 0. `None` if the points cannot separate them.
+    /// Fits the slopes that `is_asked` selects to points of (time, displacement, 1 after contact or 0 before, force). Time
+    /// and displacement are shares of the whole curve. Slopes that are not selected are 0. Returns `None` if the points
+    /// cannot separate the slopes.
     pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let mut columns = vec![vec![1.0; points.len()]];
@@ -117,8 +117,8 @@ impl Slopes {
         Some(Slopes { zero, drift: slope(0)?, tilt: slope(1)?, step: slope(2)? })
     }
 
-    /// Root mean square deviation of points from drift, tilt and step, N, and the deviation expected from the noise between
-    /// neighbours.
+    /// Returns the root mean square deviation of points from drift, tilt and step in N, and the deviation expected from the
+    /// noise between neighbouring points.
     pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
@@ -132,8 +132,8 @@ impl Slopes {
     }
 }
 
-/// Least-squares coefficients of columns for these values, with standard errors; `None` if a column depends on the columns
-/// before it.
+/// Returns least-squares coefficients of columns for these values, with standard errors; `None` if a column depends on the
+/// columns before it.
 pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
     let basis = right_angled(columns);
     let mut rests = values.to_vec();

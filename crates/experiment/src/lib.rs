@@ -8,6 +8,7 @@ mod curve;
 mod ensemble;
 mod error;
 mod fit;
+mod fit_result;
 mod foreign;
 mod free;
 mod metadata;
@@ -39,7 +40,8 @@ pub use ensemble::result::{
     CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares, SummaryDeviation,
 };
 pub use error::ExperimentError;
-pub use fit::{Fit, FitResult, FittedParameter};
+pub use fit::Fit;
+pub use fit_result::{FitResult, FittedParameter};
 pub use options::{CurveOptions, Drift, Negate, Tilt};
 pub use parameter::{Free, Parameter, ParameterRow};
 pub use reason::Reason;

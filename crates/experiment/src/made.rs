@@ -1,7 +1,8 @@
-//! Curves of scenes with known values, for tests.
+//! Test curves of scenes with known values.
 
 use crate::curve::MeasuredCurve;
-use crate::fit::{Fit, FitResult};
+use crate::fit::Fit;
+use crate::fit_result::FitResult;
 use crate::options::{CurveOptions, Drift};
 use crate::parameter::{Free, Parameter};
 use crate::scene::radius_of;
@@ -27,8 +28,8 @@ pub(crate) fn stiffness(scene: &Scene) -> f64 {
     scene.loading_stiffness.unwrap()
 }
 
-/// Displacements, m, and forces, N, at 500 almost evenly spaced displacements of approach and retraction: the points of
-/// a fine curve at which d + F/k first reaches them.
+/// Returns displacements in m and forces in N at 500 almost evenly spaced displacements of approach and retraction. They
+/// are the points of a fine curve at which d + F/k first reaches these displacements.
 pub(crate) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
     let mut fine = scene.clone();
     fine.numerics.samples = 1 << 18;
@@ -71,7 +72,7 @@ pub(crate) fn noise(made: &Made, seed: u64) -> Vec<f64> {
     gauss(made.noise, seed)
 }
 
-/// The curve with noise, drift, an offset and a zero, read from nm and µN.
+/// Returns the curve with noise, drift, an offset and a zero, read from a text in nm and µN.
 pub(crate) fn measured(made: &Made, seed: u64) -> MeasuredCurve {
     let points = force_curve(&made.scene).into_iter().zip(noise(made, seed)).enumerate();
     let disturbed = points.map(|(index, ((displacement, force), noise))| {
@@ -97,8 +98,8 @@ pub(crate) fn from_text(text: &str, options: &CurveOptions) -> Result<MeasuredCu
     from_bytes(text.as_bytes(), options)
 }
 
-/// Displacements, nm, and forces, nN, of a spring of 2 N/m that touches at 0 nm, with an alternating noise of 0.1 nN
-/// and a zero of 1 nN, pressed from −100 to 50 nm and back in `count` points.
+/// Returns displacements in nm and forces in nN of a spring of 2 N/m that touches at 0 nm. The noise alternates by 0.1 nN
+/// and the zero is 1 nN. The spring is pressed from −100 to 50 nm and back in `count` points.
 pub(crate) fn of_spring(count: usize) -> Vec<(f64, f64)> {
     let point = |index: usize| {
         let way = 300.0 * index as f64 / (count - 1) as f64;
@@ -128,8 +129,9 @@ pub(crate) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
     points.into_iter().fold("displacement [nm],force [nN]\n".to_owned(), line)
 }
 
-/// A sphere without adhesion on rubber (Hertz), R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm, with 100 points there and
-/// back; the force is `times` the force of Hertz, as a function of indentation, m, and direction, 1 or −1.
+/// Returns the curve of a sphere without adhesion on rubber (Hertz), with R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm, and
+/// 100 points in each direction. The force is `times` the force of Hertz. `times` is a function of the indentation in m and
+/// of the direction, 1 or −1.
 pub(crate) fn rubber(deviation: f64, seed: u64, times: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
     rubber_of(100, deviation, seed, times)
 }

@@ -1,7 +1,7 @@
-//! What the lines above the numbers of a curve state about its instrument.
+//! What the lines above the numbers of a curve say about the instrument.
 
 use asperity_data::parse_quantity;
-use asperity_surface::{Decimal, Separator, TextCell};
+use asperity_data::text_table::{Decimal, Separator, TextCell};
 
 /// Names of the stiffness of the instrument, of the deflection for 1 V, and of the travel of the piezo, as letters.
 const STIFFNESS: [&str; 6] =
@@ -22,8 +22,8 @@ pub(crate) struct Metadata {
 }
 
 impl Metadata {
-    /// Reads a line: `key: value`, `key = value` or `key`, a tab and `value`, with a unit behind the key or the value. A value
-    /// without a unit is one in SI units.
+    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is behind the key or the value;
+    /// without a unit the value is in SI units.
     pub fn take(&mut self, line: &str) {
         let parts = line.rsplit_once(": ").or_else(|| line.split_once([':', '=', '\t']));
         let Some((key, value)) = parts else { return };
@@ -60,7 +60,7 @@ impl Metadata {
     }
 }
 
-/// SI value of 1 in a unit that is a ratio, such as nN/nm; 1 without a unit.
+/// Returns the SI value of 1 in a unit that is a ratio, such as nN/nm; 1 without a unit.
 fn ratio(unit: &str, over: &str, under: &str) -> Option<f64> {
     if unit.is_empty() {
         return Some(1.0);

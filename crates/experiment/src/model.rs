@@ -1,4 +1,4 @@
-//! The force of a scene at the measured displacements, for any values of its parameters.
+//! The force of a scene at the measured displacements, for any values of the parameters.
 
 use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
@@ -11,32 +11,33 @@ use asperity_scene::{DisplacementCurve, DisplacementPoint};
 use asperity_surface::Form;
 use std::ops::Range;
 
-/// Number of points of the force curve of each segment besides points at jumps, and number of points of a coarse force curve.
+/// Number of points of the force curve of each segment without the points at jumps, and number of points of a coarse force
+/// curve.
 const SAMPLES: usize = 128;
 const FEW: usize = 64;
-/// Limit of the extensions of a loading that does not reach its last displacement, and number of halvings of the last
+/// Largest number of extensions of a loading that does not reach its last displacement, and number of halvings of the last
 /// extension.
 const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
 /// Smallest jump of the force, in units of the noise, that the points resolve.
 const NOTABLE: f64 = 2.0;
-/// Number of points on each side of a fold, each half as far from it as the one before; none at a jump, whose ends are
-/// points already.
+/// Number of points on each side of a fold, each half as far from the fold as the point before. A jump needs none, because
+/// its ends are points.
 const FAN: i32 = 8;
 
-/// Computes a scene at the displacements of a measured curve.
+/// Computation of a scene at the displacements of a measured curve.
 pub(crate) struct Model<'a> {
     curve: &'a MeasuredCurve,
     scene: CheckedScene,
     simulation: &'a mut Simulation,
-    /// Contact of a scene and the radius of its form, m; springs and tree are reused for all other values.
+    /// Contact of a scene and the radius of its form in m. Springs and tree are reused for all other values.
     contact: Option<(Contact, f64)>,
-    /// Noise to which the forces are accurate, in units of the noise of the curve, at least 1.
+    /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
     pub noise: f64,
     pub evaluations: usize,
 }
 
-/// The instrument, and the points at which a curve is computed.
+/// Instrument, and points at which a curve is computed.
 #[derive(Clone, Copy)]
 pub(crate) struct Sampling {
     pub stiffness: f64,
@@ -50,7 +51,7 @@ impl<'a> Model<'a> {
         Model { curve, scene: scene.clone(), simulation, contact: None, noise: 1.0, evaluations: 0 }
     }
 
-    /// Contact for these values of the parameters.
+    /// Returns the contact for these values of the parameters.
     fn contact(&mut self, values: &Values) -> Result<Contact, ExperimentError> {
         let radius = values[Parameter::Radius as usize];
         if self.contact.as_ref().is_none_or(|(_, made)| *made != radius) {
@@ -71,7 +72,7 @@ impl<'a> Model<'a> {
         Ok(contact.with(Modulus::effective(modulus)?).works_of_adhesion([closing, work]).build()?)
     }
 
-    /// Computes the forces at the points of the curve, N.
+    /// Computes the forces in N at the points of the curve.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
         let (curve, zero) = (self.curve, values[Parameter::Zero as usize]);
@@ -83,8 +84,9 @@ impl<'a> Model<'a> {
         Ok(forces)
     }
 
-    /// For each point of the curve the forces, N, between which the model jumps not further away than the neighbours of the
-    /// point, less the force of the model at the point; `None` without a jump of at least `least`, N.
+    /// Returns for each point of the curve the forces in N before and after the nearest jump of the model, minus the force
+    /// of the model at the point. A jump counts if it is at least `least` N and no further away than the neighbouring
+    /// points; otherwise `None`.
     pub fn jumps(&mut self, values: &Values, least: f64) -> Result<Vec<Option<[f64; 2]>>, ExperimentError> {
         self.evaluations += 1;
         let curve = self.curve;
@@ -114,8 +116,8 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Computes the curve of each segment, and calls `take` with it, the range of its points in the measured curve, and the
-    /// displacement at first touch.
+    /// Computes the curve of each segment. Calls `take` with the curve, the index range of its points in the measured
+    /// curve, and the displacement at first touch.
     fn each_segment(
         &mut self,
         values: &Values,
@@ -154,8 +156,8 @@ impl<'a> Model<'a> {
     }
 }
 
-/// The point of a segment at a displacement, m. Beyond the ends of the segment, by the noise of the displacement, it is the
-/// end.
+/// Returns the point of a segment at a displacement in m, or the end of the segment for a displacement that lies beyond it
+/// by noise.
 fn nearest(segment: &DisplacementCurve, at: f64) -> Option<DisplacementPoint> {
     let away = |point: &DisplacementPoint| (point.displacement - at).abs();
     let ends = || [segment.points().first(), segment.points().last()].into_iter().flatten().copied();
@@ -167,7 +169,8 @@ fn force_at(segment: &DisplacementCurve, at: f64) -> f64 {
 }
 
 impl Sampling {
-    /// Curve of a loading up to a displacement `to`, m, from an indentation, m, or for `None` from first touch.
+    /// Returns the curve of a loading up to the displacement `to` in m. The loading begins at an indentation in m, or for
+    /// `None` at first touch.
     fn press(self, leg: &Leg, from: Option<f64>, to: f64) -> Result<DisplacementCurve, ContactError> {
         let (free, from) = (from.is_none().then(CurvePoint::default), from.unwrap_or_default());
         // An indentation close behind the one at which the instrument is at its end: it takes a part of the way, or is pulled on.
@@ -187,15 +190,16 @@ impl Sampling {
         self.over(leg, [from, high], 1, free)
     }
 
-    /// Curve of an unloading from an indentation, m, to separation.
+    /// Returns the curve of an unloading from an indentation in m to separation.
     pub fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = leg.end().min(from);
         // Close to separation the force may fall as the root of the indentation.
         self.over(leg, [end, from], 2, Some(CurvePoint { indentation: end, ..CurvePoint::default() }))
     }
 
-    /// Curve of a leg between two indentations over the displacement, with points that are dense near the lower end for a
-    /// high `power`, points at the ends of all jumps that are resolved, and the point `free` without contact.
+    /// Returns the curve of a leg, which is one motion of the body, between two indentations over the displacement. Its
+    /// points are dense near the lower end for a high `power`. They include both ends of all resolved jumps, and the point
+    /// `free` without contact.
     pub fn over(
         self,
         leg: &Leg,

@@ -1,26 +1,26 @@
-//! Options of reading and preparing a measured curve, as arguments of the command line.
+//! Options for reading and preparing a measured curve, which are arguments of the command line too.
 
 use asperity_data::parse_quantity;
 use asperity_scene::quoted;
 use std::fmt;
 use std::str::FromStr;
 
-/// Quantities whose sign is reversed, so that pressing is positive.
+/// Quantities whose sign is reversed so that pressing is positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Negate {
-    /// Nothing.
+    /// No sign is reversed.
     None,
-    /// The displacement.
+    /// The sign of the displacement is reversed.
     Displacement,
-    /// The force.
+    /// The sign of the force is reversed.
     Force,
-    /// Both.
+    /// The signs of displacement and force are reversed.
     Both,
 }
 
-/// What is done with a drift of the force: a straight line over time, which is the number of the point.
+/// Treatment of a drift of the force. A drift is a straight line over time, which is the number of the point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drift {
     /// Keeps the drift in the curve.
@@ -28,12 +28,12 @@ pub enum Drift {
     Keep,
     /// Removes the straight line through the points without contact.
     Remove,
-    /// Removes this drift from the first to the last point, N.
+    /// Removes a drift of this size in N from the first to the last point.
     Known(f64),
 }
 
-/// What is done with a tilt of the force: a straight line over the displacement, as a laser beam causes that the moving
-/// cantilever reflects askew (virtual deflection).
+/// Treatment of a tilt of the force. A tilt is a straight line over the displacement. It occurs if the moving cantilever
+/// reflects the laser beam askew (virtual deflection).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Tilt {
@@ -73,15 +73,16 @@ fn positive_length(text: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err("allowed: a length above 0, such as 500nm".to_owned()) }
 }
 
-/// Options of reading and preparing a curve; what they do not state is determined from the curve.
+/// Options for reading and preparing a curve. The program determines from the curve what the options leave open.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
     /// Columns of displacement, force and segment: names or numbers
     ///
-    /// Default: by the names in the header; of two columns the first is the displacement. Four
-    /// are displacement and force of the approach, then displacement and force of a retraction
-    /// beside it. Without a column of segments these end where the displacement turns.
+    /// By default the names in the header decide; of two columns the first is the displacement.
+    /// Four columns are displacement and force of the approach, then displacement and force of
+    /// the retraction beside it. Without a column of segments a segment ends where the
+    /// displacement turns.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "D,F[,SEGMENT]", value_delimiter = ',', verbatim_doc_comment)
@@ -89,29 +90,29 @@ pub struct CurveOptions {
     pub columns: Vec<String>,
     /// Units of displacement and force: nm,nN; default: units of the file
     ///
-    /// A number is the value of 1 in the column: nm,3.01nN for a deflection in nm with 3.01 N/m.
+    /// A number is the value of 1 in the column: 3.01nN for a deflection in nm with 3.01 N/m.
     #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
     pub units: Vec<String>,
-    /// Travel of the piezo for a file with one column of forces: 500nm
+    /// Travel of the piezo, such as 500nm, for a file with one column of forces
     ///
-    /// The forces are evenly spaced over it, there and back. Default: the travel of the file.
+    /// The forces are evenly spaced over the travel, there and back. By default the file gives the travel.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
-    /// Segments that are used: 2 is only the retraction
+    /// Segments that are used: 2 is the retraction without the approach
     ///
-    /// 1 is the first approach, 2 its retraction, and so on. Default: all; pauses are left out.
-    /// The model runs through the other segments too, and the part before contact still gives
-    /// zero and noise.
+    /// 1 is the first approach, 2 its retraction, and so on. By default all are used except pauses.
+    /// The model runs through the other segments too. The part before contact still gives the zero
+    /// and the noise of the force.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "NUMBER,...", value_delimiter = ',', verbatim_doc_comment,
             value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..))
     )]
     pub segments: Vec<usize>,
-    /// Reverse none, displacement, force or both; default: by the approach
+    /// Reverse none, displacement, force or both; default: automatic
     #[cfg_attr(feature = "clap", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
     pub negate: Option<Negate>,
-    /// Measured force that is zero: 2nN; default: the mean before contact
+    /// Measured force that counts as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
     /// Drift over time: keep (default), remove, or a force over the curve
@@ -126,17 +127,17 @@ pub struct CurveOptions {
         arg(long, default_value = "keep", hide_default_value = true, hide_possible_values = true)
     )]
     pub tilt: Tilt,
-    /// Standard deviation of the force; default: that before contact
+    /// Standard deviation of the force; default: the one before contact
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument of the scene, N/m: with it the displacement of a body becomes
-    /// the displacement of the instrument.
+    /// Stiffness of the instrument in N/m, as the scene states it. It serves to convert a displacement of the body to the
+    /// displacement of the instrument.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
-    /// Number of points before contact; default: up to the first change
+    /// Number of points before contact; default: found from the force
     #[cfg_attr(feature = "clap", arg(long, value_name = "COUNT"))]
     pub free_points: Option<usize>,
 }
@@ -148,7 +149,7 @@ pub struct CurveOptions {
 /// assert_eq!(options.to_string(), " --segments=2 --tilt=remove");
 /// ```
 impl fmt::Display for CurveOptions {
-    /// Writes the options as arguments of the command line, with a blank before each.
+    /// Writes the options as arguments of the command line, each with a blank before it.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let segments: Vec<String> = self.segments.iter().map(ToString::to_string).collect();
         for (name, values) in [("columns", &self.columns), ("units", &self.units), ("segments", &segments)] {

@@ -1,4 +1,4 @@
-//! Parameters of a fit: names, units, ranges, and the coordinates in which they are searched.
+//! Parameters of a fit: their names, units and ranges, and the coordinates in which they are searched.
 
 use crate::error::{ExperimentError, refused};
 use asperity_data::parse_quantity;
@@ -6,23 +6,23 @@ use asperity_scene::did_you_mean;
 use serde::{Serialize, Serializer};
 use std::str::FromStr;
 
-/// Parameter of a fit.
+/// Parameter that a fit can find.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Parameter {
-    /// Work of adhesion.
+    /// Work of adhesion γ, J/m².
     Work,
-    /// Work of adhesion on closing.
+    /// Work of adhesion on closing γ₁, J/m².
     ClosingWork,
-    /// Effective modulus.
+    /// Effective modulus E*, Pa.
     Modulus,
-    /// Measured displacement at first touch.
+    /// Measured displacement at first touch, m.
     Offset,
-    /// Measured force without contact.
+    /// Measured force without contact, N.
     Zero,
-    /// Stiffness of the instrument.
+    /// Stiffness of the instrument, N/m.
     Stiffness,
-    /// Radius of the form.
+    /// Radius of the form, m.
     Radius,
 }
 
@@ -35,27 +35,27 @@ impl Serialize for Parameter {
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
 pub(crate) type Values = [f64; 7];
 
-/// Names, symbol and unit of a parameter.
+/// Names, symbol and SI unit of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct ParameterRow {
     /// Name on the command line and in JSON.
     pub name: &'static str,
     /// Name in words.
     pub term: &'static str,
-    /// Symbol.
+    /// Symbol, such as `γ`.
     pub symbol: &'static str,
-    /// SI unit.
+    /// SI unit, such as `J/m²`.
     pub unit: &'static str,
 }
 
 impl Parameter {
-    /// All parameters, in the order of tables.
+    /// All parameters, in the order in which tables list them.
     pub const ALL: [Parameter; 7] = {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
         [Work, ClosingWork, Modulus, Offset, Zero, Stiffness, Radius]
     };
 
-    /// Names, symbol and unit of the parameter.
+    /// Returns names, symbol and SI unit of the parameter.
     ///
     /// ```
     /// use asperity_experiment::Parameter;
@@ -76,7 +76,7 @@ impl Parameter {
         }
     }
 
-    /// Name on the command line and in JSON.
+    /// Returns the name on the command line and in JSON.
     pub fn name(self) -> &'static str {
         self.row().name
     }
@@ -91,13 +91,13 @@ impl Parameter {
         matches!(self, Parameter::Work | Parameter::ClosingWork)
     }
 
-    /// Returns true if the parameter can be searched in a range.
+    /// Returns true if the parameter can be searched between these values.
     fn allows(self, (low, high): (f64, f64)) -> bool {
         let is_above = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
         is_above && low < high && low.is_finite() && high.is_finite()
     }
 
-    /// Ranges in which the parameter can be searched, in words.
+    /// Returns the ranges in which the parameter can be searched, in words.
     fn ranges(self) -> String {
         let above = match (self.is_signed(), self.is_work()) {
             (true, _) => "",
@@ -107,8 +107,8 @@ impl Parameter {
         format!("two values{above}, the first below the second")
     }
 
-    /// Measurement that would separate two parameters that a curve cannot separate; for the same parameter twice, one that
-    /// would determine it.
+    /// Returns the measurement that would separate two parameters that a curve cannot separate. For the same parameter
+    /// twice, returns the measurement that would determine it.
     ///
     /// ```
     /// use asperity_experiment::Parameter;
@@ -138,7 +138,7 @@ impl Parameter {
     }
 }
 
-/// A free parameter of a fit, with a range if one is given.
+/// Free parameter of a fit, with its range if one is given.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};
@@ -150,17 +150,17 @@ impl Parameter {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
-    /// Which parameter is free.
+    /// Parameter that is free.
     pub parameter: Parameter,
-    /// Ends of the range in SI units; `None` for a range around the start.
+    /// Lower and upper end of the range in SI units; `None` for a range around the start.
     pub(crate) range: Option<(f64, f64)>,
 }
 
 impl Free {
-    /// A free parameter that is searched from the first to the second value, in the SI unit of the parameter.
+    /// Makes a free parameter that is searched between both values, in the SI unit of the parameter.
     ///
     /// # Errors
-    /// The first value is not below the second one, a value is not finite, or the parameter does not allow it.
+    /// The first value is not below the second, a value is not finite, or the parameter does not allow the range.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range) {
             return Ok(Free { parameter, range: Some(range) });
@@ -169,7 +169,7 @@ impl Free {
         refused(format!("{name}: {:?}..{:?} {unit}", range.0, range.1), parameter.ranges())
     }
 
-    /// Ends of the range in the SI unit of the parameter; `None` for a range around the start.
+    /// Returns both ends of the range in the SI unit of the parameter; `None` if the fit chooses the range.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.range
     }
@@ -184,7 +184,7 @@ impl From<Parameter> for Free {
 impl FromStr for Free {
     type Err = String;
 
-    /// Parses `work`, or with a range `work=10mJ/m^2..1J/m^2`.
+    /// Parses `work`, or `work=10mJ/m^2..1J/m^2` with a range.
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, range) = text.split_once('=').map_or((text, None), |(name, range)| (name, Some(range)));
         let names = Parameter::ALL.map(Parameter::name);
@@ -205,14 +205,14 @@ impl FromStr for Free {
     }
 }
 
-/// Coordinate in which a free parameter is searched: value over a unit, share of the work of adhesion (for the work on
-/// closing), or logarithm. The coordinate of the work of adhesion is linear up to its unit, so that it reaches 0.
+/// Coordinate in which a free parameter is searched: the value in a unit, the share of the work of adhesion (for the work
+/// on closing), or a logarithm. The coordinate of the work of adhesion is linear up to its unit, so that it reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
-    /// Unit of a parameter that may have either sign, and of the work of adhesion.
+    /// Unit for a parameter that may have either sign, and for the work of adhesion.
     pub unit: f64,
 }
 
@@ -229,7 +229,7 @@ impl Coordinate {
         }
     }
 
-    /// Value of the parameter at a coordinate; `values` has the other parameters.
+    /// Returns the value of the parameter at a coordinate. `values` contains the other parameters.
     pub fn value(&self, at: f64, values: &Values) -> f64 {
         match self.parameter {
             Parameter::Work => at.sinh() * self.unit,
@@ -242,13 +242,13 @@ impl Coordinate {
         }
     }
 
-    /// Range of the work of adhesion on closing, which the work of adhesion limits.
+    /// Returns the range of the work of adhesion on closing, which is at most the work of adhesion.
     fn on_closing(&self, values: &Values) -> (f64, f64) {
         let work = values[Parameter::Work as usize];
         (self.range.0.min(work), self.range.1.min(work))
     }
 
-    /// Coordinates of both ends of the range.
+    /// Returns the coordinates of both ends of the range.
     pub fn ends(&self) -> (f64, f64) {
         match self.parameter {
             Parameter::ClosingWork => (0.0, 1.0),

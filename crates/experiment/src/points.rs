@@ -1,4 +1,4 @@
-//! The points of a curve in the order of time, reversed so that pressing is positive.
+//! The points of a curve in the order of time, with signs such that pressing is positive.
 
 use crate::baseline::{Baseline, ends};
 use crate::error::{ExperimentError, refused};
@@ -8,13 +8,13 @@ use crate::segment::Segments;
 use asperity_data::{format_quantity, mean};
 use std::ops::Range;
 
-/// Points in the order of time; if there are many, each is the mean of several points of the file.
+/// Points in the order of time. If there are many, each is the mean of several points of the file.
 pub(crate) struct Points {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub segment: Vec<usize>,
     pub is_still: Vec<bool>,
-    /// Number of points of the file in each point.
+    /// Number of points of the file that each point averages.
     pub counts: Vec<usize>,
 }
 
@@ -36,12 +36,12 @@ impl Points {
         }
     }
 
-    /// Index range of the points of a segment.
+    /// Returns the index range of the points of a segment.
     pub fn of(&self, number: usize) -> Range<usize> {
         self.segment.partition_point(|one| *one < number)..self.segment.partition_point(|one| *one <= number)
     }
 
-    /// Index range of the points of a segment without the pause at its turning point.
+    /// Returns the index range of the points of a segment without the pause at its turning point.
     pub fn moving(&self, number: usize) -> Range<usize> {
         let of = self.of(number);
         let Range { mut start, mut end } = of.clone();
@@ -54,7 +54,7 @@ impl Points {
         start..end
     }
 
-    /// Reverses displacement and force so that pressing is positive: as `asked`, or else as the first segment shows.
+    /// Reverses displacement and force so that pressing is positive: as `asked`, or else according to the first segment.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.of(self.segment[0]);
         let is_wrong = |displacement: &[f64]| {
@@ -81,8 +81,8 @@ impl Points {
         Ok(negate)
     }
 
-    /// Adds the deflection of an instrument of this stiffness, N/m, to the displacement of the body in the column with this
-    /// name, and says so.
+    /// Adds the deflection of an instrument of this stiffness in N/m to the displacement of the body, which the column
+    /// `name` contains. Returns a sentence that says so.
     pub fn put_on_spring(&mut self, name: &str, stiffness: f64) -> String {
         self.displacement.iter_mut().zip(&self.force).for_each(|(at, force)| *at += force / stiffness);
         let stiffness = format_quantity(stiffness, "N/m");
@@ -91,14 +91,15 @@ impl Points {
         )
     }
 
-    /// Number of the last points, which are after contact; `None` if they cannot be found.
+    /// Returns the number of points after contact at the end; `None` if they cannot be found.
     pub fn free_at_the_end(&self, least: f64) -> Option<usize> {
         let last = self.moving(*self.segment.last()?);
         let reversed: Vec<f64> = self.force[last].iter().rev().copied().collect();
         free_count(&reversed, least).ok()
     }
 
-    /// Displacements, m, at which the segments up to number `last` end; before a single retraction the largest one.
+    /// Returns the displacements in m at which the segments up to number `last` end. A single retraction begins at the
+    /// largest displacement.
     pub fn turns(&self, last: usize) -> Vec<f64> {
         let all = ends(self.displacement.iter().copied());
         let end = |number: usize| {
@@ -120,7 +121,7 @@ pub(crate) fn ends_free(force: &[f64], least: f64) -> bool {
     change(&reversed).is_some_and(|after| change(force).is_none_or(|before| after < before))
 }
 
-/// Indices of the points of the chosen segments, or of all, without pauses.
+/// Returns the indices of the points of the chosen segments without pauses; of all segments if none is chosen.
 pub(crate) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
     let all = 0..points.force.len();
     let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;

@@ -1,20 +1,20 @@
-//! The members of a search: values of the parameters, with residuals and costs.
+//! The members of a search: values of the parameters, with their residuals and costs.
 
-/// Share of different members from which on the extent of a population is meaningful.
+/// Share of different members below which the extent of a population is meaningless.
 const DISTINCT: f64 = 0.5;
-/// Share of different members from which on the copies of a step have moved apart.
+/// Share of different members above which the copies of a step have moved apart.
 const MOVED: f64 = 0.8;
-/// Residual, in units of the noise, beyond which a point counts less, since it is on the wrong side of a jump.
+/// Residual in units of the noise above which a point counts less, because it is on the wrong side of a jump.
 pub(crate) const WRONG_SIDE: f64 = 5.0;
 
-/// Coordinates, and the residuals at these coordinates in units of the noise of the curve.
+/// Coordinates with the residuals of the curve, in units of its noise.
 #[derive(Clone)]
 pub(crate) struct Member {
     pub at: Vec<f64>,
     pub rests: Vec<f64>,
 }
 
-/// Members with their costs for a noise, in units of the noise of the curve, and the best member so far with its cost.
+/// Members with their costs at a noise, in units of the noise of the curve, and the best member so far with its cost.
 pub(crate) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
@@ -24,32 +24,32 @@ pub(crate) struct Population {
 }
 
 impl Population {
-    /// Makes a member with this cost the best, if it is.
+    /// Keeps a member as the best one if its cost is smaller.
     pub fn keep(&mut self, member: &Member, cost: f64) {
         if cost < self.cost {
             (self.best, self.cost) = (member.clone(), cost);
         }
     }
 
-    /// Number of different members.
+    /// Returns the number of different members.
     pub fn distinct(&self) -> usize {
         let is_copy = |index: usize| self.members[..index].iter().any(|one| one.at == self.members[index].at);
         (0..self.members.len()).filter(|&index| !is_copy(index)).count()
     }
 
-    /// Returns true once few members are copies that have not moved, so that the next step can be taken.
+    /// Returns true if most members differ, so that the next step can be taken.
     pub fn has_moved(&self) -> bool {
         self.distinct() as f64 >= MOVED * self.members.len() as f64
     }
 
-    /// Returns false if most members are copies, so that the extent of the population means nothing.
+    /// Returns false if most members are copies, so that the extent of the population is meaningless.
     pub fn has_spread(&self) -> bool {
         self.distinct() as f64 >= DISTINCT * self.members.len() as f64
     }
 }
 
-/// Cost of a residual (in units of the noise): half its square, continued as a logarithm for points on the wrong side of a
-/// jump, since measured displacements are not exact to the edge of a jump.
+/// Returns the cost of a residual in units of the noise. The cost is half the square. A point on the wrong side of a jump
+/// counts by the logarithm, because measured displacements are not exact to the edge of a jump.
 pub(crate) fn loss(rest: f64) -> f64 {
     let rest = rest.abs();
     if rest > WRONG_SIDE {
@@ -59,7 +59,7 @@ pub(crate) fn loss(rest: f64) -> f64 {
     }
 }
 
-/// Draws `count` members in proportion to their weights, at even distances; `share` is the position of the first one.
+/// Draws `count` members in proportion to their weights, at even distances. `share` is the position of the first one.
 pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
     let step = weights.iter().sum::<f64>() / count as f64;
     let (mut drawn, mut sum) = (Vec::with_capacity(count), 0.0);
@@ -72,7 +72,7 @@ pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f6
     drawn
 }
 
-/// Point number `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
+/// Returns point `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
 pub(crate) fn share_of(number: usize, base: usize) -> f64 {
     if number == 0 { 0.0 } else { ((number % base) as f64 + share_of(number / base, base)) / base as f64 }
 }

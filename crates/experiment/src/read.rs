@@ -9,47 +9,47 @@ use crate::options::CurveOptions;
 use crate::segment::Label;
 use crate::text::{Above, Shape, beginning, is_comment, segment_of};
 use asperity_data::shown;
+use asperity_data::text_table::{Decimal, ONE_MARK, TextCell, TextColumn, each_line};
 use asperity_data::{PROVENANCE, grouped, npy};
-use asperity_surface::{Decimal, ONE_MARK, TextCell, TextColumn, each_text};
-use asperity_surface::{Place, SurfaceError, columns as npy_columns, refused, unpacked};
+use asperity_surface::files::{columns as npy_columns, refused, unpacked};
+use asperity_surface::{Place, SurfaceError};
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Largest allowed displacement, m, and force, N, in magnitude.
+/// Largest magnitude of a displacement in m, and of a force in N, that a file may contain.
 const LARGEST: [f64; 2] = [1e3, 1e6];
 /// Distance from the central nine tenths of the displacements, in units of their range, beyond which a few displacements
-/// are mistakes.
+/// are errors of the file.
 const WILD: f64 = 10.0;
 
-/// Columns of a file in SI units, without points that lack a value.
+/// Columns of a file in SI units, without the points at which a value is missing.
 #[derive(Debug, Default)]
 pub(crate) struct Columns {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     /// Label of the segment of each point; empty if the file names none.
     pub labels: Vec<Label>,
-    /// True if approach and retraction are columns of their own.
+    /// True if the approach and the retraction have their own columns.
     pub is_beside: bool,
-    /// Number of points left out since a value is missing.
+    /// Number of points left out because a value is missing.
     pub missing: usize,
-    /// Name and value of the stiffness of the instrument that the file states, N/m.
+    /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement if it is the displacement of the body, without the deflection of the
-    /// instrument.
+    /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
     pub of_body: Option<String>,
     /// Columns and their units in words.
     pub assumed: String,
-    /// Sentences on names and units of the file that the options overrule.
+    /// Sentences on names and units of the file that the options replace.
     pub statements: Vec<String>,
-    /// Number of points left out since they repeat the one before, and the place of the first of them.
+    /// Number of points left out because they repeat the point before, and the place of the first of them.
     repeated: usize,
     first_repeated: Option<Place>,
-    /// Line number, or number of the point, of each point.
+    /// Number of the line or of the point in the file, for each point.
     places: Vec<usize>,
 }
 
 impl Columns {
-    /// Reads the content of a file, which may be compressed by gzip; the name identifies formats that are no text.
+    /// Reads the content of a file, which may be compressed by gzip. The name identifies binary formats, which are refused.
     pub fn parse(name: &Path, bytes: &[u8], options: &CurveOptions) -> Result<Self, ExperimentError> {
         let bytes = unpacked(bytes)?;
         let is_array = bytes.starts_with(npy::SIGNATURE);
@@ -63,7 +63,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Takes displacements, m, and forces, N; a point with a missing value, which is not finite, is left out.
+    /// Takes displacements in m and forces in N. A point with a value that is not finite is left out.
     pub fn of_arrays(displacement: &[f64], force: &[f64]) -> Result<Self, ExperimentError> {
         if displacement.len() != force.len() {
             let found = format!("{} displacements and {} forces", displacement.len(), force.len());
@@ -79,7 +79,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Points left out, in words; empty if there are none.
+    /// Returns the numbers of points left out, in words; empty if there are none.
     pub fn left_out(&self) -> Vec<String> {
         let count = |count: usize| grouped(count as u64);
         let mut words = Vec::new();
@@ -97,7 +97,8 @@ impl Columns {
         words
     }
 
-    /// Joins an approach with the retraction beside it, which begins at its end nearer to the end of the approach.
+    /// Joins an approach with the retraction beside it. The retraction begins at its end that is nearer to the end of the
+    /// approach.
     fn joined(parts: Vec<Columns>) -> Columns {
         let mut parts = parts.into_iter();
         let mut joined = parts.next().unwrap_or_default();
@@ -124,8 +125,8 @@ impl Columns {
         joined
     }
 
-    /// Adds a point with these values of displacement and force in the units of the file, unless a value is missing or the
-    /// point repeats the one before. Returns true if it was added.
+    /// Adds a point with these values of displacement and force in the units of the file. A point with a missing value, or
+    /// equal to the point before, is not added. Returns true if the point was added.
     fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<bool, SurfaceError> {
         if !values.iter().all(|value| value.is_finite()) {
             self.missing += 1;
@@ -157,7 +158,7 @@ impl Columns {
         Ok(true)
     }
 
-    /// Returns an error for a few displacements far from all others: mistakes in a file that would determine the range.
+    /// Returns an error if a few displacements are far from all others. Such errors of a file would determine the range.
     fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), SurfaceError> {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
@@ -184,10 +185,10 @@ impl Columns {
     }
 }
 
-/// Collects the points of a file from its chosen columns.
+/// Points of a file that are collected from its chosen columns.
 struct Points {
     choice: Choice,
-    /// One set of columns, or one for an approach and one for the retraction beside it.
+    /// One set of columns, or two: one for an approach, one for the retraction beside it.
     parts: Vec<Columns>,
     label: Label,
     /// Name of the present segment; empty before the first one.
@@ -207,7 +208,7 @@ impl Points {
         Ok(Points { choice, parts, label: Label::default(), name: String::new(), rows: 0 })
     }
 
-    /// Begins another segment if the name is another one.
+    /// Begins another segment if the name differs from the present one.
     fn begin_segment(&mut self, name: &str) {
         if self.name != name {
             self.label = Label { part: self.label.part + 1, is_pause: is_pause(name) };
@@ -215,8 +216,8 @@ impl Points {
         }
     }
 
-    /// Adds the point at a place of the file; `value` returns the number in a column (NaN if it is missing) and `text` its
-    /// text.
+    /// Adds the point at a place of the file. `value` returns the number in a column, NaN if it is missing, and `text`
+    /// returns its text.
     fn take<'a>(
         &mut self,
         place: &Place,
@@ -247,7 +248,8 @@ impl Points {
         Ok(())
     }
 
-    /// The points; forces without a displacement get one that is evenly spaced over the ramp, there and back.
+    /// Returns the points. Forces without a displacement get displacements that are evenly spaced over the travel of the
+    /// piezo, there and back.
     fn finished(mut self) -> Vec<Columns> {
         if let (Some(ramp), Some(all)) = (self.choice.ramp, self.parts.first_mut()) {
             let half = 0.5 * self.rows as f64;
@@ -285,7 +287,7 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Surface
     let (mut above, mut points, mut decimal) = (Above::default(), None::<Points>, Decimal::default());
     // Name of a segment above its points.
     let mut name = String::new();
-    each_text(bytes, |number, line| {
+    each_line(bytes, |number, line| {
         let place = Place::Line(number);
         if let Some(segment) = segment_of(line).filter(|_| is_comment(line)) {
             segment.clone_into(&mut name);
@@ -331,7 +333,7 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Surface
     Ok(parts)
 }
 
-/// The number in a column; NaN if it is missing.
+/// Returns the number in a column; NaN if it is missing.
 fn number_in(
     cell: &str,
     column: usize,

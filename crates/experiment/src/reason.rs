@@ -1,4 +1,4 @@
-//! The reason why a model does not describe a curve, from the pattern of its residuals.
+//! The reason why a model does not describe a curve, found from the pattern of the residuals.
 
 use crate::baseline::{dot, ends, right_angled, take_off};
 use crate::curve::MeasuredCurve;
@@ -14,41 +14,41 @@ use asperity_scene::Simulation;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-/// Share of the length from which on a contact fills its profile, and smallest number of springs in contact.
+/// Share of the length above which a contact fills its profile, and smallest number of springs in contact.
 const FULL: f64 = 0.99;
 const FEWEST_SPRINGS: u64 = 20;
-/// Jump between two points, over the pull-off force, above which the instrument is not rigid: a sphere on a rigid
+/// Largest jump of the force between two points on a rigid instrument, divided by the pull-off force. A sphere on a rigid
 /// instrument jumps by 5/9.
 const RIGID: f64 = 0.65;
 /// Share of the squared residuals that a pattern must explain.
 const EXPLAINS: f64 = 0.4;
-/// Tabor number below which the theory of Johnson, Kendall and Roberts does not apply at all.
+/// Tabor number below which the theory of Johnson, Kendall and Roberts does not apply.
 const LONG_RANGE: f64 = 1.0;
-/// Slope of the force, over the stiffness of the instrument, that the instrument does not allow; and the part of the way
-/// from first touch to the turning point, with the smallest number of points, in which the slope is measured.
+/// Slope of the force, divided by the stiffness of the instrument, that the instrument does not allow. The slope is
+/// measured in a part of the way from first touch to the turning point, with a smallest number of points.
 const STEEPER: f64 = 1.03;
 const PRESSED: f64 = 0.2;
 const FEWEST: usize = 5;
-/// Relative step of a numerical derivative, and change of the force, over its range, above which it is a jump and no
-/// derivative.
+/// Relative step of a numerical derivative. A change of the force, divided by its range, above the second number is a jump
+/// without a derivative.
 const STEP: f64 = 1e-3;
 const LEAPS: f64 = 0.02;
-/// Residual, in units of the median, at which larger residuals are cut off: such points are on the wrong side of a jump.
+/// Residual in units of the median above which residuals are cut off. Such points are on the wrong side of a jump.
 const CUT: f64 = 5.0;
 
-/// Why a model does not describe a curve.
+/// Reason why a model does not describe a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact fills the profile of this length, m.
+    /// The contact fills the whole profile, whose length is given in m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
-    /// At most this few springs are in contact.
+    /// At most this number of springs is in contact.
     #[error(
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]
     CoarseProfile(u64),
-    /// The force jumps by this much, N, although the scene takes the instrument as rigid.
+    /// The force jumps by this value in N between two points, but the scene assumes a rigid instrument.
     #[error(
         "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
         format_quantity(*.0, "N")
@@ -57,54 +57,54 @@ pub enum Reason {
     /// The force without contact changes over time.
     #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
     Drift,
-    /// The force without contact changes over the displacement.
+    /// The force without contact changes with the displacement.
     #[error("The force has a slope over the displacement where nothing touches: --tilt remove takes it off.")]
     Tilt,
-    /// The force without contact changes over time and over the displacement.
+    /// The force without contact changes over time and with the displacement.
     #[error(
         "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
     )]
     DriftAndTilt,
-    /// The forces before and after contact differ by this much, N.
+    /// The forces before and after contact differ by this value in N.
     #[error(
         "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
          alone.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
-    /// The attraction is long-ranged, with this Tabor number.
+    /// The attraction has a long range. The value is the Tabor number.
     #[error(
         "The Tabor number is {}, below {LEAST_TABOR_NUMBER}: attraction of this range is not that of Johnson, Kendall and \
          Roberts.",
         format_quantity(*.0, "1")
     )]
     TaborNumber(f64),
-    /// The profile of the scene is random, and the specimen has another one.
+    /// The profile of the scene is random, and the specimen has another profile.
     #[error(
         "The profile of the scene is one of many random ones, and the specimen has another one: --profiles compares the curve with \
          many of them."
     )]
     OtherProfile,
-    /// Approach and retraction differ: viscoelasticity, or two works of adhesion.
+    /// Approach and retraction differ because of viscoelasticity or two works of adhesion.
     #[error(
         "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
          closing. --free {} tries the second, --segments 2 fits the retraction alone.",
         Parameter::ClosingWork.name()
     )]
     Branches,
-    /// The force rises with this slope, N/m, above what the stiffness of the instrument in the scene allows.
+    /// The force rises with this slope in N/m, which is larger than the stiffness of the instrument in the scene.
     #[error(
         "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
         format_quantity(*.0, "N/m")
     )]
     Stiffness(f64),
-    /// Approach and retraction deviate alike: the stiffness of the instrument, the form or the profile is different.
+    /// Approach and retraction deviate in the same way. The stiffness of the instrument, the form or the profile is wrong.
     #[error(
         "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
          another form or profile."
     )]
     StiffnessOrForm,
-    /// The form or the profile is different.
+    /// The form or the profile of the scene is wrong.
     #[error("Another form or profile than that of the scene is likely.")]
     Form,
 }
@@ -115,7 +115,7 @@ impl Serialize for Reason {
     }
 }
 
-/// Finds the reason why a scene with these values does not describe a curve, given the free parameters.
+/// Finds the reason why a scene with these values and free parameters does not describe a curve.
 ///
 /// # Errors
 /// A computation fails.
@@ -175,7 +175,7 @@ pub(crate) fn reason(
     Ok(low.map_or(other, Reason::TaborNumber))
 }
 
-/// The reason that the contact fills its profile or has few springs, if it does.
+/// Returns the reason if the contact fills its profile or has few springs.
 fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
     let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).ok()?;
     let points = || outcome.history.legs.iter().flat_map(|leg| &leg.curve);
@@ -189,15 +189,16 @@ fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reaso
     (springs < FEWEST_SPRINGS).then_some(Reason::CoarseProfile(springs))
 }
 
-/// Largest rise of the force between neighbouring points of a retraction, N: only the loss of contact makes it rise.
+/// Returns the largest rise of the force in N between neighbouring points of a retraction. The force of a retraction rises
+/// only where contact is lost.
 fn largest_jump(curve: &MeasuredCurve) -> f64 {
     let pairs = curve.segment.windows(2).zip(curve.force.windows(2));
     let retracting = pairs.filter(|(segment, _)| segment[0] == segment[1] && segment[0] % 2 == 1);
     retracting.map(|(_, force)| force[1] - force[0]).fold(0.0, f64::max)
 }
 
-/// Slope of the force over the displacement, N/m, in the last fifth of the first approach, or in the first fifth of a
-/// retraction.
+/// Returns the slope of the force over the displacement in N/m, in the last fifth of the first approach or in the first
+/// fifth of a retraction.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     let (touch, turn) = (curve.touch, curve.turns[0]);
     let first = curve.segment.iter().zip(curve.displacement.iter().zip(&curve.force));
@@ -212,8 +213,8 @@ fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     slope.map_or(0.0, |found| found[1].0 - 3.0 * found[1].1)
 }
 
-/// Returns true if another modulus or work of adhesion on retractions alone explains most of the residuals, together with
-/// small changes of the free parameters, all with linear effects.
+/// Returns true if another modulus or work of adhesion on the retractions explains most of the residuals, together with
+/// small changes of the free parameters. All effects are taken as linear.
 fn branches_differ(
     curve: &MeasuredCurve,
     model: &mut Model<'_>,

@@ -7,7 +7,7 @@ use asperity_data::{format_quantity, round_to};
 use asperity_scene::Governing;
 use asperity_scene::{Adhesion, Document, Scene, SceneErrors, ron_float};
 
-/// Difference of two stiffnesses of one instrument that is said.
+/// Relative difference of two stiffnesses of one instrument above which the difference is reported.
 const OTHER: f64 = 0.01;
 
 /// A change of a field: its path and its value in RON.
@@ -17,7 +17,7 @@ fn change(path: &str, value: f64) -> Change {
     (path.to_owned(), ron_float(value))
 }
 
-/// The parameters of a fit as the scene states them; `governing` has its works of adhesion.
+/// Returns the parameters of a fit as the scene states them. `governing` contains the works of adhesion.
 pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let closing = governing.closing_work.unwrap_or(work);
@@ -26,18 +26,18 @@ pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     [work, closing, governing.effective_modulus, 0.0, 0.0, stiffness, radius]
 }
 
-/// Radius of the form of a scene, m; `None` for a form without a radius.
+/// Returns the radius of the form of a scene in m; `None` for a form without a radius.
 pub(crate) fn radius_of(scene: &Scene) -> Option<f64> {
     scene.form.clone()?.radius_mut().copied()
 }
 
-/// Largest work of adhesion on closing that a scene allows, J/m²; infinite if it states none.
+/// Returns the largest work of adhesion on closing that a scene allows, in J/m²; infinite if the scene states none.
 pub(crate) fn most_on_closing(scene: &Scene) -> f64 {
     scene.adhesion.and_then(|adhesion| adhesion.closing_work()).unwrap_or(f64::INFINITY)
 }
 
-/// The document with works of adhesion in place of κ or e_el/γ. If it has no adhesion, `start` (J/m²) is added if it is
-/// given.
+/// Returns the document with works of adhesion in place of κ or e_el/γ. A document without adhesion gets the work `start`
+/// in J/m², if it is given.
 pub(crate) fn written_out(
     document: &Document,
     governing: &Governing,
@@ -52,7 +52,7 @@ pub(crate) fn written_out(
     document.with_adhesion(adhesion.map_or(by_work, |adhesion| adhesion.with_work(work)))
 }
 
-/// The document with the fitted values, loaded as the measured curve was.
+/// Returns the document with the fitted values, loaded as the body was in the measurement.
 pub(crate) fn with_values(
     document: &Document,
     values: &Values,
@@ -81,8 +81,9 @@ pub(crate) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// The document with the stiffness of the instrument that the file states, if the scene states none; without a stiffness
-    /// if the displacement is that of the body. Says in words what the file changes.
+    /// Returns the scene file with the stiffness of the instrument that the file of the curve states, if the scene states
+    /// none. If the measured displacement excludes the deflection of the instrument, a stiffness in the scene is removed.
+    /// The second value says in words what the file of the curve changes.
     ///
     /// # Errors
     /// The scene does not allow this stiffness.
@@ -118,7 +119,8 @@ impl MeasuredCurve {
         })
     }
 
-    /// The document loaded as the measured curve was, by its instrument, with first touch at the measured displacement `offset`, m.
+    /// Returns the scene file with the loading of the measured curve and its instrument. `offset` is the measured
+    /// displacement in m at which the bodies first touch.
     ///
     /// # Errors
     /// The scene does not allow this loading.
@@ -136,7 +138,7 @@ impl MeasuredCurve {
     }
 }
 
-/// The first error of a scene with other values, as an error of the fit.
+/// Converts the first error of a scene with other values to an error of the fit.
 pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
     let error = errors.first();
     let found = format!("{} = {}", error.field, error.value);

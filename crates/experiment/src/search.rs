@@ -1,12 +1,12 @@
-//! The search for the parameters that describe a curve, with their errors: a population that samples their probability
-//! (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat. Soc. B 68, 411, 2006).
+//! The search for the parameters that describe a curve, with their errors. A population samples the probability of the
+//! parameters (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat. Soc. B 68, 411, 2006).
 //!
-//! The forces jump with the parameters, so neither derivatives nor a linearised fit can show how well a curve determines
-//! them. A population can: its members are drawn from the ranges and weighted as if the noise were large, so that jumps
-//! count little. Then the noise is lowered step by step to the noise of the curve. At each step likely members are copied
-//! and unlikely ones are dropped; then each member moves by the difference of two others, which has the extent and
-//! direction of the population, and sometimes by a random step of any size, so that copies separate again. In the end the
-//! members are distributed as the noise lets the parameters be. The start is no member, since a start close to the result
+//! The forces jump with the parameters. Neither derivatives nor a linearised fit can therefore show how well a curve
+//! determines the parameters, but a population can. Its members are drawn from the ranges and weighted as if the noise were
+//! large, so that jumps count little. The noise is then lowered step by step to the noise of the curve. At each step likely
+//! members are copied and unlikely members are dropped. Each member then moves by the difference of two others, which has
+//! the extent and direction of the population. Some moves are random steps of any size, so that copies separate again. In
+//! the end the members are distributed as the noise allows. The start is no member, because a start close to the result
 //! would be copied to the whole population.
 
 use crate::baseline::{dot, ends};
@@ -28,38 +28,39 @@ const MEMBERS: usize = 24;
 const FOR_EACH: usize = 8;
 /// Share of the members that still count after a step of the noise.
 const EFFECTIVE: f64 = 0.3;
-/// Largest number of moves of the population at each step, and number of moves at the end, after each of which all members become
-/// samples.
+/// Largest number of moves of the population at each step, and number of moves at the end, each of which adds all members
+/// to the samples.
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
-/// Share of the moves that are random steps, and the number of decades below the whole range over which their lengths extend.
+/// Share of the moves that are random steps, and number of decades below the whole range over which their lengths extend.
 const RANDOM: f64 = 0.02;
 const DECADES: f64 = 6.0;
-/// Noise, over the noise of the curve, down to which forces are computed coarsely; and the factor of the number of members
-/// until then.
+/// Noise, divided by the noise of the curve, above which forces are computed coarsely, and the factor of the number of
+/// members until then.
 const COARSE: f64 = 10.0;
 const MORE: usize = 2;
-/// Part of the residual of the best member down to which the noise is lowered, if that residual exceeds the noise of the
-/// curve.
+/// Divisor of the residual of the best member. The noise is lowered to this part of the residual, if the residual exceeds
+/// the noise of the curve.
 const DEEPER: f64 = 3.0;
-/// Residual in contact, in units of the noise, above which a population is taken for one of a model that does not describe
-/// the curve, and the share of that residual below which another population counts as better.
+/// Residual in contact, in units of the noise, above which a population belongs to a model that does not describe the
+/// curve, and the share of this residual below which another population is better.
 const SYSTEMATIC: f64 = 5.0;
 const BETTER: f64 = 0.9;
 /// Mean square residual, in units of the noise, beyond which another population is made.
 const EXPECTED: f64 = 1.2;
-/// Limit of the number of populations, and the cost by which a start must be better than a population to count as missed.
+/// Largest number of populations, and the difference of costs by which a start must be better than a population to count as
+/// missed.
 const ATTEMPTS: usize = 3;
 const MISSED: f64 = 3.0;
-/// Largest noise over the noise of the curve, and number of halvings to determine a step of its logarithm.
+/// Largest noise divided by the noise of the curve, and number of halvings to determine a step of its logarithm.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
 /// Factor of the noise in a step where no smaller factor leaves enough members.
 const SLOWEST: f64 = 0.99;
-/// Residual in contact, in units of the noise, from which on a model does not describe the curve.
+/// Residual in contact, in units of the noise, above which a model does not describe the curve.
 pub(crate) const MISFIT: f64 = 1.5;
-/// Coordinate of the work of adhesion below which a scene without adhesion is tried: a few times the work that the noise
-/// hides.
+/// Coordinate of the work of adhesion below which a scene without adhesion is tried. It is a few times the work that the
+/// noise hides.
 const CLOSE: f64 = 2.5;
 /// Residual, in units of the noise, that replaces a force that is not finite.
 const FAR: f64 = 1e12;
@@ -69,20 +70,20 @@ const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 pub(crate) struct Found {
     /// The member with the smallest residuals.
     pub best: Member,
-    /// Its residuals after a fit of the lines, in units of the noise.
+    /// Residuals of the best member after a fit of the lines, in units of the noise.
     pub rests: Vec<f64>,
-    /// Noise at which the samples are distributed, over the noise of the curve; larger than 1 where the residual is.
+    /// Noise of the distribution of the samples, divided by the noise of the curve. It is above 1 where the residual is.
     pub noise: f64,
-    /// Coordinates that are distributed as the noise lets the parameters be.
+    /// Coordinates, distributed as the noise allows.
     pub samples: Vec<Vec<f64>>,
     /// Costs of each sample for each block of the curve; empty if the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
-    /// Smallest cost of a scene without adhesion less the cost of the best member; infinite if no sample comes close to no
+    /// Smallest cost of a scene without adhesion minus the cost of the best member; infinite if no sample is close to zero
     /// adhesion.
     pub without_adhesion: f64,
 }
 
-/// A search on one random profile.
+/// Search on one random profile.
 pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
@@ -104,7 +105,8 @@ impl Search<'_> {
         Ok(Member { at, rests })
     }
 
-    /// Residuals after a fit of the lines of zero and drift; in that fit residuals beyond `limit` count as `limit`.
+    /// Returns the residuals after a fit of the lines of zero and drift. In this fit residuals above `limit` count as
+    /// `limit`.
     fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
         let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
         let mut refined = rests.to_vec();
@@ -115,15 +117,15 @@ impl Search<'_> {
         refined
     }
 
-    /// Residuals at these coordinates after a fit of the lines, in units of the noise.
+    /// Computes the residuals at these coordinates after a fit of the lines, in units of the noise.
     pub fn rests(&mut self, at: &[f64], limit: f64) -> Result<Vec<f64>, ExperimentError> {
         self.model.noise = 1.0;
         let member = self.member(at.to_vec())?;
         Ok(self.refined(&member.rests, limit))
     }
 
-    /// Residuals in which points inside a jump count as described: a residual beyond [`WRONG_SIDE`] becomes the distance from
-    /// the forces between which the model jumps, if it does so within one point.
+    /// Returns residuals in which points inside a jump count as described. A residual above [`WRONG_SIDE`] becomes the
+    /// distance from the forces of a jump of the model, if the jump is within one point.
     pub fn eased(&mut self, at: &[f64], rests: &[f64]) -> Result<Vec<f64>, ExperimentError> {
         let noise = self.space.curve.noise;
         self.model.noise = 1.0;
@@ -135,24 +137,26 @@ impl Search<'_> {
         Ok(rests.iter().zip(jumps).map(ease).collect())
     }
 
-    /// Residual in contact in units of the noise of the curve, see [`Space::misfit`], after a fit of the lines at this noise.
+    /// Returns the residual in contact, in units of the noise of the curve, after a fit of the lines at this noise; see
+    /// [`Space::misfit`].
     fn misfit(&self, member: &Member, noise: f64) -> f64 {
         self.space.misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
     }
 
-    /// Cost of a member: sum of the [`loss`] of all points at this noise, in units of the noise of the curve.
+    /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of the [`loss`] of all
+    /// points.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
         self.refined(&member.rests, WRONG_SIDE * noise).iter().map(|rest| loss(rest / noise)).sum()
     }
 
-    /// Costs of a member for each block of the curve, at this noise.
+    /// Returns the costs of a member at this noise, for each block of the curve.
     fn block_costs(&self, member: &Member, noise: f64) -> Vec<f64> {
         let rests = self.refined(&member.rests, WRONG_SIDE * noise);
         let cost = |block: Range<usize>| rests[block].iter().map(|rest| loss(rest / noise)).sum();
         self.space.blocks().into_iter().map(cost).collect()
     }
 
-    /// Points evenly scattered over the ranges, different ones in each attempt.
+    /// Returns points evenly scattered over the ranges, different ones in each attempt.
     fn scattered(&mut self, attempt: usize) -> Result<Vec<Member>, ExperimentError> {
         let coordinates = &self.space.coordinates;
         let start = self.space.start();
@@ -174,15 +178,15 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Finds the member with the smallest residuals, and coordinates distributed as the noise lets them be. Another
-    /// population is drawn if the residuals exceed the noise (one in thirty ends in another minimum, one in 200 twice), if
-    /// it missed a better start (which then becomes a member of the next one), or if it has not spread.
+    /// Finds the member with the smallest residuals, and samples of the coordinates. Another population is drawn in three
+    /// cases. The residuals exceed the noise, as one population in thirty ends in another minimum and one in 200 twice. The
+    /// population has missed a better start, which then becomes a member of the next one. The population has not spread.
     pub fn find(&mut self) -> Result<Found, ExperimentError> {
         let (population, generator) = self.first()?;
         self.find_from(population, generator)
     }
 
-    /// The first population, and the generator that made it.
+    /// Returns the first population, and the generator that made it.
     pub fn first(&mut self) -> Result<(Population, ChaCha8Rng), ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
         let population = self.anneal(0, (None, 0.0), &mut generator)?;
@@ -194,7 +198,7 @@ impl Search<'_> {
         self.misfit(&population.best, population.noise) > SYSTEMATIC
     }
 
-    /// As [`Search::find`], from the first population.
+    /// Does the same as [`Search::find`] from the first population.
     pub fn find_from(
         &mut self,
         mut population: Population,
@@ -250,8 +254,8 @@ impl Search<'_> {
         Ok(Found { best: population.best, rests, noise, samples, blocks, without_adhesion })
     }
 
-    /// Smallest cost of a scene without adhesion less the cost of the best member; infinite if no sample comes close to no
-    /// adhesion.
+    /// Returns the smallest cost of a scene without adhesion minus the cost of the best member; infinite if no sample is
+    /// close to zero adhesion.
     fn without_adhesion(
         &mut self,
         population: &Population,
@@ -272,9 +276,9 @@ impl Search<'_> {
         Ok(least)
     }
 
-    /// A population whose noise was lowered to the noise of the curve, or to a part of the residual. While the noise is
-    /// large it has more members, and forces are coarse. It ends early if its residual remains above that of a rival when
-    /// the noise is that of the rival.
+    /// Returns a population whose noise was lowered to the noise of the curve, or to a part of the residual. While the
+    /// noise is large the population has more members and coarse forces. It ends early if its residual is above the
+    /// residual of a rival at the noise of the rival.
     fn anneal(
         &mut self,
         attempt: usize,
@@ -336,7 +340,7 @@ impl Search<'_> {
         }
     }
 
-    /// The next lower noise, at least `least`, and the weights of the members there.
+    /// Returns the next lower noise, at least `least`, and the weights of the members at this noise.
     fn cooler(&self, population: &Population, least: f64) -> (f64, Vec<f64>) {
         let weights = |noise: f64| -> Vec<f64> {
             let pairs = population.members.iter().zip(&population.costs);

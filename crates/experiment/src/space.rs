@@ -1,4 +1,4 @@
-//! The coordinates in which a scene is fitted, and what a fit derives from the curve.
+//! The coordinates in which a scene is fitted, and their ranges and starts from the curve.
 
 use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
@@ -15,7 +15,7 @@ use std::ops::Range;
 
 /// Ratio between the start and the ends of a range that is not given.
 const FACTOR: f64 = 30.0;
-/// Share of a range within which a value is at its end.
+/// Share of a range within which a value counts as lying at the end of the range.
 const AT_END: f64 = 0.01;
 
 /// The coordinates in which a scene is fitted, with the values of all other parameters.
@@ -44,7 +44,8 @@ fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
 }
 
 impl<'a> Space<'a> {
-    /// Checks parameters and scene; returns the document with works of adhesion written out, and the coordinates of the fit.
+    /// Checks parameters and scene. Returns the document with works of adhesion in place of κ, and the coordinates of the
+    /// fit.
     pub fn of(
         curve: &'a MeasuredCurve,
         document: &Document,
@@ -150,7 +151,7 @@ impl<'a> Space<'a> {
         Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
     }
 
-    /// Values of all parameters at these coordinates.
+    /// Returns the values of all parameters at these coordinates.
     pub fn values(&self, at: &[f64]) -> Values {
         let mut values = self.base;
         for (coordinate, &at) in self.coordinates.iter().zip(at) {
@@ -163,8 +164,8 @@ impl<'a> Space<'a> {
         values
     }
 
-    /// The free parameters with a larger range of the work of adhesion, if its range was not given and ends at these
-    /// coordinates: rough bodies may be pulled off by a small part of the force of smooth ones.
+    /// Returns the free parameters with a larger range of the work of adhesion, if its range was not given and these
+    /// coordinates lie at its end. Rough bodies may be pulled off by a small part of the force of smooth bodies.
     pub fn extended(&self, at: &[f64], free: &[Free]) -> Option<Vec<Free>> {
         let place = self.coordinates.iter().position(|one| one.parameter == Parameter::Work)?;
         let (Coordinate { range, .. }, (low, high)) =
@@ -175,12 +176,12 @@ impl<'a> Space<'a> {
         (at[place] > high - AT_END * (high - low)).then_some(free)
     }
 
-    /// Coordinates at which the search begins.
+    /// Returns the coordinates at which the search begins.
     pub fn start(&self) -> Vec<f64> {
         self.coordinates.iter().map(|one| one.of(one.start, &self.base)).collect()
     }
 
-    /// Consecutive parts of each segment in contact; they depend on each other less than points do.
+    /// Returns consecutive parts of each segment in contact. Parts depend on each other less than points do.
     pub fn blocks(&self) -> Vec<Range<usize>> {
         let (mut blocks, mut from) = (Vec::new(), self.curve.free);
         for segment in self.curve.segment[from..].chunk_by(|one, next| one == next) {
@@ -191,13 +192,13 @@ impl<'a> Space<'a> {
         blocks
     }
 
-    /// Straight lines of the curve that each model refines; see [`MeasuredCurve::lines`].
+    /// Returns the straight lines of the curve that each model refines; see [`MeasuredCurve::lines`].
     pub fn lines(&self) -> Vec<Vec<f64>> {
         let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
         self.curve.lines(has_zero)
     }
 
-    /// Root mean square residual in contact, in units of the noise of the curve; see [`scale`].
+    /// Returns the root mean square residual in contact, in units of the noise of the curve; see [`scale`].
     pub fn misfit(&self, rests: &[f64]) -> f64 {
         scale(&rests[self.curve.free..], WRONG_SIDE)
     }

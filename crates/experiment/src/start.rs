@@ -1,5 +1,5 @@
-//! Values at which a fit begins, from the curve and the known parameters alone: the values of the scene for free parameters
-//! have no effect.
+//! Values at which a fit begins. They follow from the curve and the known parameters; the values of the scene for free
+//! parameters have no effect.
 
 use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
@@ -7,36 +7,36 @@ use crate::error::ExperimentError;
 use asperity_contact::{Contact, Leg, Modulus};
 use std::f64::consts::PI;
 
-/// Pull-off force of a smooth body, over the pull-off force of the curve, up to which the coordinate of the work of
-/// adhesion is linear, unless the noise hides more.
+/// Pull-off force of a smooth body, divided by the pull-off force of the curve, up to which the coordinate of the work of
+/// adhesion is linear. The limit is larger if the noise hides more.
 const LINEAR: f64 = 0.01;
-/// Smallest share of the way from first touch to the turning point that the body is assumed to indent, since the deflection
-/// of the instrument takes the rest.
+/// Smallest share of the way from first touch to the turning point that indents the body. The deflection of the instrument
+/// takes the rest.
 const LEAST: f64 = 0.05;
-/// Stiffness of an instrument over the mean slope of the force.
+/// Stiffness of an instrument divided by the mean slope of the force.
 const STIFFER: f64 = 10.0;
 
-/// What is known of the scene of a fit.
+/// Known parameters of the scene of a fit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     /// Radius of the form, m.
     pub radius: Option<f64>,
     /// Length of the profile, m.
     pub length: f64,
-    /// Effective modulus, Pa, unless it is free.
+    /// Effective modulus, Pa; `None` if it is free.
     pub modulus: Option<f64>,
-    /// Stiffness of the instrument, N/m, unless it is free; infinite for a rigid one.
+    /// Stiffness of the instrument, N/m, infinite for a rigid one; `None` if it is free.
     pub stiffness: Option<f64>,
 }
 
 /// Values at which a fit begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Starts {
-    /// Work of adhesion, J/m²: that of a smooth body with the pull-off force of the curve.
+    /// Work of adhesion, J/m², with which a smooth body would have the pull-off force of the curve.
     pub work: f64,
     /// Work of adhesion that the noise hides, J/m².
     pub least_work: f64,
-    /// Effective modulus, Pa: with it the body without adhesion would carry the largest force at the turning point.
+    /// Effective modulus, Pa, with which the body without adhesion would carry the largest force at the turning point.
     pub modulus: f64,
     /// Stiffness of the instrument, N/m.
     pub stiffness: f64,

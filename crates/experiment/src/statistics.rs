@@ -9,7 +9,7 @@ const RANGES: usize = 20;
 /// Number of parts into which each segment is divided as blocks of the curve.
 pub(crate) const PARTS: usize = 4;
 
-/// Robust root mean square of residuals: residuals larger than `cut` times this scale count as `cut` times the scale
+/// Returns a robust root mean square of residuals. Residuals above `cut` times this scale count as `cut` times the scale
 /// (Huber, Robust Statistics, proposal 2), so that single points on the wrong side of a jump count little.
 pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();
@@ -24,10 +24,10 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     (sum / count).sqrt()
 }
 
-/// Standard error of a value by its scatter over blocks of the curve, from samples of the value and the costs of each
-/// sample for each block (infinitesimal jackknife; Giordano and Broderick, arXiv 2305.06466). Where a model does not
-/// describe a curve, its residuals are no independent noise, and each block would give another value. Blocks are joined, up
-/// to whole segments; the largest error counts.
+/// Returns the standard error of a value from its scatter over blocks of the curve (infinitesimal jackknife; Giordano and
+/// Broderick, arXiv 2305.06466). `blocks` has the costs of each sample for each block. Where a model does not describe a
+/// curve, its residuals are no independent noise, and each block would give another value. Blocks are joined, up to whole
+/// segments, and the largest error counts.
 pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let (count, average) = (values.len() as f64, mean(values));
     let influence = |block: usize| {
@@ -42,7 +42,8 @@ pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
 }
 
-/// Factor by which correlation of the residuals along the curve increases the variance of their mean: 1 without correlation.
+/// Returns the factor by which correlation of the residuals along the curve increases the variance of their mean; 1 without
+/// correlation.
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
@@ -62,14 +63,14 @@ pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     }
 }
 
-/// Standard deviation of values, and their 2.5 % and 97.5 % quantiles.
+/// Returns the standard deviation of values, and their 2.5 % and 97.5 % quantiles.
 pub(crate) fn spread(mut values: Vec<f64>) -> (f64, (f64, f64)) {
     values.sort_by(f64::total_cmp);
     let quantile = |share: f64| values[((share * values.len() as f64) as usize).min(values.len() - 1)];
     (standard_deviation(&values, mean(&values)), (quantile(0.025), quantile(0.975)))
 }
 
-/// Correlation of two coordinates over samples; 0 if one of them does not vary.
+/// Returns the correlation of two coordinates over samples; 0 if one of them does not vary.
 pub(crate) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
     let [one, other] = pair.map(|index| {
         let mut values = column(samples, index);

@@ -1,17 +1,17 @@
-//! Where the points of a text begin, and what the lines above them state.
+//! Where the points of a text begin, and what the lines above them say.
 
 use crate::columns::is_unit;
 use crate::metadata::Metadata;
-use asperity_surface::{Decimal, Separator, SurfaceError, TextCell, TextColumn, TextHeader, each_text};
+use asperity_data::text_table::{
+    COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, TextFault, each_line,
+};
 
-/// Number of like rows of numbers from which on they are points: lines of metadata with numbers are not as many.
+/// Number of like rows of numbers that make them points. Lines of metadata with numbers are fewer.
 const RUN: usize = 5;
-/// Characters that begin a comment.
-const COMMENT: [char; 3] = ['#', '%', '!'];
 /// Header line of tables that PyJibe and afmformats write, whose columns are in SI units.
 const OF_AFMFORMATS: &str = "END METADATA";
 
-/// Form of a row of numbers: its separator, the number of its cells, and which of them are words.
+/// Form of a row of numbers: separator, number of cells, and which cells are words.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Shape {
     pub separator: Separator,
@@ -20,7 +20,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// The form of a line with at least `least` values, of which at least one is not missing.
+    /// Returns the form of a line with at least `least` values, of which at least one is not missing.
     fn of(line: &str, least: usize) -> Option<Shape> {
         let separator = Separator::of(line);
         let (mut words, mut count, mut numbers) = (Vec::new(), 0, 0);
@@ -36,15 +36,15 @@ impl Shape {
     }
 }
 
-/// The line at which the points begin, and their form: that of the first few like rows, or else of the first row. `None`
-/// without a row of numbers.
-pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, SurfaceError> {
+/// Returns the line at which the points begin, and their form. The first few like rows decide, or else the first row.
+/// Returns `None` if there is no row of numbers.
+pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, TextFault> {
     for least in [2, 1] {
         let (mut first, mut run) = (None, None::<(usize, Shape)>);
         let (mut length, mut has_found) = (0, false);
-        each_text(bytes, |number, line| {
+        each_line(bytes, |number, line| {
             if has_found || line.is_empty() || is_comment(line) {
-                return Ok(());
+                return Ok::<(), TextFault>(());
             }
             let Some(shape) = Shape::of(line, least) else {
                 run = None;
@@ -72,18 +72,18 @@ pub(crate) fn is_comment(line: &str) -> bool {
     line.starts_with(COMMENT)
 }
 
-/// Name of the segment that a comment states.
+/// Returns the name of the segment that a comment states.
 pub(crate) fn segment_of(comment: &str) -> Option<&str> {
     let (key, name) = comment.trim_start_matches(COMMENT).split_once(':')?;
     key.trim().eq_ignore_ascii_case("segment").then_some(name.trim())
 }
 
-/// The lines above the points.
+/// Lines above the points.
 #[derive(Default)]
 pub(crate) struct Above {
-    pub header: TextHeader,
+    pub header: HeadLines,
     pub metadata: Metadata,
-    /// Names of columns with the first numbers behind the last name, in a file without a line end between them.
+    /// Names of columns followed by the first numbers, from a file without a line end between them.
     merged: Option<String>,
 }
 
@@ -105,13 +105,13 @@ impl Above {
         });
     }
 
-    /// Names and units of the columns.
+    /// Returns names and units of the columns.
     pub fn columns(&self, shape: &Shape) -> Vec<TextColumn> {
-        let of = |header: &TextHeader| header.columns(shape.count, shape.count, shape.separator, is_unit);
+        let of = |header: &HeadLines| header.columns(shape.count, shape.count, shape.separator, is_unit);
         match &self.merged {
             None => of(&self.header),
             Some(names) => {
-                let mut header = TextHeader::default();
+                let mut header = HeadLines::default();
                 header.take(names);
                 of(&header)
             }

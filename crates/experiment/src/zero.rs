@@ -9,17 +9,17 @@ use asperity_data::format_quantity;
 use asperity_data::mean;
 use std::ops::Range;
 
-/// Drift or tilt, in standard errors, from which on it is said to remain in a curve.
+/// Drift or tilt, in standard errors, above which it is reported to remain in a curve.
 const REMAINS: f64 = 5.0;
-/// Residual of the lines of drift, tilt and step, over the noise between neighbours, above which the parts without contact
-/// are not straight; and ratio of the lines to that residual above which they count as drift or tilt nevertheless.
+/// Residual of the lines of drift, tilt and step, divided by the noise between neighbouring points, above which the parts
+/// without contact are not straight. Lines that exceed this residual by the second number still count as drift or tilt.
 const CURVED: f64 = 1.5;
 const DOMINATES: f64 = 20.0;
 
-/// The points without contact: the first ones of an approach and the last ones of a retraction.
+/// Points without contact: at the beginning of an approach and at the end of a retraction.
 pub(crate) struct FreeParts {
     pub before: Option<usize>,
-    /// Number of the last points after contact; 0 if there are few.
+    /// Number of points after contact at the end; 0 if there are few.
     pub after: usize,
     /// Time and displacement of each point, as shares of the whole curve.
     pub shares: [Vec<f64>; 2],
@@ -58,7 +58,7 @@ impl FreeParts {
         Ok(FreeParts { before: before.ok(), after, shares: [time, displacement] })
     }
 
-    /// Index range of the points without contact that give zero and noise.
+    /// Returns the index range of the points without contact that give the zero and the noise.
     fn base(&self) -> Range<usize> {
         let count = self.shares[0].len();
         self.before.map_or(count - self.after..count, |before| 0..before)
@@ -68,8 +68,8 @@ impl FreeParts {
         Baseline::through(&points.force[self.base()])
     }
 
-    /// Displacement at which the contact seems to begin, m: behind the part before contact; for a retraction alone where
-    /// compression ends, or half way to its end.
+    /// Returns the displacement in m at which the contact seems to begin, behind the part before contact. For a retraction
+    /// without an approach it lies where compression ends, or half way to its end.
     pub fn touch(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];
@@ -83,8 +83,8 @@ impl FreeParts {
         points.displacement[points.of(1).start + place.min(in_contact.len() - 1)]
     }
 
-    /// Subtracts zero, drift and tilt as the options ask. Returns the drift, tilt and step that remain, N, and a statement
-    /// on all of it.
+    /// Subtracts zero, drift and tilt as the options request. Returns the drift, tilt and step that remain in N, and a
+    /// statement on all of them.
     pub fn take_off_lines(
         &self,
         points: &mut Points,

@@ -1,12 +1,12 @@
-//! Contact with adhesion: the edge of the contact is a crack, which opens and closes where the energy that it releases by
-//! a cell, the virtual crack closure ½σg, passes the work of adhesion.
+//! Contact with adhesion. The edge of the contact is a crack. It opens or closes where the energy that it releases over one
+//! cell, the virtual crack closure ½σg, passes the work of adhesion.
 //!
-//! Across an edge between a cell i of the contact, under the tension σ, and an open cell j with the gap g, ½σg is
-//! exact for straight fronts along the grid and at 45°. A front moves by kinks, at which the mean over the open
-//! neighbours is about 1.27 times that of the straight front, whatever the number of cells; a cell therefore opens where this
-//! mean passes [`OPENING`] times the work of adhesion. A cell closes where the mean over its neighbours in contact is below
-//! [`CLOSING`] times the work of adhesion on closing. Between both a lattice hysteresis of 5 to 12 % of the work of adhesion
-//! remains, so that a smaller dissipated energy is none of the contact.
+//! Here σ is the tension of a cell i in contact, and g the gap of an open cell j beside it. ½σg is exact for straight
+//! fronts along the grid and at 45°. A front moves by kinks, where the mean over the open neighbours is about 1.27 times
+//! that of the straight front, whatever the number of cells. A cell therefore opens where this mean passes [`OPENING`]
+//! times the work of adhesion. A cell closes where the mean over its neighbours in contact is below [`CLOSING`] times the
+//! work of adhesion on closing. Between both remains a hysteresis of the lattice, 5 to 12 % of the work of adhesion. A
+//! smaller dissipated energy is not a property of the contact.
 
 use super::error::HalfSpaceError;
 use super::half_space::{Square, check_cells, positive};
@@ -14,32 +14,32 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Times the work of adhesion at which a cell opens; found once with spheres.
+/// Ratio of the energy ½σg to the work of adhesion above which a cell opens. It was found once with spheres.
 pub const OPENING: f64 = 1.29;
-/// Times the work of adhesion on closing below which a cell closes.
+/// Ratio of the energy ½σg to the work of adhesion on closing below which a cell closes.
 pub const CLOSING: f64 = 0.8;
-/// Share of the largest stress of an edge by which stresses may be off.
+/// Allowed error of stresses, as a share of the largest stress of an edge.
 const TOLERANCE: f64 = 1e-3;
-/// Energy of an edge under the stress σ over σ²Δ/E*, for the front along the grid.
+/// Energy of an edge under the stress σ over σ²Δ/E*, for a front along the grid with cells of the side Δ.
 const OF_AN_EDGE: f64 = 0.4732;
 
 /// State of an adhesive contact at one indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdhesiveState {
-    /// Indentation, m, from first touch.
+    /// Indentation in m from first touch.
     pub indentation: f64,
-    /// Force, N, negative in tension.
+    /// Force in N, negative in tension.
     pub force: f64,
-    /// Area of the cells in contact, m².
+    /// Area of the cells in contact in m².
     pub area: f64,
-    /// Elastic energy, J, of the half-space.
+    /// Elastic energy of the half-space in J.
     pub elastic_energy: f64,
 }
 
-/// A rigid rough square that adheres to a half-space, moved by indentations.
+/// A rigid rough square that adheres to an elastic half-space and is moved by prescribed indentations.
 pub struct AdhesiveSquare {
     grid: Grid,
-    /// Cells along a side of the body; one ring of cells around it never touches.
+    /// Number of cells along a side of the body. One ring of cells around it never touches.
     cells: usize,
     side: f64,
     effective_modulus: f64,
@@ -50,15 +50,15 @@ pub struct AdhesiveSquare {
 }
 
 impl AdhesiveSquare {
-    /// Bytes of a square with this number of cells along a side.
+    /// Returns the number of bytes of memory for a square with this number of cells along a side.
     pub fn bytes(cells: usize) -> u64 {
         Grid::bytes(cells + 2, Boundary::Free) + (cells as u64 + 2).pow(2)
     }
 
-    /// Creates a separated square.
+    /// Creates a separated square. The pair has the works of adhesion on opening and on closing in J/m².
     ///
     /// # Errors
-    /// The number of cells or heights, or a value, is out of its range.
+    /// The number of cells or heights, or a value, is out of its range, or the memory is too small.
     pub fn new(square: &Square<'_>, (opening, closing): (f64, f64)) -> Result<Self, HalfSpaceError> {
         let cells = square.heights.len().isqrt();
         check_cells(cells)?;
@@ -101,12 +101,12 @@ impl AdhesiveSquare {
         Ok(AdhesiveSquare { grid, cells, side: scale, effective_modulus, works, opened })
     }
 
-    /// Convolutions so far.
+    /// Returns the number of convolutions computed so far.
     pub fn convolutions(&self) -> u64 {
         self.grid.operators.convolutions
     }
 
-    /// Moves the square to an indentation, m, from first touch, and lets its edges move until they stand. `stop` is asked
+    /// Moves the square to an indentation in m from first touch, and lets its edges move until they rest. `stop` is called
     /// before each step of the solver.
     ///
     /// # Errors
@@ -137,7 +137,7 @@ impl AdhesiveSquare {
         }
     }
 
-    /// Cells of the body, without the ring.
+    /// Returns the cells of the body, without the ring.
     fn body(&self) -> impl Iterator<Item = usize> + use<> {
         let (cells, ringed) = (self.cells, self.cells + 2);
         (0..cells * cells).map(move |at| (at / cells + 1) * ringed + at % cells + 1)
@@ -151,7 +151,7 @@ impl AdhesiveSquare {
         (-self.grid.pressure[at]).max(0.0)
     }
 
-    /// Mean of ½σg over the neighbours of a cell on the other side of the edge; `None` without one.
+    /// Returns the mean of ½σg over the neighbours of a cell on the other side of the edge; `None` without one.
     fn energy(&self, at: usize) -> Option<f64> {
         let ringed = self.cells + 2;
         let is_open = self.grid.outside[at] == 1.0;
@@ -166,7 +166,7 @@ impl AdhesiveSquare {
         (count > 0.0).then(|| 0.5 * own * sum / count)
     }
 
-    /// Opens all cells whose energy passes the work of adhesion; true if there was one.
+    /// Opens all cells whose energy passes the work of adhesion. Returns true if there was one.
     fn open(&mut self) -> bool {
         let limit = OPENING * self.works.0;
         let is_over = |at: &usize| {
@@ -179,7 +179,7 @@ impl AdhesiveSquare {
         !over.is_empty()
     }
 
-    /// Takes all cells into contact that penetrate; true if there was one.
+    /// Takes all cells into contact that penetrate. Returns true if there was one.
     fn touch(&mut self) -> bool {
         let is_in = |at: &usize| {
             let Grid { outside, displacement, depths, level, .. } = &self.grid;
@@ -188,7 +188,7 @@ impl AdhesiveSquare {
         self.take_in(&self.body().filter(is_in).collect::<Vec<_>>())
     }
 
-    /// Takes all cells into contact that close; true if there was one.
+    /// Takes all cells into contact that close. Returns true if there was one.
     fn close(&mut self) -> bool {
         let limit = CLOSING * self.works.1;
         let closes = |at: &usize| {
@@ -303,9 +303,9 @@ mod tests {
         }
     }
 
-    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other directions on the grid at each angle, pulls off
-    /// at the same force whatever its angle, and at little less than the sphere with its mean radius (Johnson and Greenwood
-    /// 2005).
+    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other directions on the grid at
+    /// each angle, pulls off at the same force whatever its angle, and at little less than the sphere with its mean radius
+    /// (Johnson and Greenwood 2005).
     #[test]
     fn an_ellipsoid_pulls_off_at_the_same_force_at_all_angles() {
         let (cells, critical) = (64, 13.0);

@@ -7,16 +7,16 @@ use asperity_fourier::{
 };
 use std::sync::Arc;
 
-/// Bytes of the columns of one row that are transformed together: memory is read in rows, columns are computed
-/// contiguously.
+/// Number of bytes of the columns of one row that are transformed together. Memory is read in rows, and columns are
+/// computed contiguously.
 const BLOCK: usize = 128;
 
-/// A planned convolution of numbers of the type T. Rows are transformed first; then each block of columns is gathered,
+/// A planned convolution of numbers of the type T. Rows are transformed first. Then each block of columns is gathered,
 /// transformed, multiplied, transformed back and stored, in one pass over the memory.
 pub struct Convolution<T> {
-    /// Rows and columns of the grid.
+    /// Number of rows and columns of the grid.
     cells: usize,
-    /// Rows and columns of the grid with its margin of zeros.
+    /// Number of rows and columns of the grid with its margin of zeros.
     padded: usize,
     /// Transform of the kernel over the number of padded cells, column by column.
     transfer: Vec<T>,
@@ -29,23 +29,24 @@ pub struct Convolution<T> {
 }
 
 impl<T: FftNum + Default> Convolution<T> {
-    /// Columns that are transformed together.
+    /// Number of columns that are transformed together.
     const TOGETHER: usize = BLOCK / size_of::<Complex<T>>();
 
-    /// Bytes of a planned convolution, and of its planning beside it.
+    /// Returns the number of bytes of a planned convolution, together with the memory of its planning.
     pub fn bytes(cells: usize, padded: usize) -> u64 {
         let half = padded / 2 + 1;
         let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * padded;
         (size_of::<T>() * (padded * half + 2 * complex) + 8 * half * half) as u64
     }
 
-    /// Distance of the rows of the half spectra: no power of two, which would fall on the same lines of the cache.
+    /// Returns the distance of the rows of the half spectra. It is no power of two, which would fall on the same lines of
+    /// the cache.
     fn stride(padded: usize) -> usize {
         (padded / 2 + 1).next_multiple_of(Self::TOGETHER) + Self::TOGETHER / 2
     }
 
-    /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves over the padded
-    /// grid, is `transform`; wave numbers beyond the half of the grid are negative ones.
+    /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves over the padded grid,
+    /// is `transform`. Wave numbers beyond the half of the grid are negative ones.
     pub fn by_transform(
         cells: usize,
         padded: usize,
@@ -151,7 +152,7 @@ impl<T: FftNum + Default> Convolution<T> {
     }
 }
 
-/// The number of the type T next to another one.
+/// Returns the number of the type T next to another one.
 fn number<T: FftNum>(value: f64) -> T {
     T::from_f64(value).unwrap_or_else(T::zero)
 }

@@ -7,23 +7,23 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HalfSpaceError {
-    /// The number of cells along a side.
+    /// The number of cells along a side is not allowed; the field has this number.
     #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]
     Cells(usize),
-    /// The number of heights for this number of cells along a side.
+    /// The number of heights does not fit the number of cells along a side.
     #[error("{found} heights; allowed: {allowed}, one for each cell")]
     Heights {
-        /// The number of heights.
+        /// The given number of heights.
         found: usize,
-        /// The allowed number.
+        /// The number of heights that is allowed.
         allowed: usize,
     },
-    /// A value of a body, a load or an option.
+    /// A value of a body, a load or an option is out of its range.
     #[error("{name} = {found:e}; allowed: {allowed}")]
     Value {
         /// Name of the value.
         name: &'static str,
-        /// The value.
+        /// The given value in SI units.
         found: f64,
         /// Allowed range of the value, with its unit.
         allowed: &'static str,
@@ -31,7 +31,7 @@ pub enum HalfSpaceError {
     /// An array does not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// The computation was stopped from outside.
+    /// The caller stopped the computation.
     #[error("the computation was stopped")]
     Stopped,
 }

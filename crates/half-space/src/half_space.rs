@@ -5,53 +5,54 @@ use super::operators::Boundary;
 use super::press::{COARSEST, Ended, Given, Grid, press};
 use asperity_data::check_room;
 
-/// Most cells along a side.
+/// Largest number of cells along a side.
 const FINEST: usize = 8192;
 
 /// A rigid rough square above an elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Square<'a> {
-    /// Heights of the cells, m, row by row, peaks up.
+    /// Heights of the cells in m, row by row; peaks are up.
     pub heights: &'a [f64],
-    /// Side L, m.
+    /// Side L of the square in m.
     pub side: f64,
-    /// Effective modulus E*, Pa.
+    /// Effective modulus E* in Pa.
     pub effective_modulus: f64,
 }
 
 /// Prescribed force or indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
-    /// Force, N, positive in compression. The force of one period of a periodic square.
+    /// Force in N, positive in compression. For a periodic square it is the force of one period.
     Force(f64),
-    /// Indentation, m, from first touch. Only of a free square: the displacement of a periodic half-space has no zero.
+    /// Indentation in m from first touch. Only a free square can have it, because the displacement of a periodic half-space
+    /// has no zero.
     Indentation(f64),
 }
 
-/// A contact without adhesion.
+/// Solution of a contact without adhesion: pressures, gaps, force and indentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pressed {
-    /// Pressure on each cell, Pa.
+    /// Pressure on each cell in Pa.
     pub pressure: Vec<f64>,
-    /// Gap above each cell, m; zero on the contact to within the residual.
+    /// Gap above each cell in m. It is zero on the contact to within the residual.
     pub gap: Vec<f64>,
-    /// Force, N.
+    /// Force in N.
     pub force: f64,
-    /// Indentation from first touch, m; of a periodic square the distance of the highest point from the mean plane of the
-    /// deformed half-space.
+    /// Indentation from first touch in m. For a periodic square it is the distance of the highest point from the mean plane
+    /// of the deformed half-space.
     pub indentation: f64,
-    /// Area of the cells in contact, m².
+    /// Area of the cells in contact in m².
     pub area: f64,
-    /// Largest violation of the conditions of contact over the rms height: of a gap of zero on the contact, of a gap of at
-    /// least zero elsewhere. Pressures are at least zero, and their sum is the force, exactly.
+    /// Largest violation of the conditions on the gap, over the rms height. The gap is zero on the contact and at least
+    /// zero elsewhere. The conditions on the pressure hold exactly: it is nowhere negative, and its sum is the force.
     pub residual: f64,
-    /// True if the asked residual is reached; false where the steps of the solver ended before.
+    /// True if the residual reached the required tolerance; false if the solver used up its steps before.
     pub is_reached: bool,
-    /// Convolutions on the finest grid.
+    /// Number of convolutions computed on the finest grid.
     pub convolutions: u64,
 }
 
-/// Planned operators and memory for squares of one number of cells.
+/// Solver for the contacts of squares with one number of cells, with its planned operators and memory.
 pub struct HalfSpace {
     boundary: Boundary,
     /// Nested grids, the finest one last.
@@ -59,7 +60,7 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Bytes of the operators and the memory.
+    /// Returns the memory of a solver in bytes.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         nested(cells).map(|cells| Grid::bytes(cells, boundary)).sum()
     }
@@ -67,7 +68,7 @@ impl HalfSpace {
     /// Plans the contact of squares with this number of cells along a side.
     ///
     /// # Errors
-    /// The number of cells is not a power of two from 32 to 8192, or the memory is insufficient.
+    /// The number of cells is not a power of two from 32 to 8192, or the memory is too small.
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, HalfSpaceError> {
         check_cells(cells)?;
         check_room(HalfSpace::bytes(cells, boundary))?;
@@ -75,8 +76,8 @@ impl HalfSpace {
         Ok(HalfSpace { boundary, grids })
     }
 
-    /// Presses a square on the half-space without adhesion, to a residual of `tolerance` rms heights. `stop` is asked before
-    /// each step.
+    /// Presses a square on the half-space without adhesion, to a residual of at most `tolerance` rms heights. `stop` is
+    /// called before each step of the solver.
     ///
     /// # Errors
     /// A value is out of its range, or `stop` returned true.
@@ -119,7 +120,7 @@ impl HalfSpace {
         Ok(self.pressed(square, ended))
     }
 
-    /// Sets the depths of the finest grid; returns the rms height in units of the side.
+    /// Sets the depths of the finest grid, and returns the rms height in units of the side.
     fn lay(&mut self, square: &Square<'_>) -> Result<f64, HalfSpaceError> {
         let Some(grid) = self.grids.last_mut() else { return Ok(0.0) };
         let allowed = grid.cells * grid.cells;
@@ -163,7 +164,7 @@ impl HalfSpace {
 /// Checks a number of cells along a side.
 ///
 /// # Errors
-/// It is not a power of two from 32 to 8192.
+/// The number is not a power of two from 32 to 8192.
 pub fn check_cells(cells: usize) -> Result<(), HalfSpaceError> {
     let is_allowed = cells.is_power_of_two() && (COARSEST..=FINEST).contains(&cells);
     if is_allowed { Ok(()) } else { Err(HalfSpaceError::Cells(cells)) }
@@ -177,7 +178,7 @@ pub fn positive(name: &'static str, found: f64) -> Result<(), HalfSpaceError> {
     Err(HalfSpaceError::Value { name, found, allowed: "a positive number" })
 }
 
-/// Cells along the sides of nested grids, the coarsest first.
+/// Returns the numbers of cells along the sides of nested grids, the coarsest first.
 fn nested(cells: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(COARSEST), |cells| Some(2 * cells)).take_while(move |of| *of <= cells)
 }

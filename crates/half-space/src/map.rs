@@ -7,12 +7,13 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
-/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. `variance` is the
-/// share of a wave of k waves over the side in the mean square height: the sum over all pairs (k_x, k_y) other than (0, 0)
-/// is h². Phases are random, and the same for a pair whatever the number of cells, so that more cells refine the same surface.
+/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. `variance` of k is the
+/// part that a wave of k waves over the side has in the mean square height. Over all pairs (k_x, k_y) except (0, 0) the parts
+/// sum to the mean square height. Heights are in m if the parts are in m². The phase of each pair is random and does not depend
+/// on the number of cells, so that more cells refine the same surface.
 ///
 /// # Errors
-/// Memory is insufficient.
+/// The memory is too small.
 pub fn random_map(
     cells: usize,
     variance: impl Fn(f64) -> f64,

@@ -1,5 +1,5 @@
-//! Linear operators of a half-space on a square grid, in units of the side L and the effective modulus E*: displacement
-//! by pressure, its approximate inverse, and the extension of numbers from a contact to the grid around it.
+//! Linear operators of a half-space on a square grid, in units of the side L and the effective modulus E*. They are the
+//! displacement by a pressure, its approximate inverse, and the extension of numbers from a contact to the grid around it.
 
 use super::convolution::Convolution;
 use asperity_data::{OutOfMemory, resized};
@@ -8,12 +8,12 @@ use std::f64::consts::{PI, TAU};
 /// Number of sweeps by which a residual is extended beyond the contact.
 const SWEEPS: usize = 6;
 
-/// Surroundings of the square.
+/// Surroundings of the square on the half-space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// The square is alone on the half-space.
     Free,
-    /// The square is repeated in both directions without an end.
+    /// The square is repeated without end in both directions.
     Periodic,
 }
 
@@ -33,7 +33,7 @@ pub struct Operators {
 }
 
 impl Operators {
-    /// Bytes of the operators of a grid.
+    /// Returns the number of bytes of the operators of a grid.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         let (displacement, stiffness) = paddings(cells, boundary);
         Convolution::<f64>::bytes(cells, displacement)
@@ -66,15 +66,15 @@ impl Operators {
         })
     }
 
-    /// Displacements by pressures.
+    /// Computes the displacements by pressures.
     pub fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) {
         self.convolutions += 1;
         self.displacement.apply(pressure, displacement);
     }
 
-    /// Approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E, where D is E*|q|/2 and E
-    /// extends displacements smoothly beyond the contact, since zeros there would act as a wall at each edge. The operator
-    /// is symmetric; it is approximate, so that single precision is enough. `outside` is 1 off the contact and 0 on it.
+    /// Computes approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E. D is E*|q|/2, and E
+    /// extends displacements smoothly beyond the contact, because zeros there would act as a wall at each edge. The operator is
+    /// symmetric. It is only approximate, so single precision is enough. `outside` is 1 off the contact and 0 on it.
     pub fn precondition(&mut self, residual: &[f32], outside: &[f32], pressure: &mut [f32]) {
         let Operators { cells, stiffness, extended, other, off, .. } = self;
         // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways back.
@@ -90,7 +90,7 @@ impl Operators {
     }
 }
 
-/// Sides of the padded grids of both operators.
+/// Returns the sides of the padded grids of both operators.
 fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
     match boundary {
         Boundary::Periodic => (cells, cells),
@@ -99,7 +99,8 @@ fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
     }
 }
 
-/// Displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in units of the cell (Love 1929).
+/// Returns the displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in units of the cell (Love
+/// 1929).
 fn of_a_cell(x: f64, y: f64) -> f64 {
     let part = |x: f64, y: f64| {
         let r = x.hypot(y);
@@ -110,8 +111,8 @@ fn of_a_cell(x: f64, y: f64) -> f64 {
     (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5) + part(x - 0.5, y - 0.5)) / PI
 }
 
-/// Extends the numbers `fixed` into `extended` by sweeps, in each of which every cell off the contact becomes its own number and
-/// the mean of its neighbours, and cells of the contact keep their own.
+/// Extends the numbers `fixed` into `extended` by sweeps. In each sweep every cell off the contact becomes its own number
+/// and the mean of its neighbours. Cells of the contact keep their own number.
 fn extend(
     (cells, sweeps): (usize, usize),
     (fixed, outside): (&[f32], &[f32]),
@@ -131,8 +132,8 @@ fn extend(
     }
 }
 
-/// Calls a function with the number of each row, the sums of the four neighbours of its cells, and the row of `to`; a neighbour
-/// beyond the grid is the cell itself.
+/// Calls a function with the number of each row, the sums of the four neighbours of its cells, and the row of `to`. A
+/// neighbour beyond the grid is the cell itself.
 fn each_row(cells: usize, from: &[f32], to: &mut [f32], mut visit: impl FnMut(usize, &[f32], &mut [f32])) {
     let mut sums = vec![0.0; cells];
     let last = cells - 1;

@@ -1,24 +1,24 @@
 //! Contact without adhesion: nested projected conjugate gradients on an active set.
 //!
-//! Each grid halves the cells of the coarser one, whose solution is its start. On a fixed set of cells the gap is made
-//! uniform by preconditioned conjugate gradients (Polak and Ribière), and pressures may become negative meanwhile; the set
-//! changes where the cells that pull or penetrate outweigh what the gradients have left over. The idea of an active set in
-//! one loop with the gradients is that of Polonsky and Keer (1999).
+//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed set of cells the gap is
+//! made uniform by preconditioned conjugate gradients (Polak and Ribière); meanwhile pressures may become negative. The set
+//! changes where the cells that pull or penetrate outweigh what the gradients have left over. An active set in one loop
+//! with the gradients is the idea of Polonsky and Keer (1999).
 
 use super::error::HalfSpaceError;
 use super::operators::{Boundary, OWN_DISPLACEMENT, Operators};
 use asperity_data::{OutOfMemory, resized};
 
-/// Cells of the side of the coarsest grid.
+/// Number of cells along the side of the coarsest grid.
 pub const COARSEST: usize = 32;
 /// Residual to which coarser grids are solved, in rms heights.
 const COARSE: f64 = 1e-3;
-/// The set changes when its violations are this many times the residual on it.
+/// Ratio of the violations of the set to the residual on it at which the set changes.
 const OUTWEIGHS: f64 = 1.5;
-/// Most steps of the gradients on one grid.
+/// Largest number of steps of the gradients on one grid.
 const MOST_STEPS: u64 = 400;
 
-/// What is given, in units of L and E*.
+/// Prescribed force or indentation, in units of L and E*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// Mean pressure over the square, F/(E* L²).
@@ -27,16 +27,16 @@ pub enum Given {
     Indentation(f64),
 }
 
-/// How a solution ended.
+/// End of a solution: its residual and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ended {
     /// Largest violation of the conditions of contact, in rms heights of the surface.
     pub residual: f64,
-    /// True if the asked residual is reached.
+    /// True if the required residual is reached.
     pub is_reached: bool,
-    /// Steps of the gradients on the finest grid.
+    /// Number of steps of the gradients on the finest grid.
     pub steps: u64,
-    /// Convolutions on the finest grid.
+    /// Number of convolutions on the finest grid.
     pub convolutions: u64,
 }
 
@@ -48,9 +48,9 @@ pub struct Grid {
     pub depths: Vec<f64>,
     pub pressure: Vec<f64>,
     pub displacement: Vec<f64>,
-    /// 1 off the contact, 0 on it.
+    /// 1 for a cell off the contact, 0 on it.
     pub outside: Vec<f32>,
-    /// Displacement and depth on the contact, which is to be uniform.
+    /// Sum of displacement and depth on the contact, which is to be uniform.
     pub level: f64,
     residual: Vec<f32>,
     former: Vec<f32>,
@@ -60,7 +60,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Bytes of a grid and its operators.
+    /// Returns the number of bytes of a grid and its operators.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         Operators::bytes(cells, boundary) + (5 * 8 + 4 * 4) * (cells * cells) as u64
     }
@@ -84,7 +84,7 @@ impl Grid {
         })
     }
 
-    /// Takes the means of four cells of a finer grid.
+    /// Sets each depth to the mean over four cells of a finer grid.
     pub fn coarsen(&mut self, finer: &Grid) {
         let (cells, fine) = (self.cells, finer.cells);
         for (at, depth) in self.depths.iter_mut().enumerate() {
@@ -94,7 +94,8 @@ impl Grid {
         }
     }
 
-    /// Begins on the coarsest grid: everything under load, or all that the undeformed half-space would touch.
+    /// Begins on the coarsest grid: with everything under load, or with all cells that the undeformed half-space would
+    /// touch.
     pub fn begin(&mut self, given: Given) {
         match given {
             Given::MeanPressure(mean) => {
@@ -109,8 +110,8 @@ impl Grid {
         }
     }
 
-    /// Begins with the solution of a coarser grid. The edge of its contact lies where a number that is the pressure, as a
-    /// displacement of one cell, on the contact and minus the gap elsewhere changes its sign.
+    /// Begins with the solution of a coarser grid. The edge of the contact lies where a signed number changes its sign. On
+    /// the contact it is the pressure as a displacement of one cell, elsewhere minus the gap.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let own = OWN_DISPLACEMENT / coarse.cells as f64;
         let signed = |at: usize| {
@@ -164,7 +165,7 @@ impl Grid {
         self.operators.displace(&self.pressure, &mut self.displacement);
     }
 
-    /// Level of the contact: the given indentation, or the mean over the contact.
+    /// Sets the level of the contact: the given indentation, or the mean over the contact.
     fn find_level(&mut self, given: Given) {
         let mean = || {
             let [total, count] =
@@ -180,7 +181,7 @@ impl Grid {
         };
     }
 
-    /// Moves by a length along the direction, and finds the residuals on the contact; returns the largest of them, the
+    /// Moves by a length along the direction, and finds the residuals on the contact. Returns the largest of them, the
     /// deepest penetration elsewhere and the lowest pressure.
     fn advance(&mut self, length: f64) -> [f64; 3] {
         std::mem::swap(&mut self.residual, &mut self.former);
@@ -289,8 +290,8 @@ impl Grid {
         Ok(())
     }
 
-    /// One step of the gradients on the present contact; returns the product that the next step needs, and what `advance`
-    /// finds.
+    /// Makes one step of the gradients on the present contact. Returns the product that the next step needs, and what
+    /// `advance` finds.
     fn step(&mut self, given: Given, last: Option<f64>) -> (f64, [f64; 3]) {
         self.operators.precondition(&self.residual, &self.outside, &mut self.gradient);
         let singles = [&self.gradient, &self.residual, &self.former, &self.outside];
@@ -322,7 +323,7 @@ impl Grid {
 /// Numbers that are summed side by side, in an order of their own.
 const LANES: usize = 4;
 
-/// The numbers in groups; those of a grid, whose side is even, without a rest.
+/// Returns the numbers in groups. The numbers of a grid, whose side is even, leave no rest.
 fn groups<T>(of: &[T]) -> &[[T; LANES]] {
     of.as_chunks().0
 }
@@ -331,7 +332,7 @@ fn groups_of<T>(of: &mut [T]) -> impl Iterator<Item = &mut [T; LANES]> {
     of.as_chunks_mut().0.iter_mut()
 }
 
-/// Sums over all cells of what a function makes of their numbers, in double and in single precision.
+/// Sums over all cells what a function makes of their numbers, in double and in single precision.
 fn sums<const D: usize, const S: usize, const N: usize>(
     double: [&Vec<f64>; D],
     single: [&Vec<f32>; S],

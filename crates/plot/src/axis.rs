@@ -5,25 +5,26 @@ use super::scale::Span;
 use super::ticks::{Tick, are_plain, ticks};
 use asperity_data::AxisScale;
 
-/// Range of the largest number on a linear axis within which the numbers at the ticks have few digits.
+/// Smallest and largest value of the largest number on a linear axis for which the numbers at the ticks have few digits.
 const SHORT: (f64, f64) = (1e-3, 1e6);
 
-/// An axis: its scale, its range and the quantity along it.
+/// Axis of a chart: its scale, its range and its quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartAxis {
-    /// Scale of the axis.
+    /// Scale of the axis, linear or logarithmic.
     pub scale: AxisScale,
-    /// Range of coordinates along the axis.
+    /// Range of coordinates along the axis. The coordinate of a number is the number itself, or its decadic logarithm on a
+    /// logarithmic axis.
     pub span: Span,
-    /// Name of the quantity in words.
+    /// Name of the quantity in words; may be empty.
     pub name: String,
-    /// Symbol such as `F_n`. Symbol and name may be empty.
+    /// Symbol of the quantity, such as `F_n`; may be empty.
     pub symbol: String,
     /// SI unit; `1` or empty for plain numbers.
     pub unit: String,
     /// Names at the coordinates 0, 1, … in place of numbers; empty for an axis with numbers.
     pub names: Vec<Label>,
-    /// True for numbers of things, which have no ticks between whole numbers.
+    /// True if the numbers count things. Such an axis has no ticks between whole numbers.
     pub counts: bool,
 }
 
@@ -34,22 +35,22 @@ impl ChartAxis {
         ChartAxis { scale, span, name, symbol, unit, names: Vec::new(), counts: false }
     }
 
-    /// Creates an axis with names in place of numbers: the first at the coordinate 0, each in the middle of a range of
-    /// width 1.
+    /// Creates an axis with names in place of numbers. The first name is at the coordinate 0, and each is in the middle of
+    /// a range of width 1.
     pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
         ChartAxis { names, ..ChartAxis::new(AxisScale::Linear, span, "", "", "") }
     }
 
-    /// Position of a number along the axis, from 0 at the lower end to 1 at the upper end; not finite if the scale has no
-    /// coordinate for the number.
+    /// Returns the position of a number along the axis, from 0 at the lower end to 1 at the upper end. The position is not
+    /// finite if the scale has no coordinate for the number, as for 0 on a logarithmic axis.
     pub fn share(&self, number: f64) -> f64 {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Where the numbers of a linear axis
-    /// would still have too many digits, the divisor is a power of ten instead. A logarithmic axis whose numbers are powers of
-    /// ten with any prefix has none.
+    /// Returns the divisor of the numbers on the axis, and the unit with the corresponding SI prefix, such as 1e-6 and
+    /// `µN`. If the numbers of a linear axis would still have too many digits, the divisor is a power of ten, which
+    /// precedes the unit. A logarithmic axis with powers of ten has the divisor 1.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
@@ -68,14 +69,14 @@ impl ChartAxis {
         (10_f64.powi(power), format!("{} {unit}", Label::power_of_ten(power)).trim_end().to_owned())
     }
 
-    /// The axis with its numbers divided by a unit with this symbol.
+    /// Returns the axis with its numbers divided by a unit with this symbol.
     pub(super) fn over(&self, unit: f64, symbol: &str) -> ChartAxis {
         let end = |at: f64| self.scale.coordinate(self.scale.number(at) / unit);
         let span = Span { low: end(self.span.low), high: end(self.span.high) };
         ChartAxis { span, symbol: format!("{}/{symbol}", self.symbol), unit: "1".to_owned(), ..self.clone() }
     }
 
-    /// Label of the axis: name and symbol, with the prefixed unit in brackets.
+    /// Returns the label of the axis: name and symbol, with the prefixed unit in brackets.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -88,14 +89,14 @@ impl ChartAxis {
         self.with_unit(Label::quantity(&self.name, &self.symbol))
     }
 
-    /// Label of the axis; without the name if the axis has a symbol and the label would be wider than `most`, in units of
-    /// the font size.
+    /// Returns the label of the axis. The name is omitted if the axis has a symbol and the label would be wider than
+    /// `most`, in units of the font size.
     pub(super) fn label_within(&self, most: f64) -> Label {
         let label = self.label_with_unit();
         if label.width() <= most { label } else { self.symbol_with_unit() }
     }
 
-    /// Symbol with the prefixed unit in brackets; the name of an axis without a symbol.
+    /// Returns the symbol, or the name of a quantity without a symbol, with the prefixed unit in brackets.
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
     }
@@ -112,7 +113,8 @@ impl ChartAxis {
         }
     }
 
-    /// Ticks along the axis, about `most` of them labelled, but at least two if the range contains two round numbers.
+    /// Returns ticks along the axis, about `most` of them labelled. At least two are labelled if the range contains two
+    /// round numbers.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };
@@ -125,7 +127,7 @@ impl ChartAxis {
     }
 }
 
-/// A position in a chart: horizontal and vertical share, each from 0 to 1.
+/// Position in a chart as a horizontal and a vertical share, each from 0 to 1.
 pub(super) type Share = (f64, f64);
 
 #[derive(Clone, Copy)]
@@ -135,27 +137,27 @@ pub(super) struct Axes<'a> {
 }
 
 impl Axes<'_> {
-    /// Position of a point; for a point outside the chart the nearest position on its border; `None` if the point has no
-    /// coordinates.
+    /// Returns the position of a point, or the nearest position on the border for a point outside the chart; `None` if the
+    /// point has no coordinates.
     pub(super) fn place(self, (x, y): (f64, f64)) -> Option<Share> {
         self.y.share(y).is_finite().then(|| self.place_at_end((x, y))).flatten()
     }
 
-    /// Position of a point; a y without a coordinate is placed at the end of the axis.
+    /// Returns the position of a point. A y without a coordinate is placed at the end of the axis.
     pub(super) fn place_at_end(self, (x, y): (f64, f64)) -> Option<Share> {
         let (x, y) = (self.x.share(x), self.y.share(y));
         x.is_finite().then(|| (x.clamp(0.0, 1.0), if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) }))
     }
 
-    /// Positions of points, divided into runs where a point has no coordinates.
+    /// Returns the positions of points, divided into runs where a point has no coordinates.
     pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
         let places: Vec<Option<Share>> = points.map(|point| self.place(point)).collect();
         let runs = places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect());
         runs.filter(|run: &Vec<Share>| !run.is_empty()).collect()
     }
 
-    /// Positions along an envelope, through both ends of each column, beginning with the end nearer to the previous point.
-    /// A column outside the chart begins a new run.
+    /// Returns the positions along an envelope through both ends of each column, beginning with the end nearer to the
+    /// previous point. A column outside the chart begins a new run.
     pub(super) fn envelope(self, (from, to): (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
         let mut last: Option<f64> = None;
         let points = columns.iter().enumerate().flat_map(|(column, ends)| {
@@ -170,7 +172,7 @@ impl Axes<'_> {
         self.runs(points)
     }
 
-    /// Ends of a vertical (`upright`) or horizontal line across the chart; `None` if it lies outside.
+    /// Returns the ends of a vertical (`upright`) or horizontal line across the chart; `None` if the line lies outside.
     pub(super) fn guide(self, at: f64, upright: bool) -> Option<[Share; 2]> {
         let share = if upright { self.x.share(at) } else { self.y.share(at) };
         let ends = if upright { [(share, 0.0), (share, 1.0)] } else { [(0.0, share), (1.0, share)] };

@@ -1,4 +1,4 @@
-//! Content of a figure: charts with axes and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
+//! Content of a figure: charts with axes, and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
 //! decides on the appearance.
 
 use super::axis::ChartAxis;
@@ -10,32 +10,34 @@ use asperity_data::AxisScale;
 /// Charts in rows under one title, with one legend.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// Title; may be empty.
+    /// Title of the figure; may be empty.
     pub title: String,
-    /// Lines below the title.
+    /// Lines of text below the title.
     pub notes: Vec<Label>,
     /// Charts of the figure, side by side or below each other.
     pub charts: Vec<Chart>,
-    /// Size of the frame of each chart, px; only the proportion counts in a figure with a given width.
+    /// Width and height of the frame of each chart in px (1/96 inch). Only the ratio counts in a figure with a given width.
     pub size: (f64, f64),
-    /// Provenance for the metadata of a document: version, command and scene.
+    /// Origin of the figure for the metadata of an SVG document: version, command and scene.
     pub origin: String,
-    /// Lines in a box below the legend.
+    /// Lines of text in a box below the legend.
     pub parameters: Vec<Label>,
-    /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
+    /// Width of the picture in px (1/96 inch); `None` for the width that its frames need. Letters and lines keep their
+    /// size.
     pub width: Option<f64>,
-    /// Height of a picture, px of 1/96 inch; `None`: the height that its frames need, with a given width at most a page.
+    /// Height of the picture in px (1/96 inch); `None` for the height that its frames need. With a given width the picture
+    /// is at most as high as a page.
     pub height: Option<f64>,
-    /// True for a picture without the title, which a caption has instead.
+    /// True if the picture is drawn without its title, because a caption has it.
     pub untitled: bool,
 }
 
 impl Figure {
-    /// Size of the frame of a map, or of one of several charts, px.
+    /// Width and height of the frame of a map, or of one of several charts, in px.
     pub const SMALL: (f64, f64) = (330.0, 270.0);
-    /// Size of the frame of a single chart, px.
+    /// Width and height of the frame of a single chart, in px.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Size of the frame of a chart with the position along its horizontal axis, px.
+    /// Width and height of the frame of a chart with the position along its horizontal axis, in px.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart.
@@ -60,7 +62,7 @@ impl Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }
 
-    /// Creates a figure of the charts of several figures, whose titles and notes become headings.
+    /// Creates a figure of the charts of several figures, whose titles and notes become headings of the charts.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
@@ -74,10 +76,11 @@ impl Figure {
         Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
-    /// The figure with only the chosen panels, which get the letters from `a` on.
+    /// Keeps the charts with the given letters, such as `ac`, in this order. The charts of the result have new letters from
+    /// `a` on.
     ///
     /// # Errors
-    /// The letters of the panels, if one of the chosen letters is not among them.
+    /// A letter belongs to no chart, or no letter is given. The error is the text of all letters of the figure.
     pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
         let panel =
             |letter: char| (letter as usize).checked_sub('a' as usize).and_then(|at| self.charts.get(at));
@@ -88,29 +91,29 @@ impl Figure {
         }
     }
 
-    /// Heading of a chart, with its letter; `None` in a figure of one chart.
+    /// Returns the heading of a chart with its letter; `None` in a figure of one chart.
     pub(super) fn heading(&self, index: usize) -> Option<Label> {
         let chart = self.charts.get(index).filter(|_| self.charts.len() > 1)?;
         let letter = char::from(b'a' + (index % 26) as u8);
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend: each name once, with all layers of that name.
+    /// Returns the entries of the legend. Each name occurs once, with samples of all layers of this name.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
 }
 
-/// Data over two axes.
+/// Chart with two axes and layers of data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Heading, shown in figures of several charts; may be empty.
+    /// Heading of the chart, shown in figures of several charts; may be empty.
     pub heading: Label,
     /// Horizontal axis.
     pub x: ChartAxis,
     /// Vertical axis.
     pub y: ChartAxis,
-    /// Layers, the lowest first.
+    /// Layers of data. Later layers are drawn over earlier ones.
     pub layers: Vec<Layer>,
 }
 
@@ -120,7 +123,7 @@ impl Chart {
         Chart { heading: Label::default(), x, y, layers }
     }
 
-    /// The chart with only the symbol on each axis that has a symbol.
+    /// Removes the name of each axis that has a symbol.
     pub fn with_symbols(mut self) -> Chart {
         for axis in [&mut self.x, &mut self.y].into_iter().filter(|axis| !axis.symbol.is_empty()) {
             axis.name.clear();
@@ -128,7 +131,7 @@ impl Chart {
         self
     }
 
-    /// The chart with the numbers on its axes divided by units, each with its symbol; `None` for an axis that stays.
+    /// Divides the numbers on the axes by units, each given with its symbol; `None` leaves an axis as it is.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
             *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
@@ -161,7 +164,7 @@ impl Chart {
         self
     }
 
-    /// Returns the first map of the chart.
+    /// Returns the first heat map of the chart.
     pub fn map(&self) -> Option<&HeatMap> {
         self.layers.iter().find_map(|layer| match &layer.shape {
             Shape::Map(map) => Some(map.as_ref()),
@@ -169,7 +172,7 @@ impl Chart {
         })
     }
 
-    /// Returns the first map of the chart, to change it.
+    /// Returns the first heat map of the chart, so that it can be changed.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
         self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
             Shape::Map(map) => Some(map.as_mut()),
@@ -178,12 +181,12 @@ impl Chart {
     }
 }
 
-/// One kind of data, and its entry in the legend. Layers with the same name share an entry.
+/// Data of one kind with an entry in the legend. Layers of the same name share an entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Name in the legend; no entry if empty.
+    /// Name in the legend. A layer with an empty name has no entry.
     pub name: Label,
-    /// Ink of the layer.
+    /// Ink of the layer, which decides on its colour.
     pub ink: Ink,
     /// Shape of the data.
     pub shape: Shape,
@@ -200,7 +203,7 @@ impl Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
 
-    /// Points of a curve or the ends of the columns of an envelope.
+    /// Returns the points of a curve, or both ends of each column of an envelope; empty for other shapes.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -227,43 +230,44 @@ impl Layer {
     }
 }
 
-/// Data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or a band.
+/// Shape of the data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or a
+/// band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A line through points, signs at the points, or both.
+    /// Line through points, signs at the points, or both.
     Curve {
-        /// Points of the curve in SI units.
+        /// Points of the curve as (x, y).
         points: Vec<(f64, f64)>,
-        /// Stroke of the line; `None`: no line.
+        /// Stroke of the line; `None` for no line.
         stroke: Option<Stroke>,
-        /// Sign at each point; `None`: no signs.
+        /// Sign at each point; `None` for no signs.
         sign: Option<Sign>,
     },
-    /// An area between two curves, as points (x, lower y, upper y). An end beyond the axis is drawn at the end of the axis.
+    /// Area between two curves, as points (x, lower y, upper y). An end beyond the axis is drawn at the end of the axis.
     Band(Vec<(f64, f64, f64)>),
-    /// A line with more points than a picture resolves, given by the lowest and the highest y in columns of equal width.
+    /// Line with more points than a picture resolves, as the lowest and the highest y in columns of equal width.
     Envelope {
-        /// Outer edges of the first and the last column, in x.
+        /// Left edge of the first column and right edge of the last column, in x.
         x: (f64, f64),
         /// Lowest and highest y of each column; `None` where the line is interrupted.
         columns: Vec<Option<(f64, f64)>>,
     },
-    /// The area inside a closed line.
+    /// Area inside a closed line through these points.
     Inside(Vec<(f64, f64)>),
-    /// Filled rectangles, each with its ends in x and in y.
+    /// Filled rectangles, each as its two ends in x and its two ends in y.
     Boxes(Vec<((f64, f64), (f64, f64))>),
-    /// A vertical line across the chart at this x.
+    /// Vertical line across the chart at this x.
     Upright(f64),
-    /// A horizontal line across the chart at this y.
+    /// Horizontal line across the chart at this y.
     Level(f64),
-    /// A heat map: one coloured cell for each pair of values of the axes.
+    /// Heat map with one coloured cell for each pair of values of the axes.
     Map(Box<HeatMap>),
 }
 
 /// Pattern of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
-    /// Without gaps.
+    /// Line without gaps.
     Solid,
     /// Long dashes.
     Dashed,
@@ -275,7 +279,7 @@ pub enum Stroke {
     Sparse,
 }
 
-/// Shape of the sign at a point.
+/// Sign at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// Filled circle.
@@ -298,59 +302,60 @@ pub enum Sign {
     Cross,
     /// Open diamond.
     HollowDiamond,
-    /// The smallest mark of the output: a single Braille dot in cells. Thousands of them leave the lines above legible.
+    /// Smallest mark of the output, which is a single Braille dot in a terminal. Thousands of these marks leave the lines
+    /// above them legible.
     Point,
 }
 
 impl Sign {
-    /// Sign of a curve among several, by its number from 0.
+    /// Returns the sign of a curve among several, by the number of the curve from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
 }
 
-/// Values on a grid, row by row from the lower left.
+/// Heat map: values on a grid, with the scale of their colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// Values of the columns on the horizontal axis, ascending.
+    /// Values of the horizontal axis at the columns, ascending.
     pub columns: Vec<f64>,
-    /// Values of the rows on the vertical axis, ascending.
+    /// Values of the vertical axis at the rows, ascending.
     pub rows: Vec<f64>,
-    /// Values of the cells in SI units, row by row; `None` for a cell without a value.
+    /// Values of the cells, row by row from the lower left; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
-    /// Axis of the colour scale of the values.
+    /// Axis of the colour scale, with the quantity and the range of the values.
     pub key: ChartAxis,
-    /// Colours of the values.
+    /// Colours of the values, from low to high.
     pub shades: Shades,
-    /// Class of each cell as an index of `class_names`; empty if the values have no classes.
+    /// Class of each cell as an index into `class_names`; empty if the values have no classes.
     pub classes: Vec<Option<usize>>,
-    /// Classes of the values; empty for a quantity with continuous values.
+    /// Names and signs of the classes; empty for a quantity with continuous values.
     pub class_names: Vec<Class>,
-    /// Level line of another field on the same grid.
+    /// Line on which another quantity on the same grid has a given value; `None` for no line.
     pub contour: Option<Contour>,
 }
 
-/// A class of map cells, such as a regime of adhesion.
+/// Class of cells in a heat map, such as a regime of adhesion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Class {
-    /// Sign of the class in a picture.
+    /// Sign of the class in an SVG, PNG or PDF figure.
     pub sign: Sign,
-    /// Letter of the class in wide cells of a terminal; `None` if the shade shows the class.
+    /// Letter of the class in wide cells of a terminal; `None` if the colour shows the class.
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,
-    /// Ink of the class in a terminal without fixed colours.
+    /// Ink of the class in a terminal without colours.
     pub ink: Ink,
 }
 
-/// Line on which a field has a given value.
+/// Line in a heat map on which another quantity has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Values of the field, in the order of [`HeatMap::values`].
+    /// Values of this quantity, in the order of [`HeatMap::values`].
     pub field: Vec<Option<f64>>,
-    /// Value along the contour, in the SI unit of the map.
+    /// Value of this quantity along the line, in its unit.
     pub level: f64,
-    /// Name in the legend.
+    /// Name of the line in the legend.
     pub name: Label,
 }
 
@@ -360,12 +365,13 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
-    /// Number of the band of equal shade that a value belongs to; see [`Shades::of_band`].
+    /// Returns the number of the band of colours to which a value belongs; see [`Shades::of_band`].
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Borders, as coordinates, of cells around these values on an axis: halfway between neighbouring values.
+    /// Returns the borders of the cells around these values of an axis, as coordinates. Inner borders are halfway between
+    /// neighbouring values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
@@ -377,7 +383,7 @@ impl HeatMap {
         [vec![before], between, vec![after]].concat()
     }
 
-    /// Range of coordinates of an axis with a cell around each of these values.
+    /// Returns the range of coordinates of an axis that has a cell around each of these values.
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
         Span { low: borders[0], high: borders[borders.len() - 1] }
@@ -387,7 +393,7 @@ impl HeatMap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     pub name: Label,
-    /// Samples of all layers of this name: several for layers in several colours.
+    /// Samples of all layers of this name; several if the layers have different colours.
     pub samples: Vec<(Ink, Sample)>,
 }
 
@@ -408,7 +414,7 @@ pub enum Sample {
 }
 
 impl Entry {
-    /// Entries for the layers of charts: each name once, in the order of drawing, areas last.
+    /// Returns the entries for the layers of charts. Each name occurs once, in the order of drawing, with areas last.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         let mut add = |name: &Label, ink: Ink, sample: Sample| {

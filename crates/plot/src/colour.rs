@@ -1,9 +1,9 @@
 //! Colours of figures and screenshots.
 
-/// Red, green and blue.
+/// Colour as red, green and blue, each from 0 to 255.
 pub type Rgb = [u8; 3];
 
-/// Colours from numbers such as `0x440154`.
+/// Converts numbers such as `0x440154` to colours.
 const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     let mut found = [[0; 3]; N];
     let mut index = 0;
@@ -15,20 +15,21 @@ const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     found
 }
 
-/// Colours of a figure or a screenshot.
+/// Colours of a figure or a picture of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
     /// Colour of text and frames.
     pub foreground: Rgb,
     /// Colour behind everything.
     pub background: Rgb,
-    /// The sixteen colours in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, gray, and their
-    /// bright variants.
+    /// Sixteen colours in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, grey, and their bright
+    /// variants.
     pub ansi: [Rgb; 16],
 }
 
 impl Palette {
-    /// Light on dark. Red, green, blue and magenta also differ in lightness, for readers without red or green cones.
+    /// Light colours on dark. Red, green, blue and magenta also differ in lightness, for readers with red-green colour
+    /// blindness.
     pub const DARK: Palette = Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
@@ -38,7 +39,7 @@ impl Palette {
         ]),
     };
 
-    /// Dark on light, otherwise as [`Palette::DARK`].
+    /// Dark colours on light, otherwise as [`Palette::DARK`].
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -49,16 +50,16 @@ impl Palette {
     };
 }
 
-/// Meaning of a colour; each output format assigns the colour.
+/// Meaning of a colour. Each output format assigns the colour itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
-    /// Text, frames, outlines.
+    /// Text, frames and outlines.
     Text,
-    /// Guides and other marks in the background.
+    /// Lines and other marks in the background.
     Quiet,
-    /// The rough profile.
+    /// Rough profile.
     Profile,
-    /// The surface of the elastic body.
+    /// Surface of the elastic body.
     Surface,
     /// Springs in contact.
     Contact,
@@ -66,13 +67,13 @@ pub enum Ink {
     Loading,
     /// Unloading stages.
     Unloading,
-    /// Manual loading.
+    /// Loading that the user moves by hand.
     Manual,
-    /// A curve in the background, kept while another one is shown.
+    /// Curve in the background, kept while another curve is shown.
     Kept,
-    /// One of several curves kept for comparison, by its number from 0.
+    /// One of several curves that are kept for comparison, by its number from 0.
     Compared(usize),
-    /// The state at the cursor.
+    /// State of the contact at the cursor.
     Cursor,
     /// One of several curves, by its number from 0.
     Series(usize),
@@ -97,35 +98,35 @@ impl Ink {
     }
 }
 
-/// Colours of the values of a heat map, from low to high.
+/// Colours of the values in a heat map, from low to high.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Shades {
-    /// From dark to light.
+    /// Colours from dark to light.
     Sequential,
-    /// From blue over white to red, for a range with zero in its middle.
+    /// Colours from blue over white to red, for a range with zero in the middle.
     Diverging,
 }
 
-/// Viridis (van der Walt and Smith, 2015), sampled at equal distances: readable without red or green cones, and monotonic
-/// in lightness.
+/// Viridis (van der Walt and Smith, 2015), sampled at equal distances. It is readable with red-green colour blindness, and
+/// its lightness is monotonic.
 const VIRIDIS: [Rgb; 9] =
     rgb([0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725]);
 
-/// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable without red or green cones.
+/// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable with red-green colour blindness.
 const BLUE_TO_RED: [Rgb; 9] =
     rgb([0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b]);
 
 impl Shades {
-    /// Number of bands of equal shade in an SVG document.
+    /// Number of bands of equal colour in an SVG figure.
     pub const BANDS: usize = 64;
 
-    /// Colour of a band, counted from the lowest.
+    /// Returns the colour of a band, counted from 0 at the lowest value.
     pub fn of_band(self, band: usize) -> Rgb {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
 
-    /// Colours at equal distances, from the lowest value to the highest.
+    /// Returns nine colours at equal distances, from the lowest value to the highest.
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,
@@ -133,7 +134,7 @@ impl Shades {
         }
     }
 
-    /// Colour at a share of the range, from 0 to 1; the lowest colour for NaN.
+    /// Returns the colour at a share of the range from 0 to 1; the lowest colour for NaN.
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
         let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
@@ -147,17 +148,17 @@ impl Shades {
     }
 }
 
-/// Lightness of a colour, from 0 to 1.
+/// Returns the lightness of a colour, from 0 to 1.
 fn lightness([red, green, blue]: Rgb) -> f64 {
     (0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)) / 255.0
 }
 
-/// Black or white, whichever is readable on this colour.
+/// Returns black or white, whichever is readable on this colour.
 pub(super) fn ink_on(colour: Rgb) -> Rgb {
     if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
 }
 
-/// A colour in web notation, `#rrggbb`.
+/// Returns a colour in web notation, `#rrggbb`.
 pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }

@@ -1,11 +1,11 @@
-//! Level lines of a field on a grid, by marching squares.
+//! Lines on which a field on a grid has a given value, by marching squares.
 
-/// A point in coordinates of the grid.
+/// Point in coordinates of the grid.
 type Point = (f64, f64);
 
-/// Straight pieces of the level line of a field that is interpolated linearly along the edges of the grid; pieces meet at
-/// their ends. A square with a missing corner has none. In a square that the level line crosses twice, the mean of the
-/// corners decides how the crossings are connected.
+/// Returns straight pieces of the line on which a field has the value `level`. The field is interpolated linearly along the
+/// edges of the grid, and pieces meet at their ends. A square with a missing corner has no piece. In a square that the line
+/// crosses twice, the mean of the corners decides how the crossings are connected.
 pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: f64) -> Vec<[Point; 2]> {
     let mut pieces = Vec::new();
     for row in 1..up.len() {

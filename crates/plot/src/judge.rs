@@ -1,9 +1,9 @@
-//! Checks of drawn pictures for tests: their elements, and properties that every figure has.
+//! Checks of drawn pictures for tests: their elements, and properties of every figure.
 
 use super::label::Label;
 use roxmltree::Document;
 
-/// Tags of a document with their attributes, and the text of the document. Panics if the document is not well-formed.
+/// Returns the tags of an SVG document with their attributes, and its text. Panics if the document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
     let tag = |element: roxmltree::Node<'_, '_>| {
@@ -15,13 +15,13 @@ pub fn parsed(svg: &str) -> (Vec<String>, String) {
     (elements, text.collect())
 }
 
-/// Elements of a document with this tag.
+/// Returns the elements of an SVG document with this tag.
 pub fn elements(svg: &str, tag: &str) -> Vec<String> {
     let is_kind = |element: &String| element.split(' ').next() == Some(tag);
     parsed(svg).0.into_iter().filter(is_kind).collect()
 }
 
-/// Checks that all numbers of a document are finite, and that its texts lie within the picture and do not overlap.
+/// Asserts that all numbers of an SVG document are finite, and that its texts lie within the picture and do not overlap.
 pub fn check_picture(svg: &str) {
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
     let paper = &elements(svg, "rect")[0];
@@ -54,7 +54,7 @@ pub fn check_picture(svg: &str) {
     }
 }
 
-/// Number in an attribute of an element.
+/// Returns the number in an attribute of an element.
 pub fn attribute(element: &str, name: &str) -> f64 {
     let value = element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
     value.and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)

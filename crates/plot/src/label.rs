@@ -4,7 +4,7 @@ use asperity_data::format_rounded;
 use asperity_data::{grouped, printable, si_prefix};
 use std::fmt;
 
-/// Powers of ten of the smallest and the largest prefix on an axis: femto and giga.
+/// Powers of ten of the smallest and the largest SI prefix on an axis: femto and giga.
 const LEAST_POWER: i32 = -15;
 const LARGEST_POWER: i32 = 9;
 
@@ -16,24 +16,24 @@ pub(crate) enum Face {
     Exponent,
 }
 
-/// Blank within a statement, at which no line breaks; written as an ordinary blank.
+/// Blank at which no line breaks, written as an ordinary blank.
 const FIXED: char = '\u{a0}';
 
-/// Text with italic symbols, indices and exponents. As a string `F_a`, `10⁻³`.
+/// Text in a figure, with italic symbols, indices and exponents. Its `to_string` is plain text such as `F_a` or `10⁻³`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     runs: Vec<(Face, String)>,
 }
 
 impl Label {
-    /// Creates a label of upright text on one line; control characters are escaped.
+    /// Creates a label of upright text on one line. Control characters are escaped.
     pub fn plain(text: &str) -> Label {
         let mut label = Label::default();
         label.push(Face::Upright, &printable(text));
         label
     }
 
-    /// Creates a label of a symbol: letters in italics, and the text after `_` as an index, as in `F_a,max`.
+    /// Creates a label of a symbol, such as `F_a,max`: letters in italics, and the text after `_` as an index.
     pub fn symbol(text: &str) -> Label {
         let mut label = Label::default();
         let text = printable(text);
@@ -52,7 +52,7 @@ impl Label {
         label
     }
 
-    /// Creates a label of the name and the symbol of a quantity; either may be empty.
+    /// Creates a label of the name and the symbol of a quantity, each of which may be empty.
     ///
     /// ```
     /// assert_eq!(asperity_plot::Label::quantity("preload", "F_n").to_string(), "preload F_n");
@@ -67,7 +67,7 @@ impl Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
-    /// Creates a label of a statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
+    /// Creates a label of a statement such as `H = 0.3`: an italic symbol before ` = `, upright text after it.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => statement("", symbol, value),
@@ -103,12 +103,13 @@ impl Label {
         &self.runs
     }
 
-    /// Width in units of the font size, in the widest of the usual sans-serif fonts.
+    /// Returns the width in units of the font size, in the widest of the usual sans-serif fonts.
     pub fn width(&self) -> f64 {
         self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
     }
 
-    /// Divides the label into lines no wider than `most`, in units of the font size, at blanks or within a longer word.
+    /// Divides the label into lines no wider than `most`, in units of the font size. Lines break at blanks, or within a
+    /// longer word.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
         let all = self.runs.iter().flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
         let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
@@ -188,8 +189,8 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Divisor of numbers up to `largest` and the unit with the corresponding SI prefix: 1e-3 and `mN` for 0.02 N. Numbers
-/// without a unit have the divisor 1 and an empty unit.
+/// Returns the SI prefix for numbers up to `largest` as a divisor and the prefixed unit: 1e-3 and `mN` for 0.02 N. The
+/// divisor is 1 for a unit that takes no prefix, and numbers without a unit have an empty unit.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -207,7 +208,7 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     (10_f64.powi(power), format!("{prefix}{unit}"))
 }
 
-/// A number with as many decimals as `step` needs.
+/// Writes a number with as many decimals as `step` needs.
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{:.decimals$}", value.abs());
@@ -217,13 +218,13 @@ pub fn number(value: f64, step: f64) -> String {
     format!("{}{whole}{fraction}", if value < 0.0 && !zero { "-" } else { "" })
 }
 
-/// A value with its unit after its symbol, or after its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
+/// Creates a label of a value with its unit, such as `H = 0.3` with a symbol, or `preload 12.5 µN` if `symbol` is empty.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     statement(name, symbol, &if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) })
 }
 
-/// A value in words after its symbol, or after its name if `symbol` is empty.
+/// Creates a label of a value in words, with a symbol as in `H = 0.3`, or with a name if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     match symbol {

@@ -1,5 +1,5 @@
-//! SVG documents as a PDF of one page in its real size: the outlines of [`super::png::tree`], and its text as text in embedded
-//! fonts, which readers search and editors change.
+//! SVG documents as a PDF of one page in its real size. The outlines are the outlines of [`super::png::tree`]. Text remains
+//! text in embedded fonts, which readers search and editors change.
 
 use super::chart::Figure;
 use super::pdf_font::PdfFont;
@@ -19,15 +19,18 @@ use std::collections::BTreeSet;
 use std::io;
 use std::io::Write;
 
-/// Points (1/72 inch) of a print for each px (1/96 inch) of a document.
+/// Points (1/72 inch) of a page for each px (1/96 inch) of a document.
 const POINTS: f32 = 0.75;
-/// Width by which adjacent cells overlap, px: viewers show the paper between edges that only touch.
+/// Width in px by which adjacent cells overlap. Viewers show the paper between edges that only touch.
 const OVERLAP: f32 = 0.2;
-/// Distance from a line of text, in units of the font size, up to which a glyph belongs to it.
+/// Distance from a line of text, in units of the font size, up to which a glyph belongs to the line.
 const SAME: f32 = 1e-3;
 
 impl Figure {
     /// Draws the figure and returns the content of a PDF file.
+    ///
+    /// # Errors
+    /// The SVG document of the figure cannot be converted.
     pub fn pdf(&self) -> io::Result<Vec<u8>> {
         pdf(&tree(&self.svg())?, &self.title)
     }
@@ -75,7 +78,7 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     Ok(pdf.finish())
 }
 
-/// Drawing operators of a page, and the opacities in per cent and the fonts that they refer to.
+/// Drawing operators of a page, with the opacities in per cent and the fonts to which they refer.
 struct Page<'a> {
     content: Content,
     opacities: BTreeSet<u8>,
@@ -147,7 +150,7 @@ impl Page<'_> {
         }
     }
 
-    /// Index of a font on this page.
+    /// Returns the index of a font on this page.
     fn font(&mut self, id: ID) -> Option<usize> {
         let known = self.fonts.iter().position(|font| font.is(id));
         known.or_else(|| {

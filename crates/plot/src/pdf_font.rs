@@ -1,4 +1,4 @@
-//! A font embedded in a PDF file, with the letters of its glyphs for readers that search.
+//! A font embedded in a PDF file, with the letters of its glyphs so that readers can search.
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -11,12 +11,12 @@ use std::io;
 use std::io::Write;
 use ttf_parser::{Face, GlyphId};
 
-/// Objects of a font in a file.
+/// Number of objects of a font in a file.
 const OBJECTS: i32 = 5;
-/// Glyphs are numbered as in the font itself.
+/// Glyph numbers of a PDF file, which are the numbers of the font.
 const IDENTITY: SystemInfo<'_> =
     SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
-/// Width of vertical stems, in thousandths of the font size, by which a reader chooses another font if this one fails.
+/// Width of vertical stems, in thousandths of the font size. A reader uses it to choose another font if this one fails.
 const STEM: f32 = 80.0;
 
 /// A font on a page.
@@ -31,7 +31,7 @@ pub(super) struct PdfFont {
 }
 
 impl PdfFont {
-    /// A font of the fonts of a document; `None` if it cannot be read.
+    /// Reads a font from the fonts of a document; `None` if it cannot be read.
     pub(super) fn new(fonts: &Database, id: ID) -> Option<PdfFont> {
         let face = fonts.face(id)?;
         let (name, is_italic) = (face.post_script_name.clone(), face.style != Style::Normal);
@@ -48,12 +48,12 @@ impl PdfFont {
         self.units_per_em
     }
 
-    /// Name of the font with this index on its page.
+    /// Returns the name of the font with this index on its page.
     pub(super) fn name(&self, index: usize) -> String {
         format!("f{index}")
     }
 
-    /// Reference of the font with this index, if the first free reference of the file is `first`.
+    /// Returns the reference of the font with this index, if the first free reference of the file is `first`.
     pub(super) fn reference(&self, first: i32, index: usize) -> Ref {
         Ref::new(first + OBJECTS * index as i32)
     }

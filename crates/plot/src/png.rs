@@ -1,4 +1,4 @@
-//! SVG documents as PNG, drawn with embedded fonts: equal documents give equal pixels on every machine.
+//! SVG documents as PNG, drawn with embedded fonts. Equal documents give equal pixels on every machine.
 
 use super::chart::Figure;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
@@ -8,10 +8,10 @@ use resvg::usvg::{Options, Tree};
 use std::io;
 use std::sync::Arc;
 
-/// Upright and oblique letters with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
+/// Upright and oblique letters, with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
 /// files.
 const FONTS: [&[u8]; 2] = [include_bytes!("font/sans.ttf"), include_bytes!("font/sans-oblique.ttf")];
-/// Pixels for each px of a document: 2, or for a figure with a given width 600 in an inch.
+/// Pixels for each px of a document: 2, or 600 per inch for a figure with a given width.
 const SCALE: f32 = 2.0;
 const PRINT_SCALE: f32 = 6.25;
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
@@ -20,6 +20,9 @@ const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
     /// Draws the figure and returns the content of a PNG file.
+    ///
+    /// # Errors
+    /// The picture would have too many pixels.
     pub fn png(&self) -> io::Result<Vec<u8>> {
         png(&self.svg(), if self.width.is_some() { PRINT_SCALE } else { SCALE })
     }

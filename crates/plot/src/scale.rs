@@ -2,21 +2,21 @@
 
 use asperity_data::AxisScale;
 
-/// A range of coordinates with a width above zero.
+/// Range of coordinates along an axis, with a width above zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Lower end.
+    /// Lower end of the range.
     pub low: f64,
-    /// Upper end.
+    /// Upper end of the range.
     pub high: f64,
 }
 
-/// Relative width below which a range counts as a single number.
+/// Relative width below which a range counts as a single coordinate.
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
-    /// Range of the finite coordinates among these, widened at each end by the share `room` of its width. Around a single
-    /// coordinate the range has some width; without coordinates it is 0 to 1.
+    /// Returns the range of the finite coordinates, widened at each end by the share `room` of its width. The range around
+    /// a single coordinate is wider than zero. Without coordinates the range is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
@@ -39,8 +39,8 @@ impl Span {
         Span { low: low - margin, high: high + margin }
     }
 
-    /// Range of coordinates for values of a quantity. A linear range begins at zero if no value is negative and the lowest
-    /// value is at most 0.3 of the highest; a logarithmic range has at most `decades` decades.
+    /// Returns the range of coordinates for values of a quantity. A linear range begins at zero if no value is negative and
+    /// the lowest value is at most 0.3 of the highest. A logarithmic range has at most `decades` decades.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -50,14 +50,14 @@ impl Span {
         }
     }
 
-    /// Range of whole decades around coordinates of a logarithmic scale, at least one decade.
+    /// Returns the range of whole decades around coordinates of a logarithmic scale, at least one decade.
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();
         Span { low, high: span.high.ceil().max(low + 1.0) }
     }
 
-    /// The range with the share `room` of its width added at each end.
+    /// Returns the range, widened at each end by the share `room` of its width.
     pub fn widened(self, room: f64) -> Span {
         let margin = room * self.width();
         Span { low: self.low - margin, high: self.high + margin }
@@ -68,7 +68,7 @@ impl Span {
         self.high - self.low
     }
 
-    /// Returns both ends.
+    /// Returns the lower and the upper end.
     pub fn bounds(self) -> [f64; 2] {
         [self.low, self.high]
     }

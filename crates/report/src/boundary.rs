@@ -1,4 +1,4 @@
-//! Boundaries of vanishing adhesion as text, JSON and a table.
+//! Boundaries where adhesion vanishes, as text, JSON and a table.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -34,7 +34,7 @@ impl Report for Boundaries {
         Some(sheet.into_text())
     }
 
-    /// In JSON a boundary beyond the study has the end of the studied range in place of its value.
+    /// In JSON a boundary beyond the study has the end of the studied range as its value.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let object = |boundary: &AdhesionBoundary| {
             let mut object = Map::new();

@@ -6,7 +6,7 @@ use asperity_data::object;
 use asperity_study::{Check, Verdict, catalogue};
 
 impl Report for [Verdict] {
-    /// One row for each check, then the statements of the cases, then the failures.
+    /// Returns one row for each check, then the statements of the cases, then the failures.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);
@@ -78,7 +78,7 @@ impl Report for [Verdict] {
     }
 }
 
-/// A bound or an error in words: two digits suffice for a comparison, and zero is exact.
+/// Writes a bound or an error with two digits, which suffice for a comparison. Zero is exact.
 fn figure(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }

@@ -1,4 +1,4 @@
-//! Cost of accuracy as text, JSON, table and work–precision diagram.
+//! Cost of accuracy as text, JSON, a table and a work–precision diagram.
 
 use crate::reference::model_sentence;
 use crate::report::{Json, Report};
@@ -16,24 +16,25 @@ use serde::Serialize;
 /// Headings of the columns of errors, in the order of [`QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
-/// Cost of accuracy for a scene. JSON has the fields in this order.
+/// Report on the cost of accuracy of a scene: computing time and errors for many settings. The fields of the JSON have this
+/// order.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
     /// Title of the scene.
     #[serde(skip)]
     pub title: &'a str,
-    /// The scene.
+    /// Scene whose cost was measured.
     pub scene: &'a Scene,
     answer: Vec<String>,
     #[serde(flatten)]
     table: &'a CostTable,
-    /// The same scene beside three dimensions, whose ratio is the error of the model.
+    /// Comparison of the scene with three dimensions, which gives the error of the model.
     #[serde(skip_serializing_if = "Option::is_none")]
     reference: Option<&'a Reference>,
 }
 
 impl<'a> CostReport<'a> {
-    /// A report of the measured cost of a scene with this title.
+    /// Makes a report on the measured cost of a scene with this title.
     pub fn new(
         title: &'a str,
         scene: &'a Scene,
@@ -45,7 +46,7 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
-    /// Text with the answer first and the omitted settings last.
+    /// Returns text with the answer first and the omitted settings last.
     fn text(&self) -> Option<String> {
         let table = self.table;
         let mut sheet = Sheet::default();
@@ -91,7 +92,7 @@ impl Report for CostReport<'_> {
         Some(Box::new(self))
     }
 
-    /// Times in s; errors are relative.
+    /// Returns a table with times in s and relative errors.
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.table.rows.iter())
             .with("knob", Kind::Text("sub-cell-springs".len()), |row| <&str>::from(row.knob))

@@ -1,4 +1,5 @@
-//! Results on random profiles: the headline of a scene as text and JSON, its caption in figures, and a table of the profiles.
+//! Results on random profiles: the main numbers of a scene as text and JSON, a caption of figures, and a table of the
+//! profiles.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -10,7 +11,7 @@ use asperity_study::{Ensemble, Plan, Quantity, RegimeCounts, Results, Statistics
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Names of the numbers of [`Ensemble::NUMBERS`] in the headline.
+/// Names of the numbers of [`Ensemble::NUMBERS`] in the text.
 pub(crate) const NAMES: [&str; 5] = [
     "adhesion force F_a",
     "share F_a/F_a,max",
@@ -19,7 +20,7 @@ pub(crate) const NAMES: [&str; 5] = [
     "dissipated energy",
 ];
 
-/// Random profiles in words, given the seed of the first one: `16 random profiles, seeds 5 to 20`.
+/// Returns random profiles in words, given their number and the seed of the first one: `16 random profiles, seeds 5 to 20`.
 pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     match count {
         1 => format!("One random profile, seed {first}"),
@@ -29,7 +30,7 @@ pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     }
 }
 
-/// A value of a quantity to this number of digits, a share in per cent.
+/// Writes a value of a quantity to this number of digits; a share in per cent.
 pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
     match quantity.bounds() {
         (0.0, 1.0) => format!("{} %", format_rounded(100.0 * value, digits, "1")),
@@ -37,7 +38,7 @@ pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
     }
 }
 
-/// Adds the headline of a scene: median, quartiles and range over its random profiles, and their regimes.
+/// Adds the main numbers of a scene: median, quartiles and range over its random profiles, and the regimes of the profiles.
 pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     sheet.heading(&profiles_named(ensemble.profiles(), ensemble.results().plan().seed));
     let mut rows = vec![["", "median", "quartiles", "range", "profiles"].map(String::from)];
@@ -62,12 +63,12 @@ pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     }
 }
 
-/// Numbers of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
+/// Returns the numbers of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
 fn regimes_in_words(counts: RegimeCounts) -> String {
     counts.present().map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
 }
 
-/// Median and quartiles of the adhesion force over random profiles, as a caption; `None` without an adhesion force.
+/// Returns median and quartiles of the adhesion force over random profiles, as a caption; `None` without an adhesion force.
 pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
     let force = Quantity::AdhesionForce;
     let all = ensemble.statistics(force)?;
@@ -80,7 +81,7 @@ pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
     Some(Label::symbol(force.symbol()).then(&text))
 }
 
-/// An ensemble as a JSON value.
+/// Returns an ensemble as a JSON value.
 pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
     let of = |quantity| {
         ensemble.statistics(quantity).map(|all: Statistics| {

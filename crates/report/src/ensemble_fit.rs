@@ -1,4 +1,4 @@
-//! The work of adhesion of a rough body by many curves, as text, JSON, a table and a figure.
+//! The work of adhesion of a rough body from many curves, as text, JSON, a table and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -7,20 +7,20 @@ use asperity_data::{format_quantity, format_range, format_rounded, grouped, per_
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 
-/// Changes of the roughness whose effect is stated.
+/// Changes of the roughness whose effect is reported.
 const HEIGHT_CHANGE: f64 = 0.05;
 const HURST_CHANGE: f64 = 0.05;
-/// Ratios of scatters between which the curves scatter as the profiles do.
+/// Smallest and largest usual ratio of the scatter of the curves to the scatter of the random profiles.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
-/// A work of adhesion found by comparison of curves with random profiles.
+/// Report on a work of adhesion found by comparison of curves with random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Result of the comparison.
+    /// Result of the comparison of the curves.
     pub fit: &'a EnsembleFit,
-    /// True if errors of the roughness were stated.
+    /// True if the user stated errors of the roughness.
     pub has_roughness_errors: bool,
 }
 
@@ -186,7 +186,7 @@ impl Report for EnsembleFitReport<'_> {
 const INDEPENDENT: &str = "Each curve counts as a place with a profile of its own: places closer than the contact or the \
     longest wave are fewer than they seem.";
 
-/// `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
+/// Writes `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
 fn with_interval(of: &IntervalEstimate, unit: &str) -> String {
     let value = format_rounded(of.value, 3, unit);
     format!("{value}, {} (95 %)", format_range((of.low, of.high), 3, unit))

@@ -1,11 +1,13 @@
-//! The event at a point of a loading history in words: first contact, spreading, preload, detachment, pull-off, separation.
+//! The event at a point of a loading history in words, such as first contact, preload, pull-off or separation.
 
 use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 
-/// Share of the indentation range of a branch within which a state counts as its end or its smallest force.
+/// Share of the range of indentations of a loading or unloading within which a state counts as its end or its smallest
+/// force.
 const NEAR: f64 = 0.01;
 
-/// Event at a point of a branch of a history, short enough for the title of a chart; `None` while the body does not move.
+/// Returns the event at a point of a loading or unloading in words, such as `pull-off`; `None` while the body does not
+/// move. The words are short enough for the title of a chart.
 pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
     let stages = &legs[branch.stages.clone()];
     let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);

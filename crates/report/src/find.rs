@@ -9,21 +9,22 @@ use asperity_data::{format_quantity, format_range, format_rounded, grouped, one_
 use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found};
 
-/// Number of profiles with several crossings that are listed; further ones are counted.
+/// Largest number of listed profiles with several crossings. Further ones are counted.
 const MOST_LISTED: usize = 8;
 
-/// An answered question, with the title of its scene.
+/// Report on the answer to an inverse question, such as the preload for a given adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// The scene.
+    /// Scene of the question.
     pub scene: &'a Scene,
-    /// The answer.
+    /// Answer to the question.
     pub found: &'a Found,
 }
 
-/// The answer in one sentence: the median with quartiles, `at any preload`, or `never` with the values within reach.
+/// Returns the answer in one sentence: the median with quartiles, `at any preload`, or `never` with the range of values
+/// that are possible.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
     let (axis, count) = (&question.axis, found.answers.len());
@@ -78,7 +79,7 @@ pub fn found_in_words(found: &Found) -> String {
     }
 }
 
-/// Words on the profiles that reach the target without a preload.
+/// Returns words on the profiles that reach the target without a preload.
 fn at_touch_in_words(found: &Found) -> String {
     match found.answers.iter().filter(|answer| answer.at_touch).count() {
         0 => String::new(),
@@ -89,19 +90,19 @@ fn at_touch_in_words(found: &Found) -> String {
     }
 }
 
-/// The target in words: `F_a/F_a,max = 80 %`.
+/// Returns the target in words: `F_a/F_a,max = 80 %`.
 fn target_in_words(found: &Found) -> String {
     let quantity = found.question.quantity;
     format!("{} = {}", quantity.symbol_or_name(), rounded(quantity, found.question.target, 4))
 }
 
-/// Values of the quantity within reach, in words.
+/// Returns the range of possible values of the quantity in words.
 fn values_in_words(found: &Found, (least, most): (f64, f64)) -> String {
     one_unit([least, most].map(|value| rounded(found.question.quantity, value, 4)))
 }
 
 impl FindReport<'_> {
-    /// Sentences on the profiles that do not count with a single number.
+    /// Returns sentences on the profiles whose answer is not a single number.
     fn exceptions(&self) -> Vec<String> {
         let (found, question) = (self.found, &self.found.question);
         let (name, quantity) = (question.axis.symbol_or_name(), question.quantity.symbol_or_name());
@@ -137,7 +138,7 @@ impl FindReport<'_> {
         sentences
     }
 
-    /// Rows of the profiles on which the quantity crosses the target more than once, or which fall below it again.
+    /// Returns rows of the profiles whose quantity crosses the target more than once, or falls below it again.
     fn several(&self) -> Vec<(String, String)> {
         let unit = self.found.question.axis.unit;
         let several = self.found.answers.iter().filter(|answer| answer.crossings.len() > 1);
@@ -210,7 +211,7 @@ impl Report for FindReport<'_> {
         }))
     }
 
-    /// A row for each profile.
+    /// Returns a table with a row for each profile.
     fn table(&self) -> Option<Table<'_>> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());

@@ -12,7 +12,7 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// A fit of a scene to one curve.
+/// Report on a fit of a scene to one measured curve.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
     /// Name of the file of the curve, for the title.
@@ -23,7 +23,7 @@ pub struct FitReport<'a> {
     pub fit: &'a FitResult,
 }
 
-/// A fit in SI units, with facts about its curve.
+/// Fit in SI units, with facts about its curve.
 #[derive(Serialize)]
 struct FitJson<'a> {
     #[serde(flatten)]
@@ -34,7 +34,7 @@ struct FitJson<'a> {
     pull_off_work: Option<f64>,
     points_used: usize,
     points_left_out: usize,
-    /// What was assumed when the curve was read, in sentences.
+    /// Sentences on what was assumed when the curve was read.
     reading: Vec<&'a String>,
 }
 
@@ -55,7 +55,7 @@ impl Report for FitReport<'_> {
             ));
         }
         sheet.heading(&format!("Curve {title}"));
-        curve.statements.iter().chain(&fit.instrument).for_each(|sentence| sheet.paragraph(sentence));
+        curve.statements.iter().chain(&fit.assumptions).for_each(|sentence| sheet.paragraph(sentence));
         sheet.heading(&format!("Fit of {}", fit.document.title()));
         let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
         let header = ["", "value", "95 % interval", "standard error", "start"];
@@ -121,7 +121,7 @@ impl Report for FitReport<'_> {
             pull_off_work: pull_off_force.and_then(|force| self.pull_off_work(force)),
             points_used: curve.points,
             points_left_out: curve.missing,
-            reading: curve.statements.iter().chain(&fit.instrument).collect(),
+            reading: curve.statements.iter().chain(&fit.assumptions).collect(),
         }))
     }
 
@@ -167,8 +167,8 @@ impl Report for FitReport<'_> {
 }
 
 impl FitReport<'_> {
-    /// Work of adhesion, J/m², of a smooth sphere with this pull-off force, N (Johnson, Kendall and Roberts); `None` for
-    /// other bodies.
+    /// Returns the work of adhesion in J/m² of a smooth sphere with this pull-off force in N (Johnson, Kendall and
+    /// Roberts); `None` for another body.
     pub(super) fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
         let radius = scene.form.as_ref()?.sphere_radius()?;

@@ -1,4 +1,4 @@
-//! Fits to many curves: a row for each curve, as text, JSON and a table; their distribution as a figure.
+//! Fits to many curves: a row for each curve as text, JSON and a table, and the distribution of the results as a figure.
 
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
@@ -15,30 +15,30 @@ use std::fmt::Display;
 /// Smallest and largest number of bars of a histogram.
 const BARS: (usize, usize) = (5, 40);
 
-/// A curve with the result of its fit, or the reason why there is none.
+/// Curve with the result of its fit, or with the reason why there is none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurveRow {
     /// Path of the file as it was given.
     pub file: String,
-    /// Value and both ends of the interval of each free parameter; empty without a fit.
+    /// Value, lower and upper end of the 95 % interval of each free parameter in SI units; empty without a fit.
     pub parameters: Vec<[f64; 3]>,
-    /// Pull-off force, N, its work of adhesion, J/m², residual over noise, noise, N.
+    /// Pull-off force in N, its work of adhesion in J/m², residual divided by the noise, and noise in N.
     pub facts: [Option<f64>; 4],
-    /// Number of points of the curve that are used.
+    /// Number of points of the curve that are used; `None` without a fit.
     pub points: Option<u64>,
-    /// Whether the model describes the curve.
+    /// True if the model describes the curve; `None` without a fit.
     pub described: Option<bool>,
-    /// Why the model does not describe the curve.
+    /// Reason why the model does not describe the curve; empty if the model does.
     pub reason: String,
-    /// Why the curve was not read or not fitted.
+    /// Reason why the curve was not read or not fitted; empty if the curve was fitted.
     pub error: String,
 }
 
-/// Names of the columns behind the parameters.
+/// Names of the columns after the parameters.
 const FACTS: [&str; 4] = ["pull_off_force", "pull_off_work", "residual_over_noise", "noise"];
 
 impl CurveRow {
-    /// The row of a curve that this fit is applied to, or of the reason why the curve was not read or is not fitted.
+    /// Makes the row of a curve that is fitted here. The row has the reason if the curve was not read or cannot be fitted.
     pub fn of(
         title: &str,
         curve: Result<MeasuredCurve, impl Display>,
@@ -56,6 +56,7 @@ impl CurveRow {
         })
     }
 
+    /// Makes the row of a curve that was fitted.
     fn fitted(report: &FitReport<'_>) -> Self {
         let FitReport { title, curve, fit } = *report;
         let force = curve.pull_off_force();
@@ -72,7 +73,8 @@ impl CurveRow {
         }
     }
 
-    /// The row that a line of the table holds; `None` for a line that is torn or of another table.
+    /// Reads the row from a line of the table with `parameters` parameters; `None` for a line that is incomplete or from
+    /// another table.
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
         let (file, rest) = cells.split_first()?;
@@ -97,7 +99,7 @@ impl CurveRow {
     }
 }
 
-/// Cells of a CSV line by RFC 4180; `None` if a quotation mark is open at its end.
+/// Returns the cells of a CSV line by RFC 4180; `None` if a quotation mark is open at the end.
 fn cells_of(line: &str) -> Option<Vec<String>> {
     let (mut cells, mut cell, mut is_quoted) = (Vec::new(), String::new(), false);
     let mut characters = line.chars().peekable();
@@ -116,12 +118,12 @@ fn cells_of(line: &str) -> Option<Vec<String>> {
     (!is_quoted).then_some(cells)
 }
 
-/// Fits of one scene to many curves.
+/// Report on fits of one scene to many curves.
 #[derive(Clone, Copy, Debug)]
 pub struct FitsReport<'a> {
-    /// The scene that is fitted.
+    /// Scene that is fitted to the curves.
     pub scene: &'a Scene,
-    /// The free parameters, in the order of the values.
+    /// Free parameters of the fits, in the order of [`CurveRow::parameters`].
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
@@ -134,7 +136,7 @@ struct Distribution {
 }
 
 impl FitsReport<'_> {
-    /// Values of the first free parameter, of curves that are described or of curves that are not.
+    /// Returns the values of the first free parameter, from curves that are described or from the others.
     fn values(&self, is_described: bool) -> Vec<f64> {
         let of = self.rows.iter().filter(|row| row.described == Some(is_described));
         of.filter_map(|row| Some(row.parameters.first()?[0])).collect()
@@ -146,7 +148,7 @@ impl FitsReport<'_> {
         (!values.is_empty()).then_some(Distribution { quartiles, count: values.len() })
     }
 
-    /// Sentences on the first parameter over the described curves and over all curves, and on curves without a fit.
+    /// Returns sentences on the first parameter over the described curves and over all curves, and on curves without a fit.
     fn summary(&self) -> Vec<String> {
         let Some(row) = self.free.first().map(|one| one.row()) else { return Vec::new() };
         let sentence = |found: Distribution, of: &str| {
@@ -173,6 +175,13 @@ impl FitsReport<'_> {
                 "Not read or not fitted: {} of {} curves.",
                 grouped(without as u64),
                 grouped(self.rows.len() as u64)
+            ));
+        }
+        if !self.free.contains(&Parameter::Offset) {
+            text.push(format!(
+                "The offset was not fitted, so the intervals leave out that first touch is known to the distance of two points \
+                 only: --free {} fits it.",
+                Parameter::Offset.name()
             ));
         }
         text

@@ -1,4 +1,4 @@
-//! The chart of force loops, the same in figures of scenes and in the explorer.
+//! The chart of force loops, which is the same in figures of scenes and in the explorer.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord};
 use asperity_contact::{Mark, marks};
@@ -7,7 +7,7 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use asperity_scene::Outcome;
 use asperity_scene::{DisplacementCurve, DisplacementPoint};
 
-/// The two quantities of a chart of loops.
+/// Pair of quantities that a chart of loops shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
     /// Force over the indentation.
@@ -22,7 +22,7 @@ pub enum LoopQuantities {
 }
 
 impl LoopQuantities {
-    /// The next pair of quantities; pairs with the displacement only if an instrument `deflects`.
+    /// Returns the next pair of quantities. The displacement is skipped unless an instrument `deflects`.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -35,28 +35,28 @@ impl LoopQuantities {
     }
 }
 
-/// Quantities of a chart of loops, and their units: SI units, or parameters of a scene.
+/// Quantities of a chart of loops with their units, which are SI units or parameters of a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoopUnits {
     quantities: LoopQuantities,
     /// Loading stiffness, N/m; `None` for a rigid instrument.
     stiffness: Option<f64>,
-    /// Unit of the indentation: rms height h, m; `None` for SI units.
+    /// Rms height h in m as the unit of the indentation; `None` for SI units.
     indentation: Option<f64>,
-    /// Unit of the force: ideal adhesion force F_a,max, N; `None` for SI units.
+    /// Ideal adhesion force F_a,max in N as the unit of the force; `None` for SI units.
     force: Option<f64>,
-    /// Unit of lengths along the profile: L, m; `None` for SI units.
+    /// Length L in m as the unit of lengths along the profile; `None` for SI units.
     length: Option<f64>,
 }
 
-/// A quantity of a point of the curve, divided by a parameter of the scene if there is one.
+/// Quantity of a point of the curve, possibly divided by a parameter of the scene.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
     symbol: &'static str,
     unit: &'static str,
     over: Option<(f64, &'static str)>,
-    /// Value of the quantity at a point, with the stiffness of the instrument, N/m.
+    /// Function that returns the quantity at a point. Its second argument is the stiffness of the instrument in N/m.
     of: fn(&CurvePoint, f64) -> f64,
 }
 
@@ -68,13 +68,13 @@ impl Quantity {
 }
 
 impl LoopUnits {
-    /// SI units for these quantities.
+    /// Returns SI units for these quantities.
     pub fn si(quantities: LoopQuantities) -> LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
 
-    /// Units for an outcome: with its instrument, and if `normalised` with the parameters that its scene has; otherwise SI
-    /// units.
+    /// Returns units for a computed scene with its instrument. If `normalised` is true, the units are parameters of the
+    /// scene, such as the rms height; otherwise they are SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
         LoopUnits {
@@ -86,7 +86,7 @@ impl LoopUnits {
         }
     }
 
-    /// Coordinates in the chart of a point of the curve.
+    /// Returns the coordinates of a point of the curve in the chart.
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
         let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
         let [x, y] =
@@ -94,18 +94,18 @@ impl LoopUnits {
         (x, y)
     }
 
-    /// A force in words, in the unit of the chart.
+    /// Writes a force in N in the unit of the chart.
     pub fn force_in_words(&self, force: f64) -> String {
         self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
-    /// Returns true if a mark lies on the drawn curve. Over the displacement a compliant instrument skips the states
-    /// inside a jump.
+    /// Returns true if a marked point, such as the pull-off, lies on the drawn curve. Over the displacement of the
+    /// instrument, the points of the jumps into and out of contact do not.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
 
-    /// Indentation at a number on the horizontal axis, m; `None` if that axis shows another quantity.
+    /// Returns the indentation in m at the number `x` on the horizontal axis; `None` if this axis shows another quantity.
     pub fn indentation(&self, x: f64) -> Option<f64> {
         let is_over_indentation = matches!(
             self.quantities,
@@ -114,12 +114,12 @@ impl LoopUnits {
         is_over_indentation.then(|| x * self.indentation.unwrap_or(1.0))
     }
 
-    /// Returns true if the chart shows force over indentation or displacement.
+    /// Returns true if the chart shows the force over indentation or displacement.
     pub fn shows_force(&self) -> bool {
         matches!(self.quantities, LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement)
     }
 
-    /// Symbols of the horizontal and the vertical quantity: `d` and `F`, or `d/h` and `F/F_a,max`.
+    /// Returns the symbols of the horizontal and the vertical quantity: `d` and `F`, or `d/h` and `F/F_a,max`.
     pub fn symbols(&self) -> (String, String) {
         let [x, y] = self.quantities().map(|one| one.symbol_and_unit().0);
         (x, y)
@@ -157,24 +157,25 @@ impl LoopUnits {
     }
 }
 
-/// A loop in a chart. Where it has no name, ink or stroke of its own, loading and unloading have theirs.
+/// Loop of loading and unloading in a chart. A loop without its own name, ink or stroke has different ones for loading and
+/// unloading.
 #[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
-    /// Force curves of the loading stages, with their directions.
+    /// Force curve of each loading stage, with its direction.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
-    /// Stiffness of the instrument, N/m, which passes parts of the curves in jumps; `None` for no jumps.
+    /// Stiffness of the instrument in N/m, which causes jumps over the displacement; `None` for a rigid instrument.
     pub stiffness: Option<f64>,
-    /// Marked points; the legend has them if the loop has no name.
+    /// Marked points of the curves, such as preload and pull-off. The legend names them if the loop has no name.
     pub marks: Vec<(Mark, CurvePoint)>,
-    /// Name of the loop in the legend, if it has one.
+    /// Name of the loop in the legend; `None` for entries of loading and unloading.
     pub name: Option<Label>,
-    /// True if the legend, which several charts share, leaves out the forces of marks.
+    /// True if the legend omits the forces of the marks, because several charts share the legend.
     pub without_forces: bool,
     /// Ink of the loop; `None` for the inks of loading and unloading.
     pub ink: Option<Ink>,
-    /// Stroke of the loop; `None` for a solid one.
+    /// Stroke of the loop; `None` for dotted loading and solid unloading.
     pub stroke: Option<Stroke>,
-    /// Stroke of the unloading, if it has its own.
+    /// Stroke of the unloading; `None` for the stroke of the loop.
     pub unloading: Option<Stroke>,
 }
 
@@ -182,19 +183,19 @@ pub struct ForceLoop<'a> {
 type Places = Vec<(f64, f64)>;
 
 impl<'a> ForceLoop<'a> {
-    /// Creates the loop of a loading history with its marks.
+    /// Creates the loop of a loading history with its marked points.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
         ForceLoop { curves, marks: marks(legs), ..ForceLoop::default() }
     }
 
-    /// Creates the loop of an outcome with its marks and its instrument.
+    /// Creates the loop of a computed scene with its marked points and its instrument.
     pub fn of_outcome(outcome: &'a Outcome) -> ForceLoop<'a> {
         let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
         ForceLoop { stiffness, ..ForceLoop::new(&outcome.history.legs) }
     }
 
-    /// Lines of the curves with their directions; true for a jump of the instrument.
+    /// Returns the lines of the curves with their directions, and true for a jump of the instrument.
     fn lines(&self, units: LoopUnits) -> Vec<(Direction, Places, bool)> {
         let units = LoopUnits { stiffness: self.stiffness.or(units.stiffness), ..units };
         let mut lines = Vec::new();
@@ -254,7 +255,7 @@ impl<'a> ForceLoop<'a> {
     }
 }
 
-/// Chart of loops, the first one lowest, with a line at zero.
+/// Returns a chart of loops with a line at zero. Later loops are drawn over earlier ones.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let lines = loops.iter().flat_map(|one| one.lines(units));
     let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
@@ -264,8 +265,9 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     Chart::new(x, y, layers)
 }
 
-/// Figure of the force curves of computed scenes with titles. Loading and unloading of a single scene have two colours; of
-/// several scenes each has a colour and a stroke, and the legend explains loading and marks once for all.
+/// Returns a figure of the force curves of computed scenes, each with its title. A single scene has one colour for loading
+/// and another for unloading. Each of several scenes has its own colour and stroke. The legend then explains loading and
+/// marks once.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         return Figure::of_chart(title, loop_chart(&[ForceLoop::new(&outcome.history.legs)], units));
@@ -289,7 +291,8 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     Figure::of_chart("", chart)
 }
 
-/// Figure with a chart for each of several computed scenes with titles; its heading has the adhesion force.
+/// Returns a figure with a chart for each of several computed scenes with titles. The heading of a chart has the adhesion
+/// force.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let figure = |(title, outcome): &(&str, &Outcome)| {
         let one = ForceLoop { without_forces: true, ..ForceLoop::new(&outcome.history.legs) };
@@ -301,7 +304,7 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure::of_panels(scenes.iter().map(figure).collect())
 }
 
-/// Sign of a mark in charts.
+/// Returns the sign of a marked point in charts.
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,

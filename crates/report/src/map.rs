@@ -6,8 +6,8 @@ use asperity_scene::Regime;
 use asperity_study::{Grid, GridCell, Quantity, Statistics};
 
 impl Report for Grid {
-    /// The computed cells: values of the axes by their paths, profiles, regimes, and statistics of each quantity, in SI
-    /// units.
+    /// Returns a table of the computed cells: values of the axes, profiles, regimes, and statistics of each quantity, in SI
+    /// units. The headings of the axes are their paths.
     fn table(&self) -> Option<Table<'_>> {
         let columns = self.across.values.len();
         let mut table = Table::of(move || {

@@ -1,4 +1,4 @@
-//! Measured surfaces of one face, as samples of the same roughness: facts about their files, and warnings about their
+//! Measured surfaces of one face, as samples of the same roughness, with facts about their files and warnings about their
 //! analysis.
 
 use asperity_data::format_quantity;
@@ -8,56 +8,58 @@ use asperity_surface::{Analysis, End};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 
-/// Share of the squared height in long waves above which the rms height depends on the length of the scan.
+/// Share of long waves in the squared height, above which the rms height depends on the length of the scan.
 const MANY_LONG_WAVES: f64 = 0.3;
 
-/// Share of the squared height in long waves above which they are likely to belong to a body or to a bow of the scanner.
+/// Share of long waves in the squared height, above which the waves are likely to belong to a body or to a bow of the
+/// scanner.
 const FORM: f64 = 0.9;
 
-/// Number of profiles from which on moments are as accurate as the moments of a map.
+/// Number of profiles whose moments are as accurate as the moments of a map.
 const MANY_PROFILES: u64 = 100;
 
-/// Smallest and largest factor by which adhesion near its boundary varies between single profiles; the same as in
+/// Smallest and largest factor by which adhesion near its boundary varies between single profiles, as in
 /// `docs/surface-estimate.md`.
 const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
-/// Rms gradient above which slopes are not small, and smallest ratio of the rms heights of two samples of one roughness:
-/// beyond either a wrong unit is likely.
+/// Largest rms gradient for which slopes are small, and largest ratio of the rms heights of two samples of one roughness.
+/// Above either a wrong unit is likely.
 const LARGEST_GRADIENT: f64 = 1.0;
 const FAR_APART: f64 = 30.0;
 
-/// Facts about a surface and its file. Lists have one number for a profile, and a number for each axis for a map.
+/// Facts about a measured surface and its file. Each list has one number for a profile, and for a map one number for each
+/// axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
-    /// Path of the file.
+    /// Path of the file of the surface.
     #[serde(rename = "file", serialize_with = "in_unicode")]
     pub path: PathBuf,
-    /// Name of the measurement in a container; empty if the surface is from a file of its own.
+    /// Name of the measurement, if the file contains several; otherwise empty.
     #[serde(rename = "measurement", skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// Name of the format.
+    /// Name of the file format.
     pub format: &'static str,
-    /// Number of points of a row, and number of rows.
+    /// Number of points in a row, and number of rows.
     pub points: Vec<usize>,
-    /// Length along a row, and along a column, m.
+    /// Length of a row and of a column, m.
     pub lengths: Vec<f64>,
-    /// Numbers of columns and rows without measured points left out at the borders; for a profile a number of points at its
-    /// ends.
+    /// Numbers of columns and rows without measured points that are left out at the borders. For a profile, the number of
+    /// such points at its ends.
     pub cropped: Vec<usize>,
     /// Number of points with interpolated heights.
     pub interpolated: usize,
-    /// Messages on oddities of the file.
+    /// Messages about unusual properties of the file.
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
-/// Writes a path; what is not Unicode becomes U+FFFD.
+/// Writes a path. Characters that are not Unicode become U+FFFD.
 fn in_unicode<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&path.display())
 }
 
 impl SurfaceFile {
-    /// Collects the facts about a surface; the lengths are 0 if its points are not evenly spaced.
+    /// Collects the facts about a surface. Its lengths are 0 if the points are not evenly spaced.
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
         let mut points = vec![surface.columns, surface.rows()];
         points.truncate(if surface.rows() > 1 { 2 } else { 1 });
@@ -74,13 +76,13 @@ impl SurfaceFile {
         }
     }
 
-    /// Name of the file, with the name of the measurement in a container.
+    /// Returns the name of the file, with the name of the measurement if the file contains several.
     fn name(&self) -> String {
         let name = if self.name.is_empty() { String::new() } else { format!(" {:?}", printable(&self.name)) };
         path_name(&self.path) + &name
     }
 
-    /// Name, format, shape and sizes in words, with the points that are left out or interpolated.
+    /// Returns name, format, shape and lengths in words, with the points that are left out or interpolated.
     pub fn describe(&self) -> String {
         let counts: Vec<String> = self.points.iter().map(|count| grouped(*count as u64)).collect();
         let lengths: Vec<String> = self.lengths.iter().map(|length| format_quantity(*length, "m")).collect();
@@ -128,7 +130,7 @@ pub(crate) fn steep(rms_gradient: f64) -> Option<String> {
 }
 
 impl MeasuredFace {
-    /// Warning for files whose rms heights differ much, although they are samples of one roughness.
+    /// Returns a warning for files whose rms heights differ much, although the files are samples of one roughness.
     fn far_apart(&self) -> Option<String> {
         let MeasuredFace { files, analysis } = self;
         let heights = || analysis.rms_heights.iter().zip(files);
@@ -147,7 +149,7 @@ impl MeasuredFace {
         })
     }
 
-    /// Messages on oddities of the files, and limits of their analysis that concern the user.
+    /// Returns messages about unusual properties of the files, and limits of their analysis that concern the user.
     pub fn warnings(&self) -> Vec<String> {
         let analysis = &self.analysis;
         let of_file = |file: &SurfaceFile| {

@@ -1,9 +1,9 @@
-//! The box of parameters of a figure: the numbers that define its scenes.
+//! The box of parameters in a figure: the numbers that define its scenes.
 
 use asperity_plot::{Label, statement};
 use asperity_scene::{Scene, Statement, statements};
 
-/// Lines with the numbers that all scenes share, and for each scene with a name the numbers that differ.
+/// Returns a line with the numbers that all scenes share, and for each scene with a name a line with the other numbers.
 pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
     let all: Vec<Vec<Statement>> = scenes.iter().map(|(_, scene)| statements(scene)).collect();
     let is_common = |one: &Statement| all.iter().all(|scene| scene.contains(one));

@@ -1,4 +1,4 @@
-//! Adhesion force against preload as text, JSON, tables and a figure.
+//! The adhesion force against the preload as text, JSON, tables and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
@@ -12,27 +12,27 @@ use asperity_study::{Results, Staircase, Statistics};
 use std::ops::Range;
 
 const MOST_ROWS: usize = 32;
-/// Heading of a column of confidence intervals of the mean.
+/// Heading of a column with confidence intervals of the mean.
 pub(crate) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 
-/// Adhesion force against preload, on one or more profiles.
+/// Report on the adhesion force against the preload, on one or more profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Choice of springs for a tolerance, if one was requested.
+    /// Number of springs that was chosen for a tolerance; `None` without a tolerance.
     pub choice: Option<&'a Choice>,
-    /// Records with the quantities [`Results::OF_PRELOADS`], as far as computed.
+    /// Values of the quantities [`Results::OF_PRELOADS`], as far as they are computed.
     pub results: &'a Results,
-    /// The staircase of the first profile, for figures and tables of curves.
+    /// Adhesion force of the first profile against the preload with each of its steps; needed for figures and curves.
     pub staircase: Option<&'a Staircase>,
-    /// True for a table of the drawn curves instead of one row for each preload of each profile.
+    /// True if the table contains the drawn curves instead of one row for each preload of each profile.
     pub curves: bool,
 }
 
 impl PreloadReport<'_> {
-    /// The figure: adhesion force against preload as in [`preload_chart`], and the distribution at the largest preload.
-    /// `None` without a staircase.
+    /// Returns the figure of [`preload_chart`] with the distribution of the adhesion force at the largest preload; `None`
+    /// without a staircase. `has_values` is passed to [`preload_chart`].
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
         let chart = preload_chart(staircase, &spread, has_values);
@@ -114,7 +114,7 @@ impl Report for PreloadReport<'_> {
         }))
     }
 
-    /// One row for each preload of each profile, beginning with the seed if profiles have one; or the drawn curves.
+    /// Returns the drawn curves, or one row for each preload of each profile, beginning with the seed if profiles have one.
     fn table(&self) -> Option<Table<'_>> {
         Some(match self.staircase.filter(|_| self.curves) {
             Some(staircase) => curve_table(self.results, staircase),
@@ -127,7 +127,7 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// Figure of a chart of adhesion against preload, with a distribution `beside` it if there is one.
+/// Returns the figure of a chart of adhesion against preload, with a distribution `beside` it if one is given.
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else { return Figure::of_chart(title, chart) };
     let chart = Chart { heading: Label::quantity("adhesion force", "F_a"), ..chart };
@@ -135,7 +135,8 @@ pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figur
     Figure { title, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// The curves of [`preload_chart`] as a table: one row for each preload of the staircase, with the spread where it is known.
+/// Returns the curves of [`preload_chart`] as a table, with one row for each preload of the staircase and the known
+/// statistics.
 fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     let spread = results.spread_of_adhesion();
     let row = move |&(preload, force): &(f64, f64)| {
@@ -153,14 +154,15 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     table.done()
 }
 
-/// The warning about the mean to which a single profile contributes most, over all preloads.
+/// Returns a warning about the preload whose mean adhesion force depends most on a single profile. Returns `None` if no
+/// profile makes up half of a mean.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
     let (preload, most) = spread.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
     most.warning(&format!("F_a at F_n {}", format_quantity(*preload, "N")))
 }
 
-/// Table of the unloadings from all preloads on these profiles; with their seeds if they are `seeded`.
+/// Returns a table of the unloadings from all preloads on these profiles, with seeds if they are `seeded`.
 pub(crate) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) -> Table<'_> {
     let plan = results.plan();
     let rows = move || lines.clone().flat_map(move |line| (0..plan.cells()).map(move |cell| (cell, line)));
@@ -175,8 +177,8 @@ pub(crate) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) 
     table.done()
 }
 
-/// Writes a table of unloadings with these headings for force and indentation at the turning point, then adhesion force,
-/// indentation at pull-off and dissipated energy.
+/// Writes a table of unloadings. Its first columns have these headings for force and indentation at the turning point.
+/// Adhesion force, indentation at pull-off and dissipated energy follow.
 pub(crate) fn unloadings(
     sheet: &mut Sheet,
     [force, at]: [&str; 2],
@@ -194,13 +196,13 @@ pub(crate) fn unloadings(
     sheet.table(&std::iter::once(header).chain(rows.map(row)).collect::<Vec<_>>());
 }
 
-/// Ratio of adhesion forces from which on they are drawn on a logarithmic scale.
+/// Smallest ratio of adhesion forces that are drawn on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 30.0;
 const MOST_DECADES: f64 = 6.0;
 
-/// Chart of the adhesion force (N) over the preload (N): the staircase of one profile, the spread over several
-/// profiles, and F_a(d=0) and F_a(F=0). `has_values` writes these two forces into the legend. If the axis of
-/// preloads is logarithmic, the axis of forces over several decades is logarithmic too.
+/// Returns the chart of the adhesion force over the preload. It shows the staircase of one profile, the statistics over
+/// several profiles, F_a(d=0) and F_a(F=0). `has_values` writes these two forces into the legend. On a logarithmic axis of
+/// preloads, the axis of forces over several decades is logarithmic too.
 pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;
@@ -270,9 +272,9 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     )
 }
 
-/// Empirical distribution of the adhesion force over the profiles at the nearest computed preload (N). Each profile
-/// adds a step to the share of profiles. `forces` is the vertical axis of a chart beside it. `None` for fewer than
-/// two profiles.
+/// Returns the distribution of the adhesion force over the profiles; `None` for fewer than two profiles. The computed
+/// preload nearest to `preload` in N is used. Each profile adds a step to the share of profiles. `forces` is the vertical
+/// axis of a chart beside it.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

@@ -1,6 +1,6 @@
-//! Provenance of results, written into their file: version, command, measured files and scene.
+//! Where a result comes from, as written into its file: version, command, measured files and scene.
 //!
-//! In CSV it is the first lines, each after `# `; SVG has it as metadata, and JSON begins with version and command.
+//! CSV has these lines first, each after `# `. SVG has them as metadata. JSON begins with version and command.
 
 use asperity_data::sha256_of;
 use asperity_data::{path_name, printable};
@@ -12,8 +12,8 @@ const HASH: &str = "sha256: ";
 /// Beginning of the line of the command.
 const COMMAND: &str = "command: ";
 
-/// Provenance of a table of a scene. `folder` is the folder to which the scene's files are relative, `destination` the
-/// folder of the table.
+/// Returns the lines with version, command, measured files and scene for a table. The files of the scene are relative to
+/// `folder`; the table is written into the folder `destination`.
 pub fn scene_provenance(
     command: &str,
     scene: &Scene,
@@ -29,29 +29,30 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-/// Provenance of a figure of several named scenes; scenes without a name are left out.
+/// Returns the lines with version, command and several named scenes for a figure. Scenes without a name are left out.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     let named = scenes.iter().filter(|(name, _)| !name.is_empty());
     let texts = named.map(|(name, scene)| format!("scene {}:\n{}", printable(name), to_ron(scene)));
     version_and_command(command, "") + &texts.collect::<String>()
 }
 
-/// Version and command of a provenance, as entries of a JSON object.
+/// Returns the version and the command from lines of [`scene_provenance`], as entries of a JSON object.
 pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     let command = provenance.lines().find_map(|line| line.strip_prefix(COMMAND));
     let program = provenance.lines().next().map(|program| ("program", program));
     program.into_iter().chain(command.map(|command| ("command", command))).collect()
 }
 
-/// Provenance of a table of measured files without a scene; `destination` is the folder of the table.
+/// Returns the lines with version, command and measured files for a table without a scene. The table is written into the
+/// folder `destination`.
 pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     head(command, &names, Path::new(""), destination)
 }
 
-/// Lines with version, measured files and the SHA-256 of their contents, and command. The name of a file is a RON string,
-/// which is always on one line.
+/// Returns lines with the version, the measured files with the SHA-256 of their contents, and the command. The name of a
+/// file is a RON string, which is always on one line.
 fn head(command: &str, files: &[&str], folder: &Path, destination: &Path) -> Result<String, String> {
     let mut hashes = String::new();
     for file in files {
@@ -66,7 +67,11 @@ fn version_and_command(command: &str, hashes: &str) -> String {
     format!("asperity {version}\n{hashes}{COMMAND}{}\n", printable(&command))
 }
 
-/// Checks that the measured files of a scene are still the files of the table of results from which the scene was read.
+/// Checks the measured files of a scene that was read from a table of results. The files must be the same as when the table
+/// was written.
+///
+/// # Errors
+/// A file cannot be read, or its SHA-256 differs from the one in the table.
 pub fn check_measured_files(document: &Document) -> Result<(), String> {
     let files = document.scene().measured_files();
     let recorded = document.table_head().lines().filter_map(|line| {
@@ -92,8 +97,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Name of a file as a table in the folder `destination` writes it. `file` is relative to `folder`. The name stays if both
-/// folders are the same; otherwise it becomes absolute.
+/// Returns the name of a file for a table in the folder `destination`. `file` is relative to `folder`. The name stays as it
+/// is if both folders are the same; otherwise it becomes absolute.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

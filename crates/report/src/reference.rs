@@ -1,4 +1,4 @@
-//! A scene as a line and in three dimensions, as text, JSON, table and figure.
+//! A scene as a profile and in three dimensions, as text, JSON, a table and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -11,18 +11,18 @@ use asperity_study::{Compared, Loaded, Reference, ReferenceEvent, SquareLoops, S
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// A comparison, with the title of its scene.
+/// Report on the comparison of a scene as a profile and in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// The scene.
+    /// Scene that is computed as a profile and in three dimensions.
     pub scene: &'a Scene,
-    /// Comparison of the line with three dimensions.
+    /// Comparison of the profile with three dimensions.
     pub reference: &'a Reference,
 }
 
-/// Ratio of both models with its interval: `0.84 ± 0.05`.
+/// Writes the ratio of both models with its interval: `0.84 ± 0.05`.
 fn ratio(of: &Compared) -> String {
     let decimals =
         |value: f64| if value < 10.0 { format!("{value:.2}") } else { format_rounded(value, 2, "1") };
@@ -32,10 +32,10 @@ fn ratio(of: &Compared) -> String {
     }
 }
 
-/// Time, s, from which on a comparison is long.
+/// Time in s above which a comparison takes long.
 const LONG: f64 = 10.0;
 
-/// Progress of a comparison in words.
+/// Progress of a comparison with three dimensions, for messages to the user.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,
@@ -50,7 +50,7 @@ impl Default for ReferenceProgress {
 }
 
 impl ReferenceProgress {
-    /// What has happened, in one line; true if it says that the comparison takes long.
+    /// Returns the last event in one line, and true if the line says that the comparison takes long.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
             ReferenceEvent::Begins { maps, threads, bytes, seconds } => {
@@ -74,7 +74,8 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// The loops of random squares so far in words, short ones; with the ratio of both models once all are done.
+/// Returns the state of the loops of random squares in a few words. Once all loops are computed, the words have the ratio
+/// of both models.
 pub fn square_loops_words(loops: &SquareLoops) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some((reference, compared)) = reference.as_ref().and_then(|of| Some((of, of.headline()?))) else {
@@ -89,7 +90,7 @@ pub fn square_loops_words(loops: &SquareLoops) -> String {
     format!("{symbol} line/three dimensions {}{waves}", ratio(compared))
 }
 
-/// The error of the model in a sentence.
+/// Returns the error of the model in a sentence.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let quantity = if reference.adhesion_force.is_some() { "the adhesion force" } else { "the indentation" };
@@ -106,7 +107,7 @@ fn percent(share: f64) -> String {
 }
 
 impl ReferenceReport<'_> {
-    /// What is compared, in sentences.
+    /// Returns sentences on what is compared.
     fn compared(&self) -> String {
         let Reference { options, waves, omitted, .. } = self.reference;
         let cells = options.cells;
@@ -129,7 +130,7 @@ impl ReferenceReport<'_> {
         )
     }
 
-    /// The errors of the line by their sources, the largest in words.
+    /// Returns the errors of the profile by their sources, and the largest in words.
     fn errors(&self) -> (Vec<(&'static str, String)>, String) {
         let budget = &self.reference.budget;
         let or_unknown = |share: Option<f64>| share.map_or_else(|| "not known".to_owned(), percent);
@@ -153,7 +154,7 @@ impl ReferenceReport<'_> {
     }
 }
 
-/// The numbers of one model, or the ratios of both, with the area of contact where it means something.
+/// Returns the numbers of one model, or the ratios of both models. The area of contact is included where it has a meaning.
 fn model<V: Serialize>(
     reference: &Reference,
     of: impl Fn(&Compared) -> V + Copy,
@@ -244,7 +245,7 @@ impl Report for ReferenceReport<'_> {
         }))
     }
 
-    /// A row for each force of the loading without adhesion.
+    /// Returns a row for each force of the loading without adhesion.
     fn table(&self) -> Option<Table<'_>> {
         let rows = move || self.reference.loading.iter();
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);
@@ -262,7 +263,7 @@ impl Report for ReferenceReport<'_> {
         Some(table.done())
     }
 
-    /// Force against indentation without adhesion, in both models, with the quartiles of the indentation.
+    /// Returns the force against the indentation without adhesion in both models, with the quartiles of the indentation.
     fn figure(&self) -> Option<Figure> {
         let loading = &self.reference.loading;
         let force = |loaded: &Loaded| loaded.force;

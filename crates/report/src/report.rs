@@ -1,4 +1,4 @@
-//! A result in up to four forms (text, JSON, table, figure), and the formats in which these are written.
+//! A result in up to four forms (text, JSON, table, figure), and the formats in which these forms are written.
 
 use crate::provenance::entries;
 use asperity_data::{Kind, Table, write_json};
@@ -10,32 +10,32 @@ use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
-/// A result that has one or more of four forms.
+/// Result with one or more of four forms. A form that a result lacks is `None`.
 pub trait Report {
-    /// The result as plain text of at most 80 columns.
+    /// Returns the result as plain text of at most 80 columns.
     fn text(&self) -> Option<String> {
         None
     }
 
-    /// The result as JSON.
+    /// Returns the result as JSON.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         None
     }
 
-    /// The result as a table.
+    /// Returns the result as a table.
     fn table(&self) -> Option<Table<'_>> {
         None
     }
 
-    /// The result as a figure.
+    /// Returns the result as a figure.
     fn figure(&self) -> Option<Figure> {
         None
     }
 }
 
-/// A value that is written as JSON without an intermediate copy.
+/// Value that is written as JSON without an intermediate copy.
 pub trait Json {
-    /// Writes the value; if it is an object, the entries `head` come first.
+    /// Writes the value. If it is an object, the entries `head` come first.
     fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 
@@ -45,9 +45,9 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// A figure of one chart can also be written as the table of its curves.
+/// Figure, which as a table has the points of its curves if it has one chart.
 impl Report for Figure {
-    /// The result as a table.
+    /// Returns the points of the curves as a table.
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
@@ -63,13 +63,17 @@ impl Report for Figure {
         Some(table.with(column(y), Kind::Real, |row| row.1.1).done())
     }
 
-    /// The result as a figure.
+    /// Returns the figure itself.
     fn figure(&self) -> Option<Figure> {
         Some(self.clone())
     }
 }
 
-/// Writes a report in a format, with its provenance, which text, arrays and pixels leave out.
+/// Writes a report in a format. `provenance` has the version, the command and the scene as lines; text, NPY, PNG and PDF
+/// omit these lines.
+///
+/// # Errors
+/// The report has no such form, or the output cannot be written.
 pub fn write(
     out: &mut dyn Write,
     report: &(impl Report + ?Sized),
@@ -91,24 +95,24 @@ pub fn write(
     }
 }
 
-/// Format of a result.
+/// Format of a file with a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[strum(serialize_all = "lowercase")]
 pub enum Format {
-    /// Plain text.
+    /// Plain text for readers.
     Text,
-    /// One JSON object, in SI units.
+    /// JSON object in SI units.
     Json,
-    /// Table with commas between its columns.
+    /// Table with a comma between its columns (CSV).
     Csv,
-    /// Array of NumPy.
+    /// Table as an array of NumPy.
     Npy,
-    /// Vector picture for the web.
+    /// Picture of lines for the web (SVG).
     Svg,
-    /// Picture of pixels.
+    /// Picture of pixels (PNG).
     Png,
-    /// Vector picture on a page of its own size.
+    /// Picture of lines on a page of its own size (PDF).
     Pdf,
 }
 
@@ -117,12 +121,12 @@ impl Format {
     pub const ALL: [Format; 7] =
         [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
 
-    /// Name on the command line.
+    /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// Extension of a file of this format, without the dot.
+    /// Returns the extension of a file of this format, without the dot.
     pub fn extension(self) -> &'static str {
         if self == Format::Text { "txt" } else { self.name() }
     }
@@ -137,8 +141,12 @@ impl Format {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
-    /// The format of a file by its extension; without an extension or a file, the chosen format or else the usual one. An
-    /// error for a format that is not one of `formats`, or an extension that contradicts the chosen format.
+    /// Returns the format that belongs to the extension of a file. Without a file or an extension, returns the chosen
+    /// format, or `usual` if none is chosen.
+    ///
+    /// # Errors
+    /// The chosen format is not among `formats`, the extension belongs to none of them, or it contradicts the chosen
+    /// format.
     pub fn of_file(
         file: Option<&Path>,
         chosen: Option<Format>,
@@ -166,7 +174,10 @@ impl Format {
     }
 }
 
-/// Index in a list of the extension of a file; `None` for a name without an extension.
+/// Returns the index of the extension of a file in `allowed`; `None` for a name without an extension.
+///
+/// # Errors
+/// The extension is not allowed.
 pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
     let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
         return Ok(None);
@@ -178,7 +189,7 @@ pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, S
     })
 }
 
-/// A list in words, such as `.txt, .json or .csv`.
+/// Returns a list in words, such as `.txt, .json or .csv`.
 fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
     let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
     match words.split_last() {

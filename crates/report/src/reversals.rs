@@ -1,4 +1,4 @@
-//! First-order reversal curves of a scene as text, JSON, tables and a figure.
+//! Unloadings from many turning points of a scene (first-order reversal curves), as text, JSON, tables and a figure.
 
 use crate::preloads::{preload_chart, preload_table, unloadings};
 use crate::report::{Json, Report};
@@ -12,22 +12,23 @@ use asperity_scene::Scene;
 use asperity_study::{Results, Staircase};
 
 const MOST_ROWS: usize = 16;
-/// Limit of the number of cells along either axis of a map in a figure.
+/// Largest number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
-/// Reversal curves of one profile and their Everett function.
+/// Report on the unloadings of one profile from many turning points, and on their Everett function. The Everett function is
+/// half of the fall of the force from a turning point to an indentation.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// The scene.
+    /// Scene whose loading is reversed.
     pub scene: &'a Scene,
-    /// Forces along the reversal curves.
+    /// Forces along the unloadings from each turning point.
     pub map: &'a ReversalMap,
-    /// Adhesion force against preload, with the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
-    /// bodies together.
+    /// Adhesion force against preload, as the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the bodies
+    /// together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force against preload with the exact position of each step, for the figure.
+    /// Adhesion force against preload with the exact position of each step, needed only for the figure.
     pub staircase: Option<&'a Staircase>,
 }
 
@@ -54,7 +55,7 @@ impl Report for ReversalReport<'_> {
         Some(sheet.into_text())
     }
 
-    /// For each turning point, forces and Everett function at the indentations up to that point.
+    /// Returns forces and Everett function of each turning point, at the indentations up to this point.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let ReversalReport { scene, map, preloads, .. } = *self;
         let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
@@ -79,7 +80,7 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// The adhesion force against preload, and a map of the Everett function.
+    /// Returns a chart of the adhesion force against the preload, and a map of the Everett function.
     fn figure(&self) -> Option<Figure> {
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),
@@ -101,7 +102,7 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
         .done()
 }
 
-/// Returns the chart of the Everett function, N, over indentation and turning point.
+/// Returns the chart of the Everett function in N, over the indentation and the turning point.
 pub fn everett_chart(map: &ReversalMap) -> Chart {
     // A subset of the points of a fine map: the eye cannot distinguish more cells.
     let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();

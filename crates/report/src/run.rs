@@ -1,4 +1,4 @@
-//! A computed scene as JSON, and its force curve as a table and a figure; and the table of a profile.
+//! A computed scene as JSON, its force curve as a table and a figure, and the table of a profile.
 
 use crate::ensemble::{caption, ensemble_value};
 use crate::loop_chart::{LoopUnits, force_figure};
@@ -15,22 +15,22 @@ use asperity_scene::{Observer, Scene};
 use asperity_study::{Budget, Ensemble, criteria};
 use asperity_surface::Line;
 
-/// All results of one scene.
+/// Report on all results of one scene.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// The scene.
+    /// Scene that was computed.
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
-    /// Choice of springs for a tolerance, if one was requested.
+    /// Number of springs that was chosen for a tolerance; `None` without a tolerance.
     pub choice: Option<&'a Choice>,
-    /// Estimated error of the adhesion force, if it is known.
+    /// Estimated error of the adhesion force by the number of springs; `None` if it is unknown.
     pub estimate: Option<&'a Estimate>,
-    /// Results on random profiles, if they are computed.
+    /// Results on random profiles; `None` if they were not computed.
     pub ensemble: Option<&'a Ensemble>,
-    /// Standard deviation of the adhesion force by the spectrum of a measured surface, N, if it is computed.
+    /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None` if it was not computed.
     pub deviation: Option<f64>,
 }
 
@@ -118,14 +118,14 @@ impl Report for RunReport<'_> {
     }
 }
 
-/// The path of manual loading, as a result.
+/// Report on a loading that the user moved by hand.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Scene with another loading.
+    /// Scene, whose own loading is replaced by `loading`.
     pub scene: &'a Scene,
-    /// Its stages, from separation.
+    /// Stages of the loading, which begins at separation.
     pub loading: &'a [Move],
-    /// Points of the force curve along the loading.
+    /// Points of the force curve along these stages.
     pub path: &'a [CurvePoint],
     /// Index of the loading stage of each point.
     pub stages: &'a [usize],
@@ -143,8 +143,8 @@ impl Report for PathReport<'_> {
     }
 }
 
-/// Table of a force curve in SI units: its points with the indices of their loading stages, and the displacements of the
-/// instrument.
+/// Returns the table of a force curve in SI units: points, index of the loading stage of each point, and displacement of
+/// the instrument.
 fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, CurveRow<'a>> {
     Table::of(rows)
         .whole("leg", |(number, ..)| *number)
@@ -155,10 +155,10 @@ fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -
         .real("stored_energy", |(_, point, _)| point.stored_energy)
 }
 
-/// Index of a loading stage, a point of its curve, and the displacement of the instrument, m.
+/// Index of a loading stage, a point of its curve, and the displacement of the instrument in m.
 type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 
-/// The table has the position x and the height z of every spring under the body, m.
+/// Profile, whose table has the position x and the height z of every spring in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
         let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));

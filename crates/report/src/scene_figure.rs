@@ -1,4 +1,4 @@
-//! Figures of the contact: the profile with its contact, and contact patches over the indentation.
+//! Figures of the contact: the profile in contact, and contact patches over the indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
 use asperity_contact::preload_point;
@@ -11,7 +11,7 @@ use std::slice;
 
 /// Number of indentations of a loading stage at which contact patches are drawn.
 const ROWS: usize = 160;
-/// Limit of the number of loading stages whose contact patches are drawn.
+/// Largest number of loading stages whose contact patches are drawn.
 const MOST_STAGES: usize = 4;
 /// Share of the profile below which a gap between contact patches is drawn as closed.
 const LEAST_GAP: f64 = 5e-4;
@@ -25,24 +25,24 @@ struct Patches {
     patches: Vec<Patch>,
 }
 
-/// Contact patches collected stage by stage during a run: at the largest force, and over the indentation if requested.
+/// Contact patches of a scene that are collected stage by stage: at the largest force, and on request at many indentations.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
-    /// Largest force of the loading stages so far, N, and the patches there.
+    /// Largest force of the loading stages so far in N, with the patches at this force.
     preload: Option<(f64, Patches)>,
     stages: Vec<(Direction, Vec<Patches>)>,
-    /// Number of loading stages with contact beyond [`MOST_STAGES`].
+    /// Number of loading stages with contact that exceed [`MOST_STAGES`].
     left_out: usize,
 }
 
 impl ContactSets {
-    /// Begins a collection; with `over_indentation` also of patches over the indentation.
+    /// Begins a collection. With `over_indentation`, patches are also collected at many indentations of each stage.
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
 
-    /// Takes the patches of a stage that has been computed.
+    /// Adds the patches of a computed stage: `record` has its curve, and `leg` the contact at any of its indentations.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
@@ -65,7 +65,7 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// Figure of the rigid profile, the elastic surface and the contact at the largest force.
+    /// Returns the figure of the rigid profile, the elastic surface and the contact at the largest force.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
@@ -81,7 +81,8 @@ impl ContactSets {
         Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
     }
 
-    /// Figure of contact patches over position and indentation, with one chart for each loading stage with contact.
+    /// Returns the figure of contact patches over position and indentation, with a chart for each loading stage with
+    /// contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;

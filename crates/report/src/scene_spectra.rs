@@ -1,4 +1,5 @@
-//! Spectra of a computed scene: of its measured files, of the line as intended, and of the heights of the line.
+//! The power spectra of a computed scene: of its measured files, of its profile as intended, and of the heights of its
+//! profile.
 
 use crate::spectrum_figure::{Spectra, SpectrumPoint};
 use asperity_data::check_room;
@@ -10,29 +11,29 @@ use asperity_surface::{EquivalentLine, Line, read_faces};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// Number of modes per decade at which the spectrum of the line is drawn.
+/// Number of modes per decade at which the spectrum of the profile is drawn.
 const PER_DECADE: f64 = 20.0;
 
-/// Bytes per spring of the Fourier transform.
+/// Memory of the Fourier transform in bytes per spring.
 const BYTES: u64 = 40;
 
-/// Spectra of a scene, and the moments of its measured surface with their errors.
+/// Power spectra of a scene, and moments of its measured surface with their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
-    /// Measured spectra, the intended spectrum of the line, and the spectrum of its heights.
+    /// Measured spectra, intended spectrum of the profile, and spectrum of its heights.
     pub spectra: Spectra,
-    /// Moments of the equivalent line; `None` for roughness that is not measured, and for a measured profile that is itself
-    /// the line.
+    /// Moments, such as the rms height, of random profiles with the measured spectrum. `None` if the roughness is not
+    /// measured, or if a measured profile is used without change.
     pub moments: Option<LineMoments>,
-    /// Reason why some spectra are missing.
+    /// Reason why some spectra are missing; `None` if no spectrum is missing.
     pub missing: Option<String>,
 }
 
 impl SceneSpectra {
-    /// Computes the spectra of a scene whose files are named from the working folder.
+    /// Computes the spectra of a scene. The names of its files are relative to the working folder.
     ///
     /// # Errors
-    /// The line of the scene cannot be made.
+    /// The profile of the scene cannot be made.
     pub fn new(
         scene: &CheckedScene,
         outcome: &Outcome,
@@ -65,7 +66,7 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     analyses.map_err(|error| error.to_string())
 }
 
-/// Intended spectrum of the line at some of its modes: A²L/4 for a mode with the amplitude A.
+/// Returns the intended spectrum of the profile at some of its modes: A²L/4 for a mode with the amplitude A.
 fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine>) -> Vec<SpectrumPoint> {
     let Some((first, last)) = outcome.line.modes else { return Vec::new() };
     let length = outcome.line.length;
@@ -83,7 +84,8 @@ fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine
     shown.into_iter().map(|mode| (TAU * mode as f64 / length, power(mode))).collect()
 }
 
-/// Spectrum of the heights of the line without its form. A measured profile that is itself the line is not periodic.
+/// Returns the spectrum of the heights of the profile without its form. A measured profile that is itself pressed is not
+/// periodic.
 fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());

@@ -1,4 +1,4 @@
-//! Several computed scenes: differences and results in one table, force curves in one figure.
+//! Several computed scenes, with differences and results in one table and force curves in one figure.
 
 use crate::ensemble::{NAMES, rounded};
 use crate::loop_chart::{LoopUnits, force_figure, force_panels};
@@ -11,27 +11,27 @@ use asperity_scene::Outcome;
 use asperity_scene::Regime;
 use asperity_study::{Ensemble, Quantity};
 
-/// One of several computed scenes, with its document.
+/// One of several computed scenes, with its scene file.
 #[derive(Clone, Debug)]
 pub struct ComparedScene<'a> {
-    /// The document of the scene.
+    /// Scene file with its comments.
     pub document: &'a Document,
     /// Results on the profile of the scene.
     pub outcome: Outcome,
-    /// Results on random profiles, if they are computed.
+    /// Results on random profiles; `None` if they were not computed.
     pub ensemble: Option<Ensemble>,
 }
 
-/// At least two computed scenes.
+/// Report on at least two computed scenes.
 #[derive(Clone, Copy, Debug)]
 pub struct ScenesReport<'a> {
-    /// The scenes, in the order of the command.
+    /// Computed scenes, in the order of the command.
     pub scenes: &'a [ComparedScene<'a>],
-    /// True for a separate chart of each scene.
+    /// True if each scene has its own chart.
     pub panels: bool,
 }
 
-/// A row of the table: name and unit of a result, and its value.
+/// Row of the table: name and unit of a result, and the function that returns it.
 type Row = (&'static str, &'static str, fn(&Outcome) -> Option<f64>);
 
 const ROWS: [Row; 8] = [
@@ -45,14 +45,14 @@ const ROWS: [Row; 8] = [
     ("dissipated energy", "J", |outcome| outcome.figures.dissipated_energy),
 ];
 
-/// Letter by which a scene is named in the table and the legend.
+/// Returns the letter that names a scene in the table and the legend.
 fn letter(number: usize) -> String {
     char::from_u32('A' as u32 + number as u32)
         .filter(|_| number < 26)
         .map_or(format!("S{number}"), String::from)
 }
 
-/// A row of a table: a name, and values with their ratios to the first one; `None` without values.
+/// Returns a row of a table: a name, and values with their ratios to the first one; `None` without values.
 fn row(name: &str, shown: impl Fn(f64) -> String, values: &[Option<f64>]) -> Option<Vec<String>> {
     // A position may lie on either side of first touch, where a ratio means nothing.
     let first = values.first()?.filter(|first| *first > 0.0);
@@ -67,7 +67,7 @@ fn row(name: &str, shown: impl Fn(f64) -> String, values: &[Option<f64>]) -> Opt
 }
 
 impl ScenesReport<'_> {
-    /// The figure of the force curves; with `has_letters` the legend names scenes as the table does.
+    /// Returns the figure of the force curves. With `has_letters` the legend names the scenes by the letters of the table.
     fn drawn(&self, has_letters: bool) -> Figure {
         let title = |(number, scene): (usize, &ComparedScene<'_>)| match has_letters {
             true => format!("{}: {}", letter(number), scene.document.title()),
@@ -79,7 +79,8 @@ impl ScenesReport<'_> {
         if self.panels { force_panels(&scenes) } else { force_figure(&scenes, LoopUnits::default()) }
     }
 
-    /// Rows of the medians over random profiles, with the quartiles of the adhesion force; none if no scene has several.
+    /// Returns rows of the medians over random profiles, with the quartiles of the adhesion force; none if no scene has
+    /// several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
         let ensembles = || self.scenes.iter().map(|scene| scene.ensemble.as_ref());
         if ensembles().flatten().next().is_none() {
@@ -106,8 +107,8 @@ impl ScenesReport<'_> {
 }
 
 impl Report for ScenesReport<'_> {
-    /// Titles, the changes of each scene from the first one, and the results with their ratios to the results of the first
-    /// scene: first over random profiles, then of the own profile of each scene.
+    /// Returns titles, the changes of each scene from the first one, and the results with their ratios to the results of
+    /// the first scene. Results over random profiles come first, then the results on the own profile of each scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let first = self.scenes.first()?.document;

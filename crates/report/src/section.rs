@@ -1,4 +1,4 @@
-//! A profile and its contact, reduced to the columns of a chart.
+//! A profile in contact, reduced to the columns of a chart.
 
 use asperity_contact::Patch;
 use asperity_data::AxisScale;
@@ -6,68 +6,69 @@ use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span};
 use asperity_scene::LineFacts;
 use std::ops::Range;
 
-/// The rigid profile and its contact at one indentation.
+/// Rigid profile and its contact at one indentation.
 #[derive(Clone, Copy)]
 pub struct SectionContact<'a> {
-    /// Gaps below the highest point, m.
+    /// Depth of each spring below the highest point of the profile, m.
     pub gaps: &'a [f64],
     /// Height of the highest point of the profile, m.
     pub summit: f64,
     /// Indentation, m.
     pub indentation: f64,
-    /// Patches in contact, from left to right.
+    /// Patches of springs in contact, from left to right.
     pub patches: &'a [Patch],
 }
 
-/// Springs of the profile that a chart shows, at least one, and its number of columns.
+/// Range of springs that a chart shows, and number of columns of the chart. The range has at least one spring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
     /// Index of the first spring.
     pub first: usize,
     /// Number of springs.
     pub springs: usize,
-    /// Number of columns; if it exceeds the number of springs, a spring fills several columns.
+    /// Number of columns. If there are more columns than springs, a spring fills several columns.
     pub columns: usize,
 }
 
 /// Largest number of columns of a profile in a picture.
 const DRAWN: usize = 1200;
 
-/// Cache of the lowest and highest point of the profile in each column of a part, for one profile.
+/// Lowest and highest point of a profile in each column of a part, kept for the next call of [`SectionContact::section`].
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
     heights: Vec<(f64, f64)>,
 }
 
-/// A part of the profile and its contact, reduced to columns.
+/// Part of a profile and its contact, reduced to columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// Index of the first spring.
+    /// Index of the first spring of the part.
     pub first: usize,
-    /// Number of springs.
+    /// Number of springs of the part.
     pub springs: usize,
-    /// Lowest and highest point of the profile, m.
+    /// Heights of the lowest and the highest point of the profile in this part, m.
     pub heights: (f64, f64),
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
-    /// The columns, from left to right.
+    /// Columns of the chart, from left to right.
     pub columns: Vec<Column>,
 }
 
-/// Ranges of heights of the springs in one column, m.
+/// Heights of the springs in one column, m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Column {
-    /// Lowest and highest point of the rigid profile, m.
+    /// Heights of the lowest and the highest point of the rigid profile, m.
     pub line: (f64, f64),
-    /// Lowest and highest point of the elastic surface, m: of the profile in contact, otherwise the undeformed level.
+    /// Heights of the lowest and the highest point of the elastic surface, m. In contact the surface follows the profile,
+    /// elsewhere it is undeformed.
     pub surface: (f64, f64),
-    /// Lowest and highest point of the profile in contact, m; `None` without contact.
+    /// Heights of the lowest and the highest point of the profile in contact, m; `None` without contact.
     pub contact: Option<(f64, f64)>,
 }
 
 impl Section {
-    /// Returns the chart of the section over the position; `z` is the range of heights, m.
+    /// Returns the chart of heights over the position. `z` is the range of heights, m.
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
         let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
         let x = (edge(self.first), edge(self.first + self.springs.max(1)));
@@ -87,18 +88,18 @@ impl Section {
 }
 
 impl Part {
-    /// Part of the profile for a picture in a file, whatever the size of a window: several springs share a column only if
-    /// the picture could not resolve them.
+    /// Returns the part of a profile for a picture in a file. Several springs share a column only if the picture cannot
+    /// resolve them.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs.min(DRAWN) }
     }
 
-    /// Part of the profile for a table, with a column for each spring.
+    /// Returns the part of a profile for a table, with a column for each spring.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs }
     }
 
-    /// Springs that a column shows, by their indices.
+    /// Returns the indices of the springs that a column shows.
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let start = |column: usize| {
             self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
@@ -114,19 +115,19 @@ impl SectionContact<'_> {
         self.summit - self.gaps[spring]
     }
 
-    /// Height of the undeformed elastic surface, m.
+    /// Returns the height of the undeformed elastic surface, m.
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }
 
-    /// Returns the parts of the contact patches within a range of springs.
+    /// Returns the ranges of springs in contact that lie within a range of springs.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let begun = self.patches.partition_point(|patch| patch.last < springs.start);
         let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);
         touching.map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
-    /// Reduces a part of the profile to columns; `line` is the cache for this profile.
+    /// Reduces a part of the profile to columns. `line` keeps heights of this profile between calls.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let Part { first, springs, columns } = part;
         if line.part != part {

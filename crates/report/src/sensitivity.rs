@@ -1,4 +1,4 @@
-//! Sensitivity of a scene as text, JSON and a table, and the chart of the explorer.
+//! The sensitivity of a scene as text, JSON and a table, and the chart of the explorer.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -10,25 +10,25 @@ use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, STEP, Sensitivity, Values};
 
-/// Relative change from which on a change is stated as a factor.
+/// Smallest relative change that is written as a factor.
 const LARGE: f64 = 2.0;
-/// Smallest range of the axis of a chart, per cent.
+/// Smallest end of the axis of a chart in per cent.
 const LEAST: f64 = 1.0;
-/// Half the height of a bar, over the distance of bars.
+/// Half the height of a bar, divided by the distance of bars.
 const HALF: f64 = 0.35;
 
-/// Changes of the results with the numbers of a scene.
+/// Report on the changes of the results when single numbers of a scene change.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// The scene.
+    /// Scene whose numbers are changed.
     pub scene: &'a Scene,
-    /// The changes.
+    /// Changes of the results.
     pub sensitivity: &'a Sensitivity,
 }
 
-/// A relative change in words: `+12 %`, `×4.2`.
+/// Writes a relative change: `+12 %`, `×4.2`.
 fn change_text(change: f64) -> String {
     let percent = 100.0 * change;
     let digits = if percent.abs() < 9.95 { 1 } else { 0 };
@@ -39,11 +39,11 @@ fn change_text(change: f64) -> String {
     }
 }
 
-/// Text in place of the range of changes for a number that the scene does not allow.
+/// Text in place of the range of changes, if the scene does not allow the number.
 const NOT_ALLOWED: &str = "not allowed";
 const PROFILES: &str = "profiles";
 
-/// Changes of the results for one changed number, or at one end of the range over the profiles.
+/// Changes of the results for one changed number, or for one end of the range over the profiles.
 struct Side<'a> {
     /// Influence of the changed number; `None` for the profiles.
     influence: Option<&'a Influence>,
@@ -51,7 +51,7 @@ struct Side<'a> {
     side: usize,
     /// Relative changes of the medians; `None` for a number that is not allowed.
     changes: Option<[Option<f64>; 3]>,
-    /// Smallest and largest relative change of F_a of single profiles.
+    /// Smallest and largest relative change of F_a on single profiles.
     range: Option<(f64, f64)>,
 }
 
@@ -62,7 +62,7 @@ impl Side<'_> {
         Label::symbol_or_name(axis.symbol, &short)
     }
 
-    /// The change of the number in words: in per cent, or for a whole number the difference.
+    /// Returns the change of the number in words: in per cent, or as a difference for a whole number.
     fn step(&self) -> String {
         match self.influence {
             None => ["least", "most"][self.side].to_owned(),
@@ -77,8 +77,8 @@ impl Side<'_> {
     }
 }
 
-/// Both changes of at most `most` numbers, the one with the largest influence on a result first; then the range over the
-/// profiles.
+/// Returns both changes of at most `most` numbers, with the largest influence on a result first. The range over the
+/// profiles follows.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
     let numbers = sensitivity.ordered(result).into_iter().take(most).flat_map(|influence| {
         [0, 1].map(|side| {
@@ -95,9 +95,10 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
     numbers.chain(profiles).collect()
 }
 
-/// The changes of the medians in words: a heading, the medians of the scene, then a row for each change of at most `most`
-/// numbers, the one with the largest influence on the adhesion force first. The columns are name, value, change, F_a, range of
-/// the changes of F_a of single profiles, F_a(d=0) and dissipated energy.
+/// Returns a table of the changes of the medians. Its first rows are the headings and the medians of the scene. A row
+/// follows for each change of at most `most` numbers, with the largest influence on the adhesion force first. The columns
+/// are name, value and change of the number, F_a, range of the changes of F_a on single profiles, F_a(d=0) and dissipated
+/// energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
@@ -121,8 +122,8 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// Chart with a bar for each change of a result, in per cent. It has at most `most` numbers, with the largest change
-/// at the top.
+/// Returns a chart with a bar for each change of a result in per cent. `result` is an index of [`Sensitivity::RESULTS`]. At
+/// most `most` numbers have bars, with the largest change at the top.
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
@@ -152,7 +153,7 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
 }
 
 impl SensitivityReport<'_> {
-    /// Sentences on what stays constant while a number changes, and on the profiles.
+    /// Returns sentences on what stays constant while a number changes, and on the profiles.
     fn note(&self) -> String {
         if let Some(missing) = self.sensitivity.missing() {
             return missing.to_owned();
@@ -168,7 +169,7 @@ impl SensitivityReport<'_> {
     }
 }
 
-/// Sentence on the numbers of a scene with this adhesion that stay while one of them changes.
+/// Returns a sentence on the numbers of a scene with this adhesion that stay constant while one of them changes.
 pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
     let by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
     let follows = if by_parameter { ", and the work of adhesion follows from them" } else { "" };
@@ -219,8 +220,8 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// A row of medians for the scene, then a row for each change of each number, with the smallest and the largest relative
-    /// change of single profiles.
+    /// Returns a row of medians for the scene, then a row for each change of each number. A row ends with the smallest and
+    /// the largest relative change on single profiles.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();

@@ -3,49 +3,49 @@
 use asperity_data::format_quantity;
 use asperity_data::{printable, wrap};
 
-/// Width of a line, characters: the width of the smallest usual terminal.
+/// Width of a line in characters, which is the width of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;
 
-/// Smallest width of a last column, and its indentation on a line of its own, characters.
+/// Smallest width of a last column in characters, and its indentation on its own line.
 const FEWEST_IN_LAST: usize = 20;
 const INDENT: usize = 4;
 
-/// Width of the labels before the values of rows, characters.
+/// Width in characters of the labels before the values of rows.
 const LABEL: usize = 26;
 
-/// Text under construction: headings, rows of a label and a value, tables and paragraphs.
+/// Plain text of at most 80 columns under construction: headings, rows of a label and a value, tables and paragraphs.
 #[derive(Default)]
 pub struct Sheet {
     text: String,
 }
 
 impl Sheet {
-    /// Text of one table.
+    /// Returns the text of one table.
     pub fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
         let mut sheet = Sheet::default();
         sheet.table(rows);
         sheet.into_text()
     }
 
-    /// The finished text.
+    /// Returns the finished text.
     pub fn into_text(self) -> String {
         self.text
     }
 
-    /// Adds a heading, after an empty line unless it is the first.
+    /// Adds a heading, after an empty line unless the heading is the first.
     pub fn heading(&mut self, heading: &str) {
         self.text.push_str(if self.text.is_empty() { "" } else { "\n" });
         self.paragraph(heading);
     }
 
-    /// Adds text, broken into lines; nothing for an empty text.
+    /// Adds text that is broken into lines. An empty text adds nothing.
     pub fn paragraph(&mut self, text: &str) {
         for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
             self.line(&line);
         }
     }
 
-    /// Adds a row; a value too long for one line continues below.
+    /// Adds a row of a label and a value. A value too long for one line continues on the next lines.
     pub fn row(&mut self, label: &str, value: impl AsRef<str>) {
         let mut label = label;
         for line in wrap(value.as_ref(), WIDTH - LABEL) {
@@ -54,20 +54,20 @@ impl Sheet {
         }
     }
 
-    /// Adds a row with a number in this unit; nothing for `None`.
+    /// Adds a row of a label and a number in this SI unit. `None` adds nothing.
     pub fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
         self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
     }
 
-    /// Adds a row; nothing for `None`.
+    /// Adds a row of a label and a value. `None` adds nothing.
     pub fn row_of(&mut self, label: &str, value: Option<String>) {
         if let Some(value) = value {
             self.row(label, value);
         }
     }
 
-    /// Adds a table. Columns beyond the width follow as a further table that repeats the first column. The last cell of a
-    /// line continues below if it is too long.
+    /// Adds a table with aligned columns. Columns that exceed 80 characters follow as another table, which repeats the
+    /// first column. A last cell that is too long continues on the next lines.
     pub fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
         let length = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());
@@ -98,7 +98,7 @@ impl Sheet {
         }
     }
 
-    /// Adds a line of cells, each with the width of its column; the last cell begins on the next line if it has too little
+    /// Adds a line of cells, each with the width of its column. The last cell begins on the next line if it has too little
     /// room.
     fn cells(&mut self, cells: &[(usize, &str)]) {
         let Some(((_, last), others)) = cells.split_last() else { return };
@@ -122,7 +122,7 @@ impl Sheet {
     }
 }
 
-/// At most `most` evenly spaced rows of a table, always with the last one.
+/// Returns at most `most` evenly spaced rows of a table, always with the last one.
 pub(crate) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
     let (last, stride) = (rows.len().saturating_sub(1), rows.len().div_ceil(most).max(1));
     rows.skip(last % stride).step_by(stride)

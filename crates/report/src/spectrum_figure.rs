@@ -1,4 +1,4 @@
-//! Spectra over the wave number: as measured, as fitted, and of the equivalent line.
+//! Power spectra over the wave number: as measured, as fitted, and of profiles with the measured spectrum.
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span, Stroke};
@@ -9,22 +9,22 @@ use std::f64::consts::TAU;
 /// Number of points of a curve per decade of wave numbers.
 const PER_DECADE: f64 = 20.0;
 
-/// Limit of the decades of the vertical axis: powers far below the others are rounding errors.
+/// Largest number of decades of the vertical axis. Powers far below the others are rounding errors.
 const MOST_DECADES: f64 = 12.0;
 
-/// Stroke of the self-affine fit, which does not influence the range of the axes.
+/// Stroke of the self-affine fit, which has no influence on the range of the axes.
 const SELF_AFFINE: Stroke = Stroke::Dotted;
 
-/// Wave number, rad/m, and power spectral density, m³.
+/// Wave number in rad/m, and power spectral density in m³.
 pub type SpectrumPoint = (f64, f64);
 
-/// Spectra of measured surfaces and of a line.
+/// Power spectra of measured surfaces and of a profile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,
-    /// Intended spectrum of the equivalent line.
+    /// Intended spectrum of the profile that replaces the measured surfaces.
     pub line: Vec<SpectrumPoint>,
-    /// Spectrum of the heights of the computed line, averaged in bins.
+    /// Spectrum of the heights of the computed profile, averaged over ranges of wave numbers.
     pub heights: Vec<SpectrumPoint>,
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn spectrum_name(face: usize, direction: Along) -> &'static str {
     }
 }
 
-/// Logarithmically spaced wave numbers, about `per_decade` per decade.
+/// Returns logarithmically spaced wave numbers, about `per_decade` per decade.
 pub(crate) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
     (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
@@ -58,7 +58,7 @@ fn measured(faces: &[&Analysis]) -> Vec<Layer> {
 }
 
 impl Spectra {
-    /// Spectra of measured surfaces with their fits, and of their equivalent line.
+    /// Returns the spectra of measured surfaces with their fits, and the spectrum of a profile that replaces them.
     fn of_analysis(analysis: &Analysis) -> Self {
         let isotropic = &analysis.isotropic;
         let range = isotropic.range();
@@ -87,7 +87,8 @@ impl Spectra {
         Spectra { measured: layers, line: over(&|q| isotropic.line(q)), heights: Vec::new() }
     }
 
-    /// Spectra of the surfaces of one or two faces: of one face with its fit, of two with the equivalent line of their sum.
+    /// Returns the spectra of the measured surfaces of one or two faces. One face has its fit. Two faces have the spectrum
+    /// of a profile for the sum of both.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),
@@ -99,7 +100,7 @@ impl Spectra {
         Spectra { measured: measured(faces), line, heights: Vec::new() }
     }
 
-    /// Chart of the spectra over the wave number.
+    /// Returns the chart of the spectra over the wave number.
     pub fn chart(&self) -> Chart {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {

@@ -1,10 +1,10 @@
-//! Computing stages of a scene in words.
+//! The computing stages of a scene in words.
 
 use crate::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
 use asperity_scene::{PlannedStage, Workload};
 
-/// The stages of a scene as a table, and the memory that they need.
+/// Returns a table of the computing stages of a scene, with the memory that each stage needs.
 pub fn stages_text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };

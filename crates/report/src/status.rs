@@ -1,14 +1,14 @@
-//! State and progress of a study in words.
+//! The state and the progress of a study in words.
 
 use crate::sheet::Sheet;
 use asperity_data::grouped;
 use asperity_study::{Plan, Status, StudyProgress};
 use std::time::Duration;
 
-/// Number of characters from which on the name of a machine is shortened in the table.
+/// Largest number of characters of the name of a machine in the table.
 const LONGEST_HOST: usize = 20;
 
-/// State of a study in words, and a table of its parts.
+/// Returns the state of a study in words, with a table of its shards, the parts that processes compute.
 pub fn status_text(plan: &Plan, status: &Status) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&plan.title);
@@ -46,7 +46,7 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
     sheet.into_text()
 }
 
-/// Progress of a run in one line.
+/// Returns the progress of a study in one line.
 pub fn progress_text(progress: &StudyProgress) -> String {
     let StudyProgress { done, before, total, .. } = *progress;
     let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };
@@ -63,7 +63,7 @@ pub fn progress_text(progress: &StudyProgress) -> String {
     text
 }
 
-/// A time in words: `2 min 5 s`.
+/// Writes a duration: `2 min 5 s`.
 pub fn duration(time: Duration) -> String {
     let seconds = time.as_secs();
     let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);

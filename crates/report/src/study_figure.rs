@@ -1,4 +1,4 @@
-//! Figures of studies: a map over two axes, or curves along one.
+//! Figures of studies: a map over two axes, or curves along one axis.
 
 use asperity_data::AxisScale;
 use asperity_plot::{
@@ -8,26 +8,27 @@ use asperity_plot::{
 use asperity_scene::{Regime, VANISHING_SHARE};
 use asperity_study::{Grid, Quantity, Statistics};
 
-/// Number of decades from which on a quantity gets a second, logarithmic chart.
+/// Smallest number of decades of a quantity that gets a second, logarithmic chart.
 const DECADES_FOR_SECOND: f64 = 1.5;
-/// Limit of the decades of a logarithmic axis and of the colour scale of a map.
+/// Largest number of decades of a logarithmic axis and of the colour scale of a map.
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
-/// Upper end, in units of the largest mean, above which a confidence interval is not drawn: few profiles have wide intervals.
+/// Upper end, in units of the largest mean, above which a confidence interval is not drawn. Few profiles have wide
+/// intervals.
 const MOST_OF_BAND: f64 = 2.0;
 
-/// Smallest ratio of the ranges of both signs for colours that show both signs.
+/// Smallest ratio of the ranges of both signs whose colours show the sign.
 const LEAST_OF_A_SIGN: f64 = 0.25;
 
-/// Regimes on a map: sign in a picture, letter in a terminal, ink.
+/// Regimes on a map, each with its sign in a picture, letter in a terminal, and ink.
 const REGIMES: [(Regime, Sign, char, Ink); 3] = [
     (Regime::PressureInsensitive, Sign::Dot, 'i', Ink::Surface),
     (Regime::PressureSensitive, Sign::Up, 's', Ink::Manual),
     (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
-/// Figure of charts of a grid, with the values of the fixed axes below its title.
+/// Returns the figure of charts of a grid. The values of the fixed axes are below its title.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
@@ -35,8 +36,9 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// Map of a quantity over the two axes of a grid, with the regimes and the line on which adhesion without load vanishes;
-/// `whole` also shows other cells in place of cells not computed yet. `None` for a grid along one axis.
+/// Returns the map of a quantity over the two axes of a grid; `None` for a grid along one axis. The map shows the regimes,
+/// and the line where adhesion without a preload vanishes. With `whole`, a cell that is not computed yet shows the values
+/// of a computed cell nearby.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.statistics(quantity, whole));
@@ -85,8 +87,8 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Curves of a quantity over the axis across, one for each row of a grid. If values are small on a linear scale, a
-/// second chart is logarithmic.
+/// Returns curves of a quantity over the horizontal axis of a grid, one for each row. If the values fall over many decades,
+/// a second chart is logarithmic.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);
@@ -134,15 +136,15 @@ fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
     ChartAxis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
-/// The recorded F_a(d=0)/F_a,max whose vanishing is drawn in a figure of this quantity: the quantity itself, or the first
-/// recorded one.
+/// Returns the recorded F_a(d=0)/F_a,max whose vanishing is drawn in a figure of this quantity. It is the quantity itself,
+/// or the first recorded one.
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
     let own = shares.contains(&quantity).then_some(quantity);
     own.or_else(|| shares.into_iter().find(|share| grid.layer(*share).is_some()))
 }
 
-/// Name of the boundary in the legend: `F_a(F=0) = 0.05 F_a,max`.
+/// Returns the name of the boundary in the legend: `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
     let (force, ideal) = share.symbol().split_once('/').unwrap_or((share.symbol(), ""));
     Label::symbol(&format!("{force} = {VANISHING_SHARE} {ideal}"))
@@ -179,8 +181,8 @@ fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_SECOND
 }
 
-/// Layers of the curves with their confidence intervals; for a single curve also median and quartiles of the profiles.
-/// Vertical lines mark where adhesion without load vanishes.
+/// Returns layers of the curves with their confidence intervals, and for a single curve also median and quartiles of the
+/// profiles. Vertical lines mark where adhesion without a preload vanishes.
 fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> Vec<Layer> {
     let places = &grid.across.values;
     let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();
@@ -230,7 +232,7 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
     layers
 }
 
-/// Coordinates on the axis across at which F_a(d=0)/F_a,max vanishes.
+/// Returns the coordinates on the horizontal axis at which F_a(d=0)/F_a,max vanishes.
 fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     let shares = means(&grid.statistics(share, false));
     let places = coordinates(&grid.across);

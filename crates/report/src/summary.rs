@@ -1,4 +1,4 @@
-//! Summary of a computed scene for a reader.
+//! The summary of a computed scene for a reader.
 
 use crate::ensemble::{headline, rounded};
 use crate::measured_face::steep;
@@ -17,12 +17,13 @@ use asperity_scene::{Scene, loading_text};
 use asperity_study::{Ensemble, Quantity};
 use asperity_surface::Form;
 
-/// Number of loading stages, or of repeated groups of them, that are listed; further ones are counted.
+/// Largest number of loading stages, or of repeated groups of stages, that are listed. Further ones are counted.
 const MOST_STAGES: usize = 8;
 
-/// Results of a scene as plain text of at most 80 columns: first over random profiles, if these are computed, then of its own
-/// profile with the estimated error of the adhesion force and the choice of springs for a tolerance, if these are given. `deviation` is the deviation of the adhesion force by the spectrum of a measured
-/// surface, N.
+/// Returns the results of a scene as plain text of at most 80 columns. Results over random profiles come first, if they are
+/// computed. Results on the own profile follow, with the estimated error of the adhesion force and the number of springs
+/// for a tolerance, if they are given. `deviation` is the deviation of the adhesion force due to the spectrum of a measured
+/// surface, in N.
 pub(crate) fn summary(
     scene: &Scene,
     outcome: &Outcome,
@@ -52,7 +53,7 @@ pub(crate) fn summary(
     sheet.into_text()
 }
 
-/// Results of a scene in a few rows: title, κ, regime, forces and dissipated energy.
+/// Returns the main results of a scene in a few rows: title, κ, regime, forces and dissipated energy.
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
@@ -72,7 +73,7 @@ fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
     value.map(|value| format_quantity(value, unit))
 }
 
-/// Warning for a measured surface whose unit may be wrong.
+/// Returns a warning for a measured surface whose unit may be wrong.
 pub(crate) fn warning(scene: &Scene, outcome: &Outcome) -> Option<String> {
     scene.measured().and(outcome.governing.amplitude).and_then(|amplitude| steep(amplitude.rms_gradient))
 }
@@ -205,8 +206,8 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     share(sheet, "  F_a/F_n", adhesion, preload, NEGLIGIBLE_COEFFICIENT, says);
 }
 
-/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion, which is `from_on` from the
-/// threshold on and `below` otherwise.
+/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion: `from_on` at or above the
+/// threshold, `below` otherwise.
 fn share(
     sheet: &mut Sheet,
     label: &str,
@@ -223,7 +224,7 @@ fn share(
     sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
 }
 
-/// Adds rows with the dissipated energy and the Tabor number, which shows whether it is valid.
+/// Adds rows with the dissipated energy and the Tabor number, which shows whether the energy is valid.
 fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     let energy = outcome.figures.dissipated_energy;
     sheet.quantity("dissipated energy", energy, "J");
@@ -249,7 +250,7 @@ fn steep_waves(waves: SteepWaves) -> String {
     )
 }
 
-/// Warning that the equivalent profile falls beyond a distance from the axis, m.
+/// Returns a warning that the equivalent profile falls beyond a distance from the axis in m.
 fn falling(from: f64) -> String {
     format!(
         "falls at {} from the axis: by the rule of Hess inner springs detach first; by the theory of JKR the edge recedes",

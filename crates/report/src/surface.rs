@@ -1,4 +1,4 @@
-//! Analysed surfaces: text for readers, JSON, and the spectra as a table and a figure.
+//! Analysed surfaces as text and JSON, and their spectra as a table and a figure.
 
 use crate::measured_face::{MeasuredFace, SurfaceFile};
 use crate::report::{Json, Report};
@@ -23,27 +23,27 @@ const LINE_PER_DECADE: f64 = 10.0;
 
 const LINE: &str = "equivalent line";
 
-/// Median, quartiles and range of the adhesion forces of the profiles, and their error due to the fit, in words; `None` for
-/// fewer than two profiles.
+/// Returns median, quartiles and range of the adhesion forces of random profiles in words; `None` for fewer than two
+/// profiles. The words end with the error due to the fit of the spectrum.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
     let fit = computed.fit_interval().map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));
     Some(format!("{} profiles: {}{}", forces.count, forces.words("N"), fit.unwrap_or_default()))
 }
 
-/// Analysed surfaces of one or two faces, with what is known of their contact.
+/// Report on the measured surfaces of one or two faces, with what is known of their contact.
 #[derive(Clone, Debug)]
 pub struct SurfaceReport {
-    /// The analysed face, and the opposite face if it was measured too.
+    /// Analysed face, and the opposite face if it was measured too.
     pub faces: Vec<MeasuredFace>,
-    /// Equivalent line of all faces.
+    /// Spectrum of the random profiles that replace all faces together.
     pub line: EquivalentLine,
-    /// Effective modulus E*, Pa, if it is given.
+    /// Effective modulus E*, Pa; `None` if it is not given.
     pub modulus: Option<f64>,
-    /// Work of adhesion γ, J/m², if it is given.
+    /// Work of adhesion γ, J/m²; `None` if it is not given.
     pub work: Option<f64>,
-    /// Scene of the equivalent line, if its adhesion was requested. The results on random profiles are absent if the
-    /// scene has many springs and they were not requested.
+    /// Scene with these profiles, if its adhesion was requested. The results on random profiles are `None` if the scene has
+    /// many springs and they were not requested.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
@@ -88,7 +88,7 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// The opposite face is an object inside, without the equivalent line and adhesion.
+    /// Returns an object with the object of the opposite face inside, which has no equivalent line and no adhesion.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
@@ -113,7 +113,8 @@ impl Report for SurfaceReport {
         }))
     }
 
-    /// The spectra: kind, wave number in rad/m, power in m³, and number of averaged waves (if any).
+    /// Returns a table of the spectra: kind, wave number in rad/m, power in m³, and number of averaged waves if there are
+    /// several.
     fn table(&self) -> Option<Table<'_>> {
         let names = || {
             self.faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {
@@ -141,7 +142,7 @@ impl Report for SurfaceReport {
 }
 
 impl SurfaceReport {
-    /// Moments of the equivalent line, and quantities that follow from them.
+    /// Returns the moments of the equivalent line, and quantities that follow from them.
     fn moments(&self) -> [MomentRow; 6] {
         let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus, .. } =
             self.line.moments();
@@ -161,7 +162,7 @@ impl SurfaceReport {
     }
 }
 
-/// A moment of the equivalent line, or a quantity that follows from one; its value is `None` if it is unknown.
+/// Moment of the equivalent line, or a quantity that follows from moments. The value is `None` if it is unknown.
 #[derive(Clone, Copy)]
 struct MomentRow {
     label: &'static str,
@@ -170,7 +171,7 @@ struct MomentRow {
     value: Option<Moment>,
 }
 
-/// Preload of the scene of an equivalent line, N; `None` if it only touches.
+/// Returns the preload of the scene of an equivalent line in N; `None` if the scene only touches.
 fn preload(scene: &Scene) -> Option<f64> {
     match scene.loading.first() {
         Some(Move::ToForce(force)) => Some(*force),
@@ -224,7 +225,7 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.quantity("reliability cut-off", analysis.reliability_cutoff, "m");
 }
 
-/// Adds a table of the moments with a column for each kind of error; without e_el/E* if e_el is known.
+/// Adds a table of the moments with a column for each kind of error. It omits e_el/E* if e_el is known.
 fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
     let mut rows = vec![["", "value", "statistical", "method", "missing short waves"].map(str::to_owned)];
     for MomentRow { label, key, unit, value } in report.moments() {
@@ -250,8 +251,8 @@ fn with_error(estimate: ValueWithError, unit: &str) -> String {
     format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
 
-/// JSON object of the surfaces of one face, in SI units. The object of the first face also holds the results of both faces
-/// together, and the object of the opposite face.
+/// JSON object of the surfaces of one face, in SI units. The object of the first face also contains the results of both
+/// faces together, and the object of the opposite face.
 #[derive(Serialize)]
 struct FaceJson<'a> {
     version: &'static str,
@@ -296,7 +297,7 @@ fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result
 }
 
 impl<'a> FaceJson<'a> {
-    /// The facts of one face.
+    /// Collects the facts of one face.
     fn new(face: &'a MeasuredFace) -> Self {
         let MeasuredFace { files, analysis } = face;
         let spectrum = |(direction, bins): &'a (Along, Vec<Bin>)| SpectrumJson {

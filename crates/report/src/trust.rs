@@ -5,7 +5,7 @@ use asperity_data::per_cent;
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::{Budget, Criterion, Ensemble, LEAST_TABOR_NUMBER_OF_JKR, criteria};
 
-/// The sentence with which a summary begins where JKR theory does not apply.
+/// Returns the sentence with which a summary begins if JKR theory does not apply; `None` if JKR theory applies.
 pub fn without_jkr(outcome: &Outcome) -> Option<String> {
     let number = outcome.tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
     let number = asperity_data::format_rounded(number, 2, "1");
@@ -36,8 +36,8 @@ pub(crate) fn trust(
     }
 }
 
-/// Names of the theories that have a criterion for a computed scene, each with its number and its verdict in words; this
-/// program last, and empty for a further row of the same theory.
+/// Returns the names of the theories that have a criterion for a computed scene, each with its number and verdict in words.
+/// The name is empty for a further row of the same theory. This program is the last theory.
 pub fn theory_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -55,7 +55,7 @@ pub fn theory_rows(
     smooth.into_iter().chain(criteria.into_iter().map(row)).collect()
 }
 
-/// Sources of the errors of the adhesion force, each with its error in words, and the largest of them last.
+/// Returns the sources of the errors of the adhesion force, each with its error in words. The largest source comes last.
 pub fn error_rows(
     scene: &Scene,
     estimate: Option<&Estimate>,
@@ -139,7 +139,7 @@ mod tests {
         let document = scene(&[]);
         let (scene, outcome) = (document.scene(), run(&document).unwrap());
         let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_| ()).unwrap();
+        let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_, _| ()).unwrap();
         let rows = |ensemble: Option<&Ensemble>| {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
             error_rows(scene, None, &budget, ensemble)

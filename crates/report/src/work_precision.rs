@@ -1,13 +1,15 @@
-//! Work–precision diagram: error over computing time for each setting that affects accuracy.
+//! The work–precision diagram: error over computing time for each setting that affects accuracy.
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::{CostTable, ErrorFigure, Knob};
 use asperity_study::Reference;
 
-/// Figure of relative errors over the shortest time of a run, one curve for each setting, with its observed order of convergence: errors of the adhesion force, or
-/// of the force curve if there is no adhesion force. Beside squares in three dimensions the curves end at the error of the
-/// model, below which no number of springs leads; the sign of the squares is their difference from a coarser grid.
+/// Returns the figure of relative errors over the shortest time of a run. Each setting has a curve with its observed order
+/// of convergence. The errors are errors of the adhesion force, or of the force curve if there is no adhesion force.
+///
+/// With a comparison in three dimensions, the curves end at the error of the model, which no number of springs reduces.
+/// Another sign shows the error of the contact in three dimensions, which is the difference from a coarser grid.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
     let floor = model.unwrap_or(0.0);

@@ -1,11 +1,11 @@
-//! The error type of the functions at the root of this crate.
+//! Error type of the functions at the root of this crate.
 
 use crate::scene::errors::SceneErrors;
 use crate::simulation::outcome::RunError;
 use asperity_contact::ContactError;
 use thiserror::Error;
 
-/// Error of the functions at the root of this crate.
+/// Error of the functions at the root of this crate, such as [`open()`](crate::open) and [`run`](crate::run).
 ///
 /// ```
 /// use asperity_contact::Modulus;
@@ -17,18 +17,18 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Values of a scene are out of their ranges; each error has field, value and allowed range.
+    /// Values of a scene are out of their ranges. Each error has the field, the value and the allowed range.
     #[error(transparent)]
     Values(#[from] SceneErrors),
-    /// A value of a profile or a contact is out of its range, or a stage of its loading is out of reach.
+    /// A value of a profile or a contact is out of its range, or the contact cannot reach the end of a loading stage.
     #[error(transparent)]
     Contact(#[from] ContactError),
-    /// Another reason why a computation failed: a file that cannot be read, or not enough memory.
+    /// A computation failed for another reason: for example a file cannot be read, or there is not enough memory.
     #[error(transparent)]
     Run(RunError),
 }
 
-/// Values and errors of the contact are variants of their own.
+/// Errors of values and of the contact become their own variants.
 impl From<RunError> for Error {
     fn from(error: RunError) -> Self {
         match error {

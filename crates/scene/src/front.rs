@@ -1,14 +1,14 @@
-//! Computation of a scene in one call.
+//! Computation of a scene by one call.
 
 use crate::error::Error;
 use crate::scene::document::Document;
 use crate::simulation::outcome::Outcome;
 use crate::simulation::stages::Simulation;
 
-/// Computes the scene of a document. Measured files are searched in the folder of the scene file.
+/// Computes the scene of a document. The names of measured files are relative to the folder of the scene file.
 ///
 /// # Errors
-/// [`Error::Run`] for a scene that cannot be computed.
+/// Returns [`Error::Run`], [`Error::Contact`] or [`Error::Values`] if the scene cannot be computed.
 ///
 /// ```
 /// let sphere = asperity_scene::open("jkr-sphere")?.set("adhesion.work", "20 mJ/m²")?;

@@ -1,4 +1,4 @@
-//! Profiles for programs that use the library: a form and a roughness, as in a scene.
+//! Profiles of a form and a roughness for programs, the same as in a scene.
 
 use crate::analysis::governing::Governing;
 use crate::error::Error;
@@ -12,8 +12,8 @@ use asperity_contact::{ContactError, Modulus, Move, Profile};
 use asperity_surface::{EquivalentLine, Form, Line, MeasuredRoughness};
 use std::sync::Arc;
 
-/// Builder of the equivalent profile of a form and a roughness: the same profile, to the bit, as a scene with these
-/// values. By default nominally flat and smooth.
+/// Builder of the equivalent profile of a form and a roughness. By default the body is nominally flat and smooth. The profile
+/// is the same to the bit as the profile of a scene with these values.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move};
@@ -33,11 +33,11 @@ pub struct ProfileBuilder {
     points: usize,
     form: Option<Form>,
     roughness: Option<Roughness>,
-    /// Measured spectrum in memory, in place of the files of the roughness.
+    /// Measured spectrum in memory, used in place of the files of the roughness.
     spectrum: Option<Arc<MeasuredRoughness>>,
 }
 
-/// Changes a member of the self-affine roughness, which has no Hurst exponent yet if it begins here.
+/// Changes a member of the self-affine roughness. A roughness that begins here has no Hurst exponent yet.
 macro_rules! with_member {
     ($builder:expr, $member:ident, $value:expr) => {{
         let (mut builder, value) = ($builder, $value);
@@ -52,27 +52,27 @@ macro_rules! with_member {
 }
 
 impl ProfileBuilder {
-    /// Begins a profile of this length (m) with this number of points.
+    /// Begins a profile of this length in m with this number of points.
     #[must_use]
     pub fn new(length: f64, points: usize) -> Self {
         ProfileBuilder { length, points, form: None, roughness: None, spectrum: None }
     }
 
-    /// Sets the macroscopic form.
+    /// Sets the macroscopic form of the body.
     #[must_use]
     pub fn form(self, form: Form) -> Self {
         ProfileBuilder { form: Some(form), ..self }
     }
 
-    /// Sets a sphere of this radius (m) as the form.
+    /// Sets a sphere of this radius in m as the form.
     #[must_use]
     pub fn sphere(self, radius: f64) -> Self {
         self.form(Form::Paraboloid { radius })
     }
 
-    /// Begins a random self-affine roughness with this Hurst exponent H: cosines with amplitudes ∝ k^(−H−1/2) and random
-    /// phases. It needs an amplitude, [`Self::rms_height`] or [`Self::rms_gradient`], and waves, [`Self::modes`] or
-    /// [`Self::wavelengths`].
+    /// Sets a random self-affine roughness with the Hurst exponent H: cosines with amplitudes ∝ k^(−H−1/2) and random phases.
+    /// The roughness also needs an amplitude and waves. [`Self::rms_height`] or [`Self::rms_gradient`] sets the amplitude,
+    /// [`Self::modes`] or [`Self::wavelengths`] the waves.
     #[must_use]
     pub fn self_affine(self, hurst: f64) -> Self {
         let roughness = Roughness::SelfAffine {
@@ -87,7 +87,7 @@ impl ProfileBuilder {
         ProfileBuilder { roughness: Some(roughness), spectrum: None, ..self }
     }
 
-    /// Sets the rms height of the self-affine roughness, m.
+    /// Sets the rms height of the self-affine roughness in m.
     #[must_use]
     pub fn rms_height(self, rms_height: f64) -> Self {
         with_member!(self, rms_height, Some(rms_height))
@@ -105,19 +105,19 @@ impl ProfileBuilder {
         with_member!(self, modes, Some((first, last)))
     }
 
-    /// Sets the longest and the shortest wavelength of the self-affine roughness, m, in place of its modes.
+    /// Sets the longest and the shortest wavelength of the self-affine roughness in m, in place of its modes.
     #[must_use]
     pub fn wavelengths(self, longest: f64, shortest: f64) -> Self {
         with_member!(self, wavelengths, Some((longest, shortest)))
     }
 
-    /// Sets the wavelength, m, above which the spectrum of the self-affine surface is flat; by default there is none.
+    /// Sets the wavelength in m above which the spectrum of the self-affine surface is flat. By default there is none.
     #[must_use]
     pub fn roll_off(self, wavelength: f64) -> Self {
         with_member!(self, roll_off, Some(wavelength))
     }
 
-    /// Sets a roughness with the spectrum of measured surfaces and random phases, in place of a self-affine one.
+    /// Sets a roughness with a measured spectrum and random phases, in place of a self-affine one.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -137,7 +137,7 @@ impl ProfileBuilder {
         ProfileBuilder { roughness, spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))), ..self }
     }
 
-    /// Sets the seed of the random phases; by default 1. A seed determines the phases on any machine and for any number of
+    /// Sets the seed of the random phases, by default 1. A seed gives the same phases on any machine and for any number of
     /// points.
     #[must_use]
     pub fn seed(mut self, wanted: u64) -> Self {
@@ -162,8 +162,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Values`] for values that a scene does not allow, [`Error::Contact`] for waves of fewer than four points,
-    /// [`Error::Run`] for a surface or a form that cannot be used, or for lack of memory.
+    /// Returns [`Error::Values`] for values that a scene does not allow, and [`Error::Contact`] for waves with fewer than
+    /// four points. Returns [`Error::Run`] if a surface or a form cannot be used, or for lack of memory.
     pub fn build(&self) -> Result<Profile, Error> {
         let scene = self.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
         if let Some(last) = scene.spectrum().map(|spectrum| spectrum.last)
@@ -178,8 +178,8 @@ impl ProfileBuilder {
         Ok(self.simulation().profile(&scene)?)
     }
 
-    /// Makes the profile of the form with these heights (m), one for each point, in place of a roughness. Point N/2, rounded
-    /// down, is on the axis of the form.
+    /// Makes the profile of the form with these heights in m as its roughness, one height for each point. Of N points, point
+    /// ⌊N/2⌋ is on the axis of the form.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -191,7 +191,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// As for [`Self::build`], and [`Error::Contact`] for another number of heights or a height that is not finite.
+    /// Returns the same errors as [`Self::build`], and [`Error::Contact`] for a wrong number of heights or a height that is
+    /// not finite.
     pub fn build_with(&self, heights: Vec<f64>) -> Result<Profile, Error> {
         let smooth = ProfileBuilder { roughness: None, spectrum: None, ..self.clone() };
         let scene = smooth.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
@@ -208,10 +209,10 @@ impl ProfileBuilder {
         Ok(crate::simulation::stages::profile_of(&line.map_err(RunError::from)?)?)
     }
 
-    /// The scene with this profile, modulus, adhesion and loading. Other fields can be changed by [`CheckedScene::with`].
+    /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`] changes its other fields.
     ///
     /// # Errors
-    /// [`Error::Values`] for values out of their ranges.
+    /// Returns [`Error::Values`] if a value is out of its range.
     pub fn scene(
         &self,
         modulus: Modulus,
@@ -229,7 +230,7 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// κ, e_el/γ and the amplitude of the roughness, for a modulus and an adhesion.
+    /// Returns κ, e_el/γ and the amplitude of the roughness for a modulus and an adhesion.
     ///
     /// ```
     /// use asperity_contact::Modulus;
@@ -245,14 +246,14 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// As for [`Self::build`].
+    /// Returns the same errors as [`Self::build`], but allows waves with two or three points.
     pub fn governing(&self, modulus: Modulus, adhesion: Option<Adhesion>) -> Result<Governing, Error> {
         let scene = self.scene(modulus, adhesion, &[Move::ToTouch])?;
         Ok(self.simulation().make_line(&scene)?.2)
     }
 
-    /// Loads a contact with this profile, and computes all results of a scene: force curve and figures, κ, e_el/γ, Tabor
-    /// number, F_a,max, the adhesion forces after turns at first touch and at zero force, and the regimes.
+    /// Loads a contact with this profile and computes all results of a scene. The results are the force curve, forces and
+    /// energies, κ, e_el/γ, the Tabor number, F_a,max, F_a(d=0), F_a(F=0) and both regimes.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
@@ -268,7 +269,7 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// As for [`Self::build`], and [`Error::Contact`] for a stage out of reach.
+    /// Returns the same errors as [`Self::governing`], and [`Error::Contact`] if the contact cannot reach the end of a stage.
     pub fn run(
         &self,
         modulus: Modulus,

@@ -1,10 +1,10 @@
-//! Closed forms of the contact of a form without roughness, where there are any.
+//! Closed forms: exact formulas for the contact of a form without roughness.
 
 use asperity_contact::{ClosedForm, flat_punch, ideal_adhesion_force};
 use asperity_surface::Form;
 
-/// The closed form of the contact of a form, for an effective modulus (Pa) and a work of adhesion (J/m²), if its profile is a
-/// power law; `None` for punches, waves and tables.
+/// Returns the exact solution for a form whose profile is a power law: paraboloid, cone or power. The effective modulus is in
+/// Pa, the work of adhesion in J/m². Returns `None` for punches, wavy spheres and tables.
 ///
 /// ```
 /// use asperity_scene::closed_form;
@@ -20,10 +20,11 @@ pub fn closed_form(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -
     Some(ClosedForm { line_coefficient, exponent, effective_modulus, work_of_adhesion })
 }
 
-/// Adhesion force, N, in closed form, of a smooth body with this form (`None`: flat) and apparent diameter `length` (m),
-/// after a preload (N), for works of adhesion on closing and on opening (J/m²). `None` where there is no closed form: for
-/// waves and tables, for a body whose contact at pull-off is longer than the profile, and for a preload that does not press
-/// it beyond that contact.
+/// Returns the adhesion force of a smooth body in N by a formula, after a preload in N. `form` is `None` for a flat body,
+/// `length` the apparent diameter in m. The works of adhesion on closing and on opening are in J/m².
+///
+/// Returns `None` where there is no formula. Wavy spheres and tables have none. There is also none if the contact at pull-off
+/// is longer than the profile, or if the preload does not press the body beyond this contact.
 pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,

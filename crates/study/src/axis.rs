@@ -1,5 +1,5 @@
-//! Axes of a parameter study: the varied quantity, which is a number of a scene or a quantity derived from several, and its
-//! values.
+//! Axes of a parameter study. An axis has a quantity, which is a number of a scene or follows from several numbers, and the
+//! values of this quantity.
 
 use super::error::StudyError;
 use asperity_contact::Move;
@@ -9,16 +9,17 @@ use asperity_data::{printable, round_to};
 use asperity_scene::{FIELDS, Field, Range, RoughnessParameter, Scene, did_you_mean, field};
 use serde::{Deserialize, Serialize};
 
-/// Limit of the number of values on one axis.
+/// Largest number of values on one axis.
 pub const MOST_VALUES: u64 = 1_000_000;
 
-/// Number of significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
+/// Number of significant digits of values between the ends of an axis, so that a value is 0.15 rather than
+/// 0.15000000000000002.
 const DIGITS: usize = 12;
 
 /// Smallest relative difference of two values of an axis; a smaller difference counts as rounding.
 const APART: f64 = 1e-6;
 
-/// Ratio of the ends of a list of values from which on the list is shown on a logarithmic scale.
+/// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -29,41 +30,41 @@ pub(super) enum AxisText {
     List { path: String, values: Vec<f64> },
 }
 
-/// How the values of an axis are spaced.
+/// Spacing of the values on an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Spacing {
-    /// Equal differences between neighbours.
+    /// Equal differences between neighbouring values.
     Linear,
-    /// Equal ratios between neighbours.
+    /// Equal ratios between neighbouring values.
     Logarithmic,
-    /// Any list of values.
+    /// List of any values.
     List,
 }
 
-/// An axis: a varied quantity and its values.
+/// Axis of a study: a quantity that is varied, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Path of the varied field, or name of a derived quantity.
+    /// Path of the varied field of a scene, or name of a quantity in [`DERIVED`].
     pub path: String,
-    /// Name in words: `Hurst exponent`.
+    /// Name of the quantity in words, such as `Hurst exponent`.
     pub name: String,
-    /// Symbol, with `_` before an index: `F_n`; empty if there is none.
+    /// Symbol of the quantity with `_` before an index, such as `F_n`; empty if there is none.
     pub symbol: &'static str,
-    /// SI unit; `1` for numbers without a unit.
+    /// SI unit of the values; `1` for numbers without a unit.
     pub unit: &'static str,
-    /// How the values are spaced.
+    /// Spacing of the values.
     pub spacing: Spacing,
-    /// Values in SI units, in the order of the plan; ascending on an axis of a grid.
+    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::Grid).
     pub values: Vec<f64>,
     pub(super) target: Target,
 }
 
 impl Axis {
-    /// Creates an axis over a quantity of a scene.
+    /// Creates an axis over a number of a scene, given by its path.
     ///
     /// # Errors
-    /// The path leads to no number.
+    /// The path leads to no number of the scene.
     ///
     /// ```
     /// use asperity_study::{Axis, Spacing};
@@ -84,7 +85,7 @@ impl Axis {
     /// Reads and checks an axis of a plan.
     ///
     /// # Errors
-    /// What is wrong with the axis, and what is allowed.
+    /// The axis is wrong; the error says what is allowed.
     pub(super) fn of(text: &AxisText, scene: &Scene) -> Result<Axis, String> {
         let (AxisText::Linear { path, .. }
         | AxisText::Logarithmic { path, .. }
@@ -133,8 +134,8 @@ impl Axis {
         twice.map_or(Ok(axis), |pair| Err(format!("the value {:?} appears twice", pair[0])))
     }
 
-    /// `count` values from one end to the other. Values between the ends are rounded to 12 significant digits, or to whole
-    /// numbers where the field holds whole numbers.
+    /// Returns `count` values from one end to the other. Values between the ends are rounded to 12 significant digits, or
+    /// to whole numbers if the field needs whole numbers.
     fn between(&self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Vec<f64> {
         let rounded = |value: f64| match self.is_whole() {
             true => value.round(),
@@ -145,22 +146,22 @@ impl Axis {
         std::iter::once(from).chain(inner).chain([to]).collect()
     }
 
-    /// Returns true for an axis over whole numbers.
+    /// Returns true if the values are whole numbers.
     pub fn is_whole(&self) -> bool {
         self.target.is_whole()
     }
 
-    /// Returns true for an axis of preloads, each of which replaces the loading.
+    /// Returns true for an axis of preloads, each of which replaces the loading of the scene.
     pub fn is_of_preloads(&self) -> bool {
         matches!(self.target, Target::Preload { .. })
     }
 
-    /// Number of values.
+    /// Returns the number of values.
     pub fn count(&self) -> u64 {
         self.values.len() as u64
     }
 
-    /// Scale of the values in figures.
+    /// Returns the scale of the values in figures, linear or logarithmic.
     pub fn scale(&self) -> AxisScale {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -171,24 +172,24 @@ impl Axis {
         }
     }
 
-    /// Symbol of the quantity, or its name if it has no symbol.
+    /// Returns the symbol of the quantity, or its name if it has no symbol.
     pub fn symbol_or_name(&self) -> &str {
         if self.symbol.is_empty() { &self.name } else { self.symbol }
     }
 
-    /// Symbol of the quantity, or its path if it has no symbol.
+    /// Returns the symbol of the quantity, or its path if it has no symbol.
     pub fn symbol_or_path(&self) -> String {
         if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
     }
 
-    /// One of the values, by its index, with the symbol or the name: `H = 0.3`.
+    /// Returns one of the values by its index, with the symbol or the name: `H = 0.3`.
     pub(super) fn at(&self, place: usize) -> String {
         let equals = if self.symbol.is_empty() { "" } else { "= " };
         format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
     }
 
-    /// The value `steps` values above (below, if negative) `value` on an ascending axis; beyond the ends the first or last
-    /// value, and `None` if `value` is already there.
+    /// Returns the value that is `steps` values above `value` on an ascending axis, or below for negative `steps`. Beyond
+    /// the ends, returns the first or the last value, or `None` if `value` is already there.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;
@@ -201,7 +202,7 @@ impl Axis {
         Some(values[index])
     }
 
-    /// Indices of the values in ascending order of the values.
+    /// Returns the indices of the values in ascending order of the values.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
         places.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
@@ -215,40 +216,40 @@ impl Axis {
     }
 }
 
-/// Quantities that are not fields of a scene.
+/// Names of the quantities that an axis may vary although no field of a scene holds them.
 pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
-/// Paths of numbers that cannot be varied: the version is no parameter, and seeds follow from the seed of the plan.
+/// Paths of numbers that cannot be varied. The version is no parameter, and seeds follow from the seed of the plan.
 const FIXED: &[&str] = &["version", "roughness.seed"];
 
 /// Endings of the paths of numbers: of a number itself, and of the first and last number of a pair.
 const ENDS: [&str; 3] = ["", ".0", ".1"];
 
-/// A quantity that an axis varies.
+/// Quantity that an axis varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Target {
     /// A number of a scene, or an end of a pair.
     Number(&'static Field),
-    /// The force, N, or indentation, m, of a loading stage.
+    /// Force in N or indentation in m of a loading stage.
     Stage(usize),
-    /// Preload F_n in N, or in units of E* h L.
+    /// Preload F_n in N or in units of E* h L.
     Preload { in_newtons: bool },
-    /// Springs per period of the shortest wave; the last mode is the number of springs over this number.
+    /// Number of springs per shortest wave. The last mode is the number of springs divided by this number.
     SpringsPerWave,
 }
 
-/// Part of the computation that a changed number repeats; later variants repeat less.
+/// Part of the computation that a changed number repeats. Later variants repeat less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shapes {
-    /// The heights of the roughness, by a Fourier transform, and all that follows.
+    /// Heights of the roughness, by a Fourier transform, and all that follows.
     Roughness,
-    /// The profile, from known heights, and all that follows.
+    /// Profile from known heights, and all that follows.
     Profile,
-    /// Only the passes over the contact tree.
+    /// Passes over the contact tree.
     Passes,
 }
 
-/// The field that holds the number at a path; `None` for a path that cannot be varied.
+/// Returns the field that holds the number at a path; `None` for a path that cannot be varied.
 fn number(path: &str) -> Option<&'static Field> {
     ENDS.into_iter().find_map(|end| {
         let field = field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
@@ -262,7 +263,7 @@ fn number(path: &str) -> Option<&'static Field> {
 }
 
 impl Target {
-    /// The quantity at a path.
+    /// Returns the quantity at a path.
     ///
     /// # Errors
     /// No number has this path; the nearest path is named.
@@ -292,7 +293,7 @@ impl Target {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// The parameter κ or e_el/γ, if the quantity is one; it replaces a work of adhesion.
+    /// Returns the parameter κ or e_el/γ if the quantity is one. It replaces a work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
             Target::Number(field) => RoughnessParameter::named(field.path),
@@ -300,7 +301,7 @@ impl Target {
         }
     }
 
-    /// Part of the computation that is repeated when the quantity changes.
+    /// Returns the part of the computation that is repeated when the quantity changes.
     pub fn shapes(self) -> Shapes {
         let field = match self {
             Target::SpringsPerWave => return Shapes::Roughness,
@@ -317,7 +318,7 @@ impl Target {
         }
     }
 
-    /// Name, symbol (may be empty) and SI unit of the quantity at this path of a scene.
+    /// Returns name, symbol (may be empty) and SI unit of the quantity at this path of a scene.
     pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
         match self {
             Target::Preload { in_newtons: true } => ("preload".into(), "F_n", "N"),

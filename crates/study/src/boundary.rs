@@ -1,10 +1,10 @@
-//! Boundary of vanishing adhesion without a preload, between pressure-insensitive and pressure-sensitive adhesion, eq. (15), with
-//! its statistical error.
+//! The boundary where adhesion without a preload vanishes, between pressure-insensitive and pressure-sensitive adhesion,
+//! eq. (15), with its statistical error.
 //!
-//! F_a(d=0) falls about exponentially with κ and never quite to zero, since a single spring still adheres. So the boundary κ*
-//! is where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max; κ* depends on
-//! that share, and several shares are evaluated together. A boundary in κ is also one in e_el/γ, since on profiles of one
-//! spectrum each determines the other.
+//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still adheres. The boundary
+//! κ* is therefore where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max. κ*
+//! depends on this share, so several shares are evaluated together. On profiles of one spectrum κ determines e_el/γ, so
+//! each boundary in κ is also a boundary in e_el/γ.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -18,67 +18,71 @@ use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::path::Path;
 
-/// Shares of F_a,max that are evaluated by default.
+/// Shares of F_a,max below which adhesion usually counts as vanished.
 pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 /// Number of random selections of profiles for the confidence interval.
 const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// The boundary for one combination of values on the other axes, one protocol and one share.
+/// Boundary where adhesion without a preload vanishes, for one combination of values on the other axes, one turning point
+/// and one share of F_a,max.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
-    /// Values on the axes other than κ or e_el/γ, in the order of these axes.
+    /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// The recorded quantity F_a(d=0)/F_a,max, which identifies the protocol.
+    /// Recorded quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max. It states where the loading turns: at first touch or at zero
+    /// force.
     pub protocol: Quantity,
-    /// The share of F_a,max below which adhesion counts as vanished.
+    /// Share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
-    /// Position of the boundary.
+    /// Position of the boundary in κ or e_el/γ.
     pub crossing: Crossing,
 }
 
-/// κ or e_el/γ at which the mean of F_a(d=0)/F_a,max falls below a share.
+/// Value of κ or e_el/γ at which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// The position, or the end of the studied range beyond which it lies.
+    /// Position of the boundary. If the boundary lies beyond the studied range, the value is the end of the range.
     pub value: f64,
-    /// `Equal` for a position within the studied range, `Less` for one below its smallest value, `Greater` for one above
-    /// its largest.
+    /// Side of the studied range on which the boundary lies: `Equal` within the range, `Less` below its smallest value,
+    /// `Greater` above its largest value.
     pub side: Ordering,
-    /// 95 % confidence interval from random selections of profiles; `None` if there are too few profiles or a selection
-    /// does not cross the share.
+    /// Ends of the 95 % confidence interval from random selections of profiles. `None` if there are too few profiles, or if
+    /// the mean of a selection does not fall below the share.
     pub interval: Option<(f64, f64)>,
 }
 
 impl Crossing {
-    /// The position and its confidence interval, if the position lies within the studied range.
+    /// Returns the position and its confidence interval; `None` if the position lies beyond the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
         self.side.is_eq().then_some((self.value, self.interval))
     }
 }
 
-/// All boundaries of a study.
+/// All boundaries of a study where adhesion without a preload vanishes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundaries {
-    /// Parameter in which the boundaries are stated.
+    /// Parameter, κ or e_el/γ, whose values are the boundaries.
     pub over: RoughnessParameter,
-    /// The axes other than κ or e_el/γ.
+    /// Axes of the study other than κ or e_el/γ.
     pub others: Vec<Axis>,
-    /// Number of random profiles of each cell.
+    /// Number of random profiles for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes, then by protocol, then by share.
+    /// Boundaries, sorted by the values on the other axes, then by the turning point, then by the share of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
-/// F_a(d=0)/F_a,max over ascending κ or e_el/γ: for each value the shares on the same profiles.
+/// F_a(d=0)/F_a,max over ascending κ or e_el/γ. Each value has the shares on the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Finds the boundaries of a merged study along its axis of κ or e_el/γ, and states them in either of the two.
+/// Finds the boundaries where adhesion without a preload vanishes, along the axis of κ or e_el/γ of a study. The study is
+/// in the folder `path` and was merged by [`merge`](crate::merge). `over` is the parameter of the boundaries, and `levels`
+/// are shares of F_a,max.
 ///
 /// # Errors
-/// The study has no such axis or recorded no F_a(d=0)/F_a,max, or the errors of [`Results::open`]; also a study of a measured
-/// surface whose axis is the other parameter.
+/// The study has no axis of κ or e_el/γ, or recorded neither F_a(d=0)/F_a,max nor F_a(F=0)/F_a,max. On a measured surface,
+/// the axis has another parameter than `over`. The errors of [`Results::open`] are possible too.
 pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let study = Results::open(path)?;
     let plan = study.plan();
@@ -123,8 +127,8 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
     Ok(Boundaries { over, others, lines: plan.lines, found })
 }
 
-/// Shares on the profiles that all cells along an axis have, beginning with the cell `first` at the first value of the
-/// axis. Cells without any share are left out.
+/// Returns the shares on the profiles that all cells along an axis have. The first cell is `first`, at the first value of
+/// the axis. Cells without any share are left out.
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
@@ -155,13 +159,13 @@ fn conversion(
     Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
 }
 
-/// Name of the protocol of a recorded quantity F_a(d=0)/F_a,max.
+/// Returns in words where the loading turns for the quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max.
 pub fn protocol_name(share: Quantity) -> &'static str {
     if share == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
 }
 
 impl Boundaries {
-    /// Symbol of the boundaries: κ* or (e_el/γ)*.
+    /// Returns the symbol of the boundaries: κ* or (e_el/γ)*.
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",
@@ -190,8 +194,8 @@ fn crossing(curve: &Curve, level: f64) -> Crossing {
     Crossing { value, side, interval }
 }
 
-/// κ above which the mean over the chosen profiles stays below a share, by linear interpolation of the logarithm of the
-/// mean; or the end of the curve beyond which this κ lies.
+/// Returns the κ above which the mean over the chosen profiles stays below a share, by linear interpolation of the
+/// logarithm of the mean. Beyond an end of the curve, returns this end.
 fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
     let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
     let means: Vec<(f64, f64)> = curve.iter().map(|(kappa, shares)| (*kappa, mean(shares))).collect();

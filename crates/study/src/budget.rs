@@ -7,32 +7,32 @@ use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
 use std::ops::Range;
 
-/// Fewest profiles whose median has an interval.
+/// Smallest number of profiles whose median has an interval.
 const FEWEST: usize = 4;
-/// Half the width of the interval of a median in quantiles, times the root of the number of profiles: the normal
-/// approximation of the binomial distribution, for 95 of 100 cases.
+/// Half the width of the interval of a median in quantiles, times the root of the number of profiles. It is the normal
+/// approximation of the binomial distribution for 95 of 100 cases.
 const HALF: f64 = 0.98;
 
-/// Errors of the adhesion force by their sources. Each is a share of the force that the error exceeds in about 5 of 100 cases;
-/// `None` for a source without a known error.
+/// Errors of the adhesion force by their sources. Each error is a share of the force that the true error exceeds in about 5
+/// of 100 cases. The error of a source is `None` if it is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
-    /// Of the profile of the scene, by the finite number of springs.
+    /// Error due to the finite number of springs, on the profile of the scene.
     pub grid: Option<f64>,
-    /// Of the median over random profiles, by the finite number of profiles.
+    /// Error of the median due to the finite number of random profiles.
     pub sample: Option<f64>,
-    /// Of the median, by the uncertainty of the spectrum of a measured surface.
+    /// Error of the median due to the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
-    /// Of the model, against the same bodies in three dimensions where they are computed.
+    /// Error of the model, compared with the same bodies in three dimensions.
     pub model: Option<f64>,
-    /// Name of the largest known error.
+    /// Name of the source with the largest known error.
     pub largest: Option<&'static str>,
 }
 
 impl Budget {
-    /// The budget of an outcome with the estimated error of its adhesion force, with an ensemble of random profiles, and with
-    /// the standard deviation of the force, N, by the spectrum of a measured surface, as far as they are known. `None` without
-    /// an adhesion force above zero.
+    /// Collects the errors of a computed scene; `None` if the scene has no adhesion force above zero. `estimate` is the
+    /// error due to the number of springs, and `ensemble` has results on random profiles. `deviation` is the standard
+    /// deviation of the adhesion force in N due to the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,
@@ -54,7 +54,7 @@ impl Budget {
         Some(Budget { grid, sample, surface, model: None, largest })
     }
 
-    /// The budget with a known error of the model.
+    /// Returns the errors with `share` as the error of the model.
     pub fn with_model(self, share: f64) -> Budget {
         let known = [self.grid, self.sample, self.surface].into_iter().flatten();
         let is_largest = known.fold(0.0, f64::max) <= share;
@@ -62,8 +62,8 @@ impl Budget {
     }
 }
 
-/// Interval of ascending values that holds the median of their distribution in about 95 of 100 cases, whatever the
-/// distribution; `None` for few values.
+/// Returns an interval of ascending values that holds the median of any distribution in about 95 of 100 cases; `None` for
+/// few values.
 fn median_interval(ascending: &[f64]) -> Option<Range<f64>> {
     let count = ascending.len();
     let half = HALF / (count as f64).sqrt();
@@ -104,7 +104,8 @@ mod tests {
         let document = open("pressure-sensitive").unwrap().set_all(&fields).unwrap();
         let outcome = run(&document).unwrap();
         let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(document.scene(), &[], 17, simulation, &|| false, &mut |_| ()).unwrap();
+        let ensemble =
+            Ensemble::of(document.scene(), &[], 17, simulation, &|| false, &mut |_, _| ()).unwrap();
         let estimate = |error| Estimate {
             target: Target::AdhesionForce,
             error,

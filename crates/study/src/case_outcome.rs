@@ -1,4 +1,4 @@
-//! Outcome of one case (one loading on one profile), from which all recorded quantities follow.
+//! The outcome of one loading on one profile, from which all recorded quantities follow.
 
 use asperity_contact::Move;
 use asperity_contact::{CurvePoint, History, LegRecord, Reversal};
@@ -6,13 +6,13 @@ use asperity_contact::{Figures, ideal_adhesion_force, preload_point};
 use asperity_scene::Scene;
 use asperity_scene::{Governing, Regime, scene_tabor_number};
 
-/// Outcome of one loading on one profile; a figure that the case does not have is `None`.
+/// Outcome of one loading on one profile. A figure that it does not have is `None`.
 pub(super) struct CaseOutcome<'o> {
     /// Governing parameters.
     pub governing: Governing,
-    /// Properties of the profile that may be recorded.
+    /// Properties of the profile that are recorded on request.
     pub profile: ProfileRecord,
-    /// Scene of the case; its own loading is ignored.
+    /// Scene of the case, whose own loading is ignored.
     pub scene: &'o Scene,
     /// F_a(d=0), N.
     pub first_touch: Option<f64>,
@@ -34,7 +34,7 @@ pub(super) struct LoadingOutcome {
 }
 
 impl LoadingOutcome {
-    /// Outcome of a loading with these stages.
+    /// Collects the outcome of a loading with these stages.
     pub fn of_legs(legs: Vec<LegRecord>) -> Self {
         let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
@@ -43,7 +43,7 @@ impl LoadingOutcome {
         LoadingOutcome { figures, contact_length, preload }
     }
 
-    /// Outcome of a loading from separation to `leg`, the turning point of `reversal`, and back to separation.
+    /// Collects the outcome of a loading from separation to `leg`, the turning point of `reversal`, and back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
@@ -58,17 +58,17 @@ impl LoadingOutcome {
 pub(super) struct ProfileRecord {
     /// Rms height about the mean, m, without the form.
     pub rms_height: Option<f64>,
-    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in units of the rms height; both are
-    /// zero for a normal distribution. `None` for a flat profile.
+    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in units of the rms height; `None` for
+    /// a flat profile. Both are zero for a normal distribution.
     pub shape: Option<(f64, f64)>,
-    /// Height of the highest point above the mean, over the rms height.
+    /// Height of the highest point above the mean, divided by the rms height.
     pub summit: Option<f64>,
-    /// Exponents α of k ∝ F^α (stiffness k) and n of F ∝ dⁿ, for the contact without adhesion.
+    /// Exponents α of the stiffness k ∝ F^α and n of the force F ∝ dⁿ, for the contact without adhesion.
     pub exponents: Option<(f64, f64)>,
 }
 
 impl ProfileRecord {
-    /// Statistics of the heights of a profile with these gaps, m; `deepest` is the largest gap.
+    /// Computes the statistics of the heights of a profile with these gaps in m. `deepest` is the largest gap.
     pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
         let average =
             |of: &dyn Fn(f64) -> f64| gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64;
@@ -91,18 +91,18 @@ impl ProfileRecord {
 }
 
 impl CaseOutcome<'_> {
-    /// Ideal adhesion force F_a,max of eq. (14), N.
+    /// Returns the ideal adhesion force F_a,max of eq. (14) in N.
     pub fn ideal(&self) -> Option<f64> {
         let Governing { work_of_adhesion, effective_modulus, .. } = self.governing;
         work_of_adhesion.map(|work| ideal_adhesion_force(work, effective_modulus, self.scene.length))
     }
 
-    /// A force, N, over F_a,max.
+    /// Returns a force in N divided by F_a,max.
     pub fn share(&self, force: Option<f64>) -> Option<f64> {
         Some(force? / self.ideal().filter(|&ideal| ideal > 0.0)?)
     }
 
-    /// Largest contact length over L.
+    /// Returns the largest contact length divided by L.
     pub fn contact_fraction(&self) -> Option<f64> {
         self.loading.contact_length.map(|longest| longest / self.scene.length)
     }
@@ -112,7 +112,7 @@ impl CaseOutcome<'_> {
         scene_tabor_number(self.scene, &self.governing)
     }
 
-    /// Index in [`Regime::ALL`] of the regime of this loading; `first_touch` is F_a(d=0), N.
+    /// Returns the index in [`Regime::ALL`] of the regime of this loading. `first_touch` is F_a(d=0) in N.
     pub fn regime(&self, first_touch: Option<f64>) -> Option<f64> {
         Some(Regime::of_loading(&self.loading.figures, first_touch, self.smooth)? as u8 as f64)
     }

@@ -1,24 +1,25 @@
 //! Order and division of the computation of a plan.
 //!
-//! A *streak* is one loading: all cells that differ in the preload alone. A *unit* is computed by one thread: streaks on
-//! one random profile with the same roughness, so that the profile and its tree are made once. Within a unit the numbers
-//! that shape the profile vary slowest.
+//! A *cell* is one combination of values on the axes. A *streak* is one loading with all cells that differ only in the
+//! preload. A *unit* is computed by one thread. It has streaks on one random profile with the same roughness, so that the
+//! profile and its tree are made once. Within a unit the numbers that shape the profile vary slowest.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;
 use std::ops::Range;
 
-/// Number of units up to which the streaks of one profile are divided into several units, so that many processes can share
-/// a plan of few profiles.
+/// Largest number of units for which the streaks of one profile are divided into several units. Many processes can then
+/// share a plan of few profiles.
 const ENOUGH_UNITS: u64 = 256;
-/// Smallest number of streaks in a unit of a divided profile: with fewer, making the profile would cost more than they do.
+/// Smallest number of streaks in a unit of a divided profile. With fewer, making the profile would cost more than the
+/// streaks.
 const LEAST_STREAKS: u64 = 16;
 
 /// Numbering of the streaks and units of a plan.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
-    /// Indices of the axes except preloads: first axes that shape the roughness, then axes that shape the profile, then the
-    /// others.
+    /// Indices of the axes without preloads: first axes that shape the roughness, then axes that shape the profile, then
+    /// the others.
     order: Vec<usize>,
     /// Number of streaks on one profile with the same roughness.
     steps: u64,
@@ -28,7 +29,7 @@ pub(super) struct Cells<'p> {
     chunks: u64,
 }
 
-/// One loading on one profile, with all its preloads.
+/// One loading on one profile with all its preloads.
 pub(super) struct Streak {
     /// Cells of the streak, one for each preload.
     pub cells: Range<u64>,
@@ -50,12 +51,12 @@ impl<'p> Cells<'p> {
         Cells { plan, order, steps, preloads, chunk, chunks: steps.div_ceil(chunk) }
     }
 
-    /// Number of units.
+    /// Returns the number of units.
     pub fn units(&self) -> u64 {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// The streaks of a unit in the most efficient order; units with the same spectrum are consecutive.
+    /// Returns the streaks of a unit in the most efficient order. Units with the same spectrum are consecutive.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let (rest, start) = (unit / self.chunks, unit % self.chunks * self.chunk);
         let (group, line) = (rest / self.plan.lines, rest % self.plan.lines);

@@ -1,5 +1,4 @@
-//! Computation of the streaks of a plan on all cores, and of a whole plan in memory; no bit of a result depends on the number
-//! of threads.
+//! Computation of a plan on all cores, and of a whole plan in memory. The results do not depend on the number of threads.
 
 use super::cells::{Cells, Streak};
 use super::error::StudyError;
@@ -18,20 +17,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::Builder;
 
-/// The streaks of a plan that are computed, and with what.
+/// Streaks of a plan that are to be computed.
 pub(super) struct Streaks<'a> {
     pub cells: &'a Cells<'a>,
-    /// Units of the plan, by their numbers.
+    /// Numbers of the units of the plan that are to be computed.
     pub units: &'a [u64],
     /// Returns true for a streak with a missing record.
     pub is_missing: &'a (dyn Fn(&Streak) -> bool + Sync),
-    /// The measured roughness of the plan, if it has one: read once, so that all threads compute from the same bytes.
+    /// Measured roughness of the plan, if it has one. It is read once, so that all threads compute from the same bytes.
     pub profile: Option<&'a Arc<MeasuredRoughness>>,
 }
 
 impl Streaks<'_> {
-    /// Computes the missing streaks on this number of threads, until `stop` returns true after a streak. `receive` takes each
-    /// streak with its records on the thread that computed it, and returns false to end the computation.
+    /// Computes the missing streaks on this number of threads, until `stop` returns true after a streak. `receive` takes
+    /// each streak with its records on the thread that computed it, and returns false to end the computation.
     ///
     /// # Errors
     /// Too little memory for a record.
@@ -73,11 +72,11 @@ impl Streaks<'_> {
     }
 }
 
-/// Computes all records of a plan in memory. A record that cannot be computed keeps the reason in place of its values. The
-/// progress is the number of records.
+/// Computes all records of a plan in memory: the recorded quantities of each cell on each profile. A record that cannot be
+/// computed keeps the reason in place of its values. The reported progress is the number of computed records.
 ///
 /// # Errors
-/// A measured file cannot be read, too little memory, no threads, or a stop.
+/// A measured file cannot be read, the memory or the threads do not suffice, or the computation is stopped.
 ///
 /// ```
 /// use asperity_data::Control;

@@ -1,7 +1,7 @@
-//! What other theories say of the adhesion of a randomly rough body without a preload, beside this program.
+//! Criteria by which other theories and this program decide whether a randomly rough body adheres without a preload.
 //!
-//! Each criterion has conditions of its own, and where they do not hold it says so. The criteria are no vote: they disagree,
-//! since they have different limits.
+//! Each criterion has its own conditions, and says so where they do not hold. The criteria disagree, because their theories
+//! have different limits; the majority decides nothing.
 
 use super::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR, long_ranged};
 use super::ensemble::Ensemble;
@@ -18,11 +18,11 @@ const TABOR: Criterion = Criterion::new(
 const THIS_PROGRAM: Criterion =
     Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", VANISHING_SHARE);
 
-/// Criteria of adhesion for a computed scene, this program last: by the medians of an ensemble, or without one by the profile
-/// of the scene alone.
+/// Returns the criteria of adhesion for a computed scene, by other theories and last by this program. The numbers are
+/// medians over the profiles of an ensemble, or the numbers of the scene's own profile if no ensemble is given.
 ///
-/// Criteria of roughness are left out for a smooth body, and all criteria for a scene without adhesion. A form does not enter
-/// the criteria of roughness.
+/// A smooth body has no criteria of roughness, and a scene without adhesion has no criteria. Criteria of roughness do not
+/// include the form of the body.
 ///
 /// ```
 /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
@@ -61,8 +61,8 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
     Criterion { value: tabor_number, reason: Some(reason.to_owned()), ..TABOR }
 }
 
-/// F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body: below
-/// [`VANISHING_SHARE`] adhesion has vanished, as in the definition of the regimes.
+/// Returns F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body. Below [`VANISHING_SHARE`] adhesion
+/// has vanished, as in the definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
     let own = [outcome.first_touch_adhesion_force, outcome.zero_force_adhesion_force];
@@ -142,7 +142,7 @@ mod tests {
              roughness: SelfAffine(hurst: 0.3, rms_height: 1.0e-7, modes: (1, 64), seed: 1)",
         );
         let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_| ()).unwrap();
+        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_, _| ()).unwrap();
         let found = rows(&rough, Some(&ensemble));
         assert_eq!(names(&found)[4..], ["Tabor number", "this program", "this program"]);
         let smooth = run(&rough).unwrap().smooth_adhesion_force.unwrap();

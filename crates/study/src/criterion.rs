@@ -3,31 +3,32 @@
 use asperity_data::{format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Tabor number below which JKR theory, and with it the rule of Hess, does not apply.
+/// Tabor number below which JKR theory and the rule of Hess do not apply.
 pub const LEAST_TABOR_NUMBER_OF_JKR: f64 = 1.0;
 
-/// A criterion of adhesion without a preload.
+/// Criterion by which a theory decides whether bodies adhere without a preload. It compares a number with a threshold.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {
     /// Name of the theory.
     pub name: &'static str,
-    /// Symbol of its number.
+    /// Symbol of the number.
     pub symbol: &'static str,
-    /// Its publication.
+    /// Publication of the criterion.
     pub reference: &'static str,
-    /// The number; `None` if the scene does not determine it.
+    /// Value of the number; `None` if the scene does not determine it.
     pub value: Option<f64>,
-    /// The number at which the verdict changes.
+    /// Threshold at which the verdict changes.
     pub threshold: f64,
-    /// Whether the bodies adhere without a preload; `None` where the criterion does not hold or does not decide.
+    /// True if the bodies adhere without a preload; `None` if the criterion does not hold or does not decide.
     pub sticks: Option<bool>,
-    /// Why there is no verdict, or the protocol and the profiles of the number.
+    /// Reason why there is no verdict. A verdict of this program has a note here on where the loading turns and which
+    /// profiles are used.
     pub reason: Option<String>,
 }
 
 impl Criterion {
-    /// A criterion without a number yet.
+    /// Makes a criterion without a number.
     pub(super) const fn new(
         name: &'static str,
         symbol: &'static str,
@@ -37,7 +38,7 @@ impl Criterion {
         Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
     }
 
-    /// The number, its threshold and the verdict in words.
+    /// Returns the number, its threshold and the verdict in words.
     pub fn words(&self) -> String {
         let behind =
             |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));
@@ -51,7 +52,7 @@ impl Criterion {
         format!("{number}, {side} {threshold}: {verdict}{reason}")
     }
 
-    /// A criterion by which bodies adhere below the threshold, unless its conditions are violated.
+    /// Returns a criterion by which bodies adhere below the threshold, unless its conditions are violated.
     pub(super) fn judge(self, value: f64, refusals: &[Option<String>]) -> Criterion {
         let refusals: Vec<&str> = refusals.iter().flatten().map(String::as_str).collect();
         let value = Some(value).filter(|value| value.is_finite());
@@ -61,12 +62,12 @@ impl Criterion {
     }
 }
 
-/// A number of a reason, to two digits.
+/// Writes a number of a reason with two digits.
 pub(super) fn number(value: f64) -> String {
     format_rounded(value, 2, "1")
 }
 
-/// Why a theory of short-ranged attraction does not hold.
+/// Returns the reason why a theory of short-ranged attraction does not hold.
 pub(super) fn long_ranged(tabor_number: Option<f64>) -> Option<String> {
     let below = tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
     Some(format!("μ {}, needs at least {LEAST_TABOR_NUMBER_OF_JKR}", number(below)))

@@ -1,4 +1,5 @@
-//! The ensemble of a scene: its results on random profiles of one roughness, which is what the scene states whatever its seed.
+//! The ensemble of a scene: its results on random profiles of one roughness. They characterise the scene independently of
+//! its seed.
 
 use super::error::StudyError;
 use super::profiles::Stop;
@@ -8,8 +9,8 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::Control;
 use asperity_scene::{Document, Scene, Simulation, Solver};
 
-/// Results of a scene on several random profiles: the profile of its own seed and of the seeds that follow. A scene whose
-/// profile is fixed has this single profile.
+/// Results of a scene on several random profiles, with the seed of the scene and the seeds that follow. A scene whose
+/// profile is fixed has one profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
     results: Results,
@@ -19,11 +20,11 @@ impl Ensemble {
     /// Usual number of random profiles.
     pub const PROFILES: u64 = 16;
 
-    /// Sentence for a scene that has a single profile.
+    /// Sentence about a scene that has a single profile.
     pub const FIXED: &str =
         "The profile of this scene is fixed, so there is no scatter over random profiles.";
 
-    /// Numbers of an ensemble.
+    /// Quantities whose statistics the summary of a scene gives.
     pub const NUMBERS: [Quantity; 5] = [
         Quantity::AdhesionForce,
         Quantity::AdhesionShare,
@@ -32,7 +33,7 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Further quantities of a table of profiles.
+    /// Quantities that a table of profiles contains in addition.
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -41,76 +42,85 @@ impl Ensemble {
         Quantity::TaborNumber,
     ];
 
-    /// Usual number of profiles of a scene: [`Ensemble::PROFILES`], or 1 for a fixed profile and for the stepwise solver, whose
-    /// profiles take long.
+    /// Returns the usual number of profiles of a scene. It is [`Ensemble::PROFILES`], or 1 for a fixed profile. It is also
+    /// 1 for the stepwise solver, which takes long.
     pub fn profiles_of(scene: &Scene) -> u64 {
         let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
         if several { Ensemble::PROFILES } else { 1 }
     }
 
-    /// Computes a checked scene on this number of profiles: the numbers of [`Ensemble::NUMBERS`], the regimes by both
-    /// protocols, and these further quantities. `jobs` threads share the profiles, the first with this simulation; no bit
-    /// depends on their number. `report` receives the profiles so far after each. A profile that cannot follow the loading has
-    /// no values.
+    /// Computes a checked scene on `profiles` profiles: the quantities [`Ensemble::NUMBERS`] and `further`, and the regimes
+    /// turned at first touch and at zero force. A profile that cannot follow the loading has no values.
+    ///
+    /// `workers` are the simulation of the first thread and the number of threads, which share the profiles. The results do
+    /// not depend on this number. After each profile `report` receives the number of profiles so far, and a
+    /// function that copies the ensemble so far.
     ///
     /// # Errors
-    /// Several profiles of a scene whose profile is fixed, too little memory, or `stop` returned true.
+    /// Several profiles are requested of a scene whose profile is fixed, the memory does not suffice, or `stop` returned
+    /// true.
     pub fn of(
         scene: &Scene,
         further: &[Quantity],
         profiles: u64,
         workers: (Simulation, usize),
         stop: &Stop<'_>,
-        report: &mut dyn FnMut(&Ensemble),
+        report: &mut dyn FnMut(u64, &dyn Fn() -> Ensemble),
     ) -> Result<Ensemble, StudyError> {
         let record = [&Ensemble::NUMBERS[..], &Quantity::REGIMES, further].concat();
         let mut results = Results::begin(scene, &record, profiles, None)?;
-        let mut see = |results: &Results| report(&Ensemble { results: results.clone() });
+        let mut computed = 0;
+        let mut see = |results: &Results| {
+            computed += 1;
+            report(computed, &|| Ensemble { results: results.clone() });
+        };
         results.extend_each(workers, stop, &mut see)?;
         Ok(Ensemble { results })
     }
 
-    /// Number of profiles when all are computed.
+    /// Returns the number of profiles when all are computed.
     pub fn profiles(&self) -> u64 {
         self.results.plan().lines
     }
 
-    /// Number of profiles computed so far.
+    /// Returns the number of profiles that are computed so far.
     pub fn computed(&self) -> u64 {
         (0..self.profiles()).filter(|line| self.results.has(0, *line)).count() as u64
     }
 
-    /// The profiles that cannot follow the loading: seed, and reason in one line.
+    /// Returns the seeds of the profiles that cannot follow the loading, each with the reason in one line.
     pub fn failed(&self) -> impl Iterator<Item = (u64, &str)> {
         self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
 
-    /// The profiles with their seeds, as a study of one cell.
+    /// Returns the values on all profiles with their seeds, as a study without axes.
     pub fn results(&self) -> &Results {
         &self.results
     }
 
-    /// Median, quartiles, range and mean of a quantity over the computed profiles that have one; `None` without any.
+    /// Returns median, quartiles, range and mean of a quantity over the computed profiles that have it; `None` if no
+    /// profile has it.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }
 
-    /// Values of a quantity on all profiles, in the order of their seeds; `None` for a profile without a value.
+    /// Returns the values of a quantity on all profiles, in the order of their seeds; `None` for a profile without a value.
     pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }
 
-    /// Number of profiles in each regime, turned at first touch and at zero force.
+    /// Returns the numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero
+    /// force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }
 }
 
-/// Computes the scene of a document on this number of random profiles; its files are found relative to the scene file. The
-/// progress is the number of profiles.
+/// Computes a scene on this number of random profiles. Files of the scene are found relative to the scene file. The
+/// reported progress is the number of computed profiles.
 ///
 /// # Errors
-/// The errors of [`Ensemble::of`], and zero profiles or zero threads.
+/// Zero profiles or zero threads are requested. The errors of [`Ensemble::of`] are possible too.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -131,7 +141,7 @@ pub fn ensemble(
     StudyError::check_threads(control.threads())?;
     let workers = (Simulation::new(document.resolve("")), control.threads());
     let stop = control.stop();
-    let mut see = |part: &Ensemble| control.report(part.computed());
+    let mut see = |computed: u64, _: &dyn Fn() -> Ensemble| control.report(computed);
     Ensemble::of(document.scene(), &[], profiles, workers, stop, &mut see)
 }
 
@@ -146,7 +156,7 @@ mod tests {
     }
 
     fn ensemble(scene: &CheckedScene, profiles: u64, jobs: usize) -> Result<Ensemble, StudyError> {
-        Ensemble::of(scene, &[], profiles, (Simulation::default(), jobs), &|| false, &mut |_| ())
+        Ensemble::of(scene, &[], profiles, (Simulation::default(), jobs), &|| false, &mut |_, _| ())
     }
 
     /// Each profile is the scene with the seed of that profile, and no bit depends on the number of threads.
@@ -183,9 +193,10 @@ mod tests {
     fn an_ensemble_reports_each_profile_and_stops() {
         let scene = scene("rough-sphere");
         let (mut parts, ended) = (Vec::new(), AtomicBool::new(false));
-        let mut see = |part: &Ensemble| {
-            parts.push(part.computed());
-            ended.store(part.computed() == 3, Ordering::Relaxed);
+        let mut see = |computed: u64, part: &dyn Fn() -> Ensemble| {
+            assert_eq!(part().computed(), computed);
+            parts.push(computed);
+            ended.store(computed == 3, Ordering::Relaxed);
         };
         let stop = || ended.load(Ordering::Relaxed);
         let stopped = Ensemble::of(&scene, &[], 400, (Simulation::default(), 1), &stop, &mut see);

@@ -1,4 +1,4 @@
-//! Errors of studies.
+//! The errors of studies.
 
 use asperity_data::WriteError;
 use asperity_data::{memory_size, path_name};
@@ -9,70 +9,70 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Message for a request of several profiles of a scene that has one: the fault, and which scenes have several.
+/// Message for a request of several profiles of a scene that has one: what was found, and what is allowed.
 pub(super) const ONE_PROFILE: (&str, &str) = (
     "more than one profile, and the profile of this scene is fixed",
     "random roughness (SelfAffine, or an equivalent line)",
 );
 
-/// Error that ends the work on a study; records written before are kept.
+/// Error that ends the work on a study. Results that were written before are kept.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// A plan has errors: each in one line, with its place, what was found and what is allowed.
+    /// A plan has errors. Each is one line with its place, what was found and what is allowed.
     #[error("{}", .0.join("\n"))]
     Plan(Vec<String>),
     /// A folder or file of the study cannot be used.
     #[error("{}: {reason}", path_name(path))]
     Folder {
-        /// Path of the folder or file.
+        /// Path of the folder or the file.
         path: PathBuf,
-        /// Reason, in words.
+        /// Reason in words.
         reason: String,
     },
-    /// The measured file of the study cannot be read.
+    /// A measured file of the study cannot be read.
     #[error(transparent)]
     Measured(#[from] SurfaceError),
-    /// A file could not be written.
+    /// A file could not be written, such as a table.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A cell or a profile could not be computed.
+    /// A scene of the study could not be computed.
     #[error("{place}{error}")]
     Run {
-        /// Cell with its coordinates and seed of the profile, followed by a colon; empty for a single profile.
+        /// Values on the axes and seed of the profile, followed by a colon; empty for a single profile.
         place: String,
-        /// Reason of the failure.
+        /// Reason why the computation failed.
         error: RunError,
     },
-    /// A body in three dimensions is refused.
+    /// The computation in three dimensions is refused.
     #[error(transparent)]
     HalfSpace(#[from] HalfSpaceError),
     /// A value or a request is not allowed.
     #[error("{}{found}; allowed: {allowed}", place.as_ref().map_or_else(String::new, |place| format!("{place}: ")))]
     Refused {
-        /// Path of the number of the scene, or name of the argument; `None` for the request as a whole.
+        /// Path of the number of the scene, or name of the argument; `None` if the request as a whole is not allowed.
         place: Option<String>,
-        /// What was found, in words.
+        /// Value or request that was found, in words.
         found: String,
-        /// What is allowed, in words.
+        /// Values or requests that are allowed, in words.
         allowed: String,
     },
-    /// Two records of the same cell and profile differ.
+    /// Two results for the same values on the axes and the same profile differ.
     #[error(
         "{place}: two records differ, in {} and {}; remove the one that is wrong",
         path_name(&files[0]),
         path_name(&files[1])
     )]
     Conflict {
-        /// Cell with its coordinates and seed of the profile.
+        /// Values on the axes and seed of the profile.
         place: String,
-        /// The two files that hold the records.
+        /// Both files that hold the results.
         files: [PathBuf; 2],
     },
-    /// A table with this number of records does not fit into the memory.
+    /// The memory does not suffice for a table with this number of rows.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
-    /// The study needs more memory on this number of threads than the system has.
+    /// The study needs more memory on this number of threads than the system provides.
     #[error(
         "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
         memory_size(*bytes)
@@ -80,16 +80,16 @@ pub enum StudyError {
     Memory {
         /// Number of threads.
         jobs: u64,
-        /// Memory that the study needs, bytes.
+        /// Memory that the study needs, in bytes.
         bytes: u64,
     },
-    /// The system starts no thread, for this reason.
+    /// The system starts no thread, for the contained reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
 
 impl StudyError {
-    /// Error of a value at a place, or of a request as a whole.
+    /// Makes the error of a value at a place, or of a request as a whole.
     pub(super) fn refused(
         place: Option<&str>,
         found: impl Into<String>,
@@ -98,15 +98,15 @@ impl StudyError {
         StudyError::Refused { place: place.map(str::to_owned), found: found.into(), allowed: allowed.into() }
     }
 
-    /// Error of a request for several profiles of a scene that has a single one.
+    /// Makes the error of a request for several profiles of a scene that has one.
     pub(super) fn fixed_profile() -> StudyError {
         StudyError::refused(None, ONE_PROFILE.0, ONE_PROFILE.1)
     }
 
-    /// Number of profiles of a scene.
+    /// Checks the number of profiles of a scene.
     ///
     /// # Errors
-    /// No profiles, or several of a scene that has a single one.
+    /// The number is zero, or above one for a scene that has one profile.
     pub(super) fn check_profiles(scene: &Scene, profiles: u64) -> Result<(), StudyError> {
         match profiles {
             0 => Err(StudyError::refused(None, "no profiles", "at least one")),

@@ -1,8 +1,8 @@
-//! The inverse question: at which value of a number of a scene, or at which preload, a quantity reaches a target.
+//! The inverse question: at which value of a number of a scene, or at which preload, does a quantity reach a target?
 //!
-//! Each profile is searched for itself. The adhesion force over the preload is a staircase that never falls, so two preloads
-//! bracket its only crossing; any other quantity is first scanned over the searched range. A bracket is then narrowed until
-//! its ends agree to [`WITHIN`](super::question::WITHIN): at a step, one end lies before the step and one behind.
+//! Each profile is searched separately. The adhesion force never falls with the preload, so two preloads bracket its only
+//! crossing. Any other quantity is first computed at several numbers over the searched range. A bracket is then narrowed
+//! until its ends agree to [`WITHIN`](super::question::WITHIN). At a step, one end lies before the step and one behind it.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_profiles};
@@ -11,27 +11,27 @@ use super::question::{Answer, Question};
 use asperity_data::{Control, between, format_quantity, format_range};
 use asperity_scene::{Document, Simulation};
 
-/// Relative change of a quantity over the whole searched range up to which the number does not act on it: the error by the number
-/// of springs changes with the scene.
+/// Largest relative change of a quantity over the searched range with which the number counts as without influence. The
+/// error by the number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
-/// Answers of all profiles.
+/// Answers to an inverse question on all profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// The question.
+    /// Question that is answered.
     pub question: Question,
     /// Answers of the profiles, in the order of their seeds.
     pub answers: Vec<Answer>,
-    /// Reason why the scene does not allow some number of the range; `None` if all searched numbers are allowed.
+    /// Reason why the scene does not allow a number of the searched range; `None` if all numbers are allowed.
     pub refused: Option<String>,
 }
 
-/// Finds the number at a path of the scene of a document, or the `preload`, at which a quantity has this value in its SI unit:
-/// on each of `profiles` random profiles, within the range that [`Question::new`] states. The progress is the number of
-/// profiles.
+/// Finds the value of a number of a scene at which a quantity has a given value. `condition` is the quantity with this
+/// value in its SI unit. `path` is the path of the number, or `preload`. Each of `profiles` random profiles is searched
+/// within the range of [`Question::new`]. The reported progress is the number of finished profiles.
 ///
 /// # Errors
-/// As for [`Question::new`] and [`Found::of`], and no threads.
+/// No threads are allowed. The errors of [`Question::new`] and [`Found::of`] are possible too.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -59,11 +59,12 @@ pub fn find(
 }
 
 impl Found {
-    /// Finds the numbers on all profiles. `jobs` threads share the profiles, the first with this simulation; no bit
-    /// depends on their number. After each profile `report` receives the number of finished profiles.
+    /// Answers a question on all profiles. `jobs` threads share the profiles, and `simulation` serves the first thread. The
+    /// results do not depend on the number of threads. After each profile `report` receives the number of finished
+    /// profiles.
     ///
     /// # Errors
-    /// The scene does not have the quantity, the number does not act on the quantity, a profile fails, or `stop` returned true.
+    /// The scene lacks the quantity, the number has no influence on the quantity, a profile fails, or `stop` returned true.
     pub fn of(
         question: Question,
         (simulation, jobs): (Simulation, usize),
@@ -87,8 +88,8 @@ impl Found {
         Ok(found)
     }
 
-    /// Returns an error if no profile has the quantity, if a preload is out of reach, or if the number does not change the
-    /// quantity.
+    /// Returns an error if no profile has the quantity, if a preload cannot be reached, or if the number has no influence
+    /// on the quantity.
     fn check(&self) -> Result<(), StudyError> {
         let Question { axis, quantity, searched, .. } = &self.question;
         let name = quantity.symbol_or_name();
@@ -118,21 +119,21 @@ impl Found {
         Ok(())
     }
 
-    /// The number of each profile: the first crossing, for a preload the smallest one that reaches the target; `None` for a
-    /// profile on which the quantity does not cross the target.
+    /// Returns for each profile the number at which the quantity reaches the target: the first crossing, or the smallest
+    /// preload that reaches the target. A profile on which the quantity does not cross the target has `None`.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers.iter().map(|answer| answer.value(&self.question)).collect()
     }
 
-    /// Smallest and largest value of the quantity that the search met on any profile.
+    /// Returns the smallest and the largest value of the quantity that the search met on any profile.
     pub fn reachable(&self) -> Option<(f64, f64)> {
         let all = || self.answers.iter().filter_map(|answer| answer.reachable);
         let least = all().map(|ends| ends.0).reduce(f64::min)?;
         Some((least, all().map(|ends| ends.1).reduce(f64::max)?))
     }
 
-    /// Numbers of the profiles in ascending order. A profile without a crossing is beyond the end of the searched range where
-    /// its crossing must lie: where the quantity rises, beyond the largest number if it is below the target.
+    /// Returns the numbers of the profiles in ascending order. A profile without a crossing lies beyond the end of the
+    /// searched range where its crossing must be. If the quantity rises and is below the target, this is the upper end.
     fn ascending(&self) -> Vec<f64> {
         let slope = |answer: &Answer| i64::from(answer.reached[1]) - i64::from(answer.reached[0]);
         let rises = self.answers.iter().map(slope).sum::<i64>() >= 0;
@@ -144,7 +145,8 @@ impl Found {
         places
     }
 
-    /// Quantile over all profiles: 0.5 is the median. `None` where it lies beyond the searched range.
+    /// Returns a quantile of the numbers over all profiles, such as the median for 0.5; `None` if it lies beyond the
+    /// searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let places = self.ascending();
         let place = share * places.len().checked_sub(1)? as f64;
@@ -154,7 +156,7 @@ impl Found {
         Some(value).filter(|value| value.is_finite())
     }
 
-    /// Smallest and largest number of the profiles that have one.
+    /// Returns the smallest and the largest number that was found on a profile.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = || self.values().into_iter().flatten();
         values().reduce(f64::min).zip(values().reduce(f64::max))

@@ -1,4 +1,4 @@
-//! A grid of cells over one or two axes, as maps, sections and tables of a study or of the live map show it.
+//! A grid of cells over one or two axes. Maps, curves and tables of a study show such a grid.
 
 use super::axis::Axis;
 use super::quantity::Quantity;
@@ -9,35 +9,36 @@ use asperity_scene::RoughnessParameter;
 
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// A cell of a grid.
+/// Cell of a grid: the results for one value on each axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridCell {
-    /// Statistics of the quantity of each layer, in their order; `None` if no profile has a value.
+    /// Statistics of the quantity of each layer, in the order of [`Grid::layers`]; `None` if no profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Number of profiles in each regime, by each protocol of [`Quantity::REGIMES`].
+    /// Numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero force.
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Number of profiles in each regime: turned at zero force if `quantity` is that regime, otherwise from first touch.
+    /// Returns the numbers of profiles in each regime. The loading turns at zero force if `quantity` is the regime turned
+    /// at zero force, otherwise at first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
 }
 
-/// A quantity of a grid, with its scale.
+/// Quantity of a grid with the scale on which it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridLayer {
-    /// Which quantity it is.
+    /// Quantity that the layer shows.
     pub quantity: Quantity,
-    /// Scale on which the quantity is shown.
+    /// Scale of the quantity, linear or logarithmic.
     pub scale: AxisScale,
-    /// Smallest and largest mean that the scale can show, over all grids that share it.
+    /// Smallest and largest mean that the scale can show, over all grids with this scale; `None` if there is none.
     pub range: Option<(f64, f64)>,
 }
 
 impl GridLayer {
-    /// A quantity with the range of its means, on the given scale or on one chosen from the means.
+    /// Makes a layer of a quantity with the range of its means, on the given scale or on a scale that suits the means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let shown = means.iter().filter(|mean| scale.coordinate(**mean).is_finite());
@@ -46,7 +47,8 @@ impl GridLayer {
     }
 }
 
-/// Logarithmic scale if all means are above zero and a third of them are below a fiftieth of the largest; otherwise linear.
+/// Returns the logarithmic scale if all means are above zero and a third of them are below a fiftieth of the largest.
+/// Otherwise returns the linear scale.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
@@ -54,29 +56,29 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
-/// Values on the axes of a grid: across and, if the grid has two axes, up.
+/// Value on the horizontal axis of a grid, and on its vertical axis if it has one.
 pub type GridPlace = (f64, Option<f64>);
 
-/// Cells over one axis or two.
+/// Cells over one axis or two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// Axis of the columns, ascending.
+    /// Horizontal axis, with an ascending value for each column.
     pub across: Axis,
-    /// Axis of the rows, ascending; `None` for a grid along one axis.
+    /// Vertical axis, with an ascending value for each row; `None` for a grid along one axis.
     pub up: Option<Axis>,
-    /// Values of the study's other axes, in words: `H = 0.3`.
+    /// Values of the other axes of the study in words, such as `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities of the grid, apart from the regimes.
+    /// Quantities of the grid other than the regimes.
     pub layers: Vec<GridLayer>,
-    /// Cells row by row from the lowest row; `None` is not computed yet, and an error is the reason why a cell could not be
-    /// computed.
+    /// Cells row by row from the lowest row. `None` is a cell that is not computed yet, and an error is the reason why a
+    /// cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
     /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
 impl Grid {
-    /// Creates a grid that shows each cell itself.
+    /// Creates a grid in which no cell is shown in place of another.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -88,44 +90,46 @@ impl Grid {
         Grid { across, up, fixed, layers, cells, stand_ins }
     }
 
-    /// Numbers of columns and rows.
+    /// Returns the numbers of columns and rows.
     pub fn size(&self) -> (usize, usize) {
         (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
     }
 
-    /// The layer that shows a quantity.
+    /// Returns the layer that shows a quantity.
     pub fn layer(&self, quantity: Quantity) -> Option<&GridLayer> {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// The quantities of the grid, with the regime turned at first touch first and the regime turned at zero force last, if known.
+    /// Returns the quantities of the grid. If regimes are known, the regime turned at first touch comes first and the
+    /// regime turned at zero force last.
     pub fn quantities(&self) -> Vec<Quantity> {
         let [touch, zero_force] = Quantity::REGIMES
             .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));
         touch.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).chain(zero_force).collect()
     }
 
-    /// Returns true if in some cell too many profiles are in a second regime.
+    /// Returns true if in some cell too few profiles agree on one regime.
     pub fn is_split(&self, regime: Quantity) -> bool {
         self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// The cell shown at a column and a row, with its own column and row: the cell there or, until that is computed, a cell
-    /// of a coarser grid.
+    /// Returns the cell that is shown at a column and a row, with its own column and row. Until the cell itself is
+    /// computed, a cell of a coarser grid is shown.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
         Some((self.cells[index].as_ref()?, index % columns, index / columns))
     }
 
-    /// The cells; for `whole` the cells shown in place of each.
+    /// Returns the cells, or with `whole` the cells that are shown in place of them.
     fn each(&self, whole: bool) -> impl Iterator<Item = Option<&GridCell>> {
         let index = move |index: usize| if whole { self.stand_ins[index] } else { index };
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
 
-    /// A quantity in all cells, row by row; `whole` also shows other cells in place of cells not computed yet. A regime
-    /// counts from 0, non-adhesive, to 1, pressure-insensitive; the mean of the two most frequent ones if profiles disagree.
+    /// Returns the statistics of a quantity in all cells, row by row. With `whole`, a cell that is not computed yet has the
+    /// statistics of the cell shown in its place. A regime counts as 0 (non-adhesive), ½ or 1 (pressure-insensitive). If
+    /// profiles disagree, the cell has the mean of the two most frequent regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
@@ -142,15 +146,16 @@ impl Grid {
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
-    /// The regime of most profiles of each cell, row by row, by the protocol of [`GridCell::regimes_of`]; empty if no regime is
-    /// known.
+    /// Returns the regime of most profiles of each cell, row by row; empty if no regime is known. The loading turns as in
+    /// [`GridCell::regimes_of`]. With `whole`, a cell that is not computed yet has the regime of the cell shown in its
+    /// place.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 
-    /// Returns true for values on the grid, including half a cell beyond the outermost values.
+    /// Returns true if values lie on the grid, which extends half a cell beyond its outermost values.
     pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
@@ -158,7 +163,7 @@ impl Grid {
         within(column, columns) && within(row, rows)
     }
 
-    /// Fractional column and row of values on the axes.
+    /// Returns the fractional column and row of values on the axes.
     fn coordinates(&self, (across, up): GridPlace) -> (f64, f64) {
         let place = |axis: &Axis, value| axis.scale().place(&axis.values, value);
         (
@@ -167,7 +172,8 @@ impl Grid {
         )
     }
 
-    /// The cell shown at values on the axes, or for values beyond the grid the cell at its edge, with its column and row.
+    /// Returns the cell that is shown at values on the axes, with its column and row. Beyond the grid, returns the cell at
+    /// the edge.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
@@ -176,8 +182,8 @@ impl Grid {
     }
 }
 
-/// Indices of the axes across and up: H goes across and κ or e_el/γ up; of other free axes the first goes across. `None` if
-/// no axis is free.
+/// Returns the indices of the horizontal and the vertical axis. H is horizontal, and κ or e_el/γ vertical. Among other free
+/// axes the first is horizontal. Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
     let find = |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(&axes[*axis].path));
     let other = |one: Option<usize>| free.iter().copied().find(|axis| Some(*axis) != one);

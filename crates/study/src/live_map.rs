@@ -1,4 +1,5 @@
-//! The live map over κ or e_el/γ and H: a study in memory, computed from coarse to fine.
+//! The map of a scene in the explorer, over H and κ or e_el/γ. It is a study in memory that is computed from coarse to
+//! fine.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -10,18 +11,18 @@ use super::results::Results;
 use asperity_scene::Simulation;
 use std::collections::BTreeMap;
 
-/// Number of springs above which a map gets fewer cells, and number above which it gets still fewer.
+/// Number of springs above which a map gets fewer cells, and number above which it gets even fewer.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// Resolution of a map. Every level contains the cells of the level before.
+/// Resolution of a map. Each level contains the cells of the level before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 × 5 cells.
     Coarse,
     /// 9 × 9 cells.
     Medium,
-    /// 17 values of κ or e_el/γ, and all values of H.
+    /// 17 values of κ or e_el/γ, with all values of H.
     Fine,
     /// All cells.
     Whole,
@@ -31,13 +32,14 @@ impl Level {
     /// All levels, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Finest level of a map with this number of springs: springs in large numbers take long, so the map has fewer cells.
+    /// Returns the finest level of a map with this number of springs. Many springs take long, so the map has fewer cells.
     fn finest(springs: u64) -> Level {
         let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
         Level::ALL[3 - too_fine]
     }
 
-    /// Indices of the values of an axis on this level, at about equal distances; all values of an axis with little more.
+    /// Returns the indices of the values of an axis on this level at about equal distances. An axis with few values has all
+    /// of them.
     fn places(self, axis: &Axis) -> Vec<usize> {
         let (wanted, all) = ([5, 9, 17, 33][self as usize], axis.values.len());
         if 4 * all <= 5 * wanted {
@@ -48,7 +50,7 @@ impl Level {
     }
 }
 
-/// A map with the cells computed so far.
+/// Map over κ or e_el/γ and H with the cells that are computed so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -64,12 +66,13 @@ impl LiveMap {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
 
-    /// The plan of all cells.
+    /// Returns the plan of all cells.
     pub fn plan(&self) -> &Plan {
         self.results.plan()
     }
 
-    /// The cells of a level, grouped by H: for each H the cells of all κ or e_el/γ.
+    /// Returns the numbers of the cells on a level in groups. Each group has one H and all values of κ or e_el/γ of the
+    /// level.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
@@ -83,7 +86,7 @@ impl LiveMap {
         self.failed.contains_key(&cell) || self.results.is_whole(cell)
     }
 
-    /// Sets the values of a cell on one profile, in the order of `MAP_RECORD`.
+    /// Sets the values of a cell on the profile with the index `line`, in the order of the recorded quantities of the plan.
     pub fn set(&mut self, cell: u64, line: u64, values: &[f64]) {
         self.results.set(cell * self.plan().lines + line, values);
     }
@@ -97,19 +100,19 @@ impl LiveMap {
         self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
     }
 
-    /// The finest complete level.
+    /// Returns the finest complete level; `None` if no level is complete.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true if all cells are known.
+    /// Returns true if each cell is computed or cannot be computed.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing cells, from coarse to fine; all κ of one H are on the same profiles. `report` receives the map
-    /// after each H. Stops as soon as `stop` returns true, with the records so far kept. A cell that cannot be computed
-    /// keeps the reason.
+    /// Computes the missing cells from coarse to fine, with all κ of one H on the same profiles. `report` receives the map
+    /// after each H. The computation ends as soon as `stop` returns true, and keeps its results. A cell that cannot be
+    /// computed keeps the reason.
     pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
@@ -135,8 +138,8 @@ impl LiveMap {
         }
     }
 
-    /// The map for display: H across, and κ or e_el/γ up as in the paper. Cells have the range of their profiles, since
-    /// these are too few for a confidence interval.
+    /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis, as in the paper.
+    /// Cells show the range of their profiles, because few profiles give no confidence interval.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =
@@ -154,7 +157,8 @@ impl LiveMap {
         grid
     }
 
-    /// Index of the cell shown in place of a cell: the cell itself or, until it is computed, a cell of a coarser level.
+    /// Returns the index of the cell shown in place of a cell: the cell itself or, until it is computed, a cell of a
+    /// coarser level.
     fn stand_in(&self, cell: u64) -> u64 {
         let plan = self.plan();
         let on_level = |level: Level| {

@@ -9,7 +9,7 @@ use asperity_scene::FEW_SAMPLES;
 use asperity_scene::RoughnessParameter::Kappa;
 use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 
-/// Number of random profiles of each cell.
+/// Number of random profiles in each cell of a map.
 pub const MAP_LINES: u64 = 4;
 /// Quantities recorded in each cell.
 pub const MAP_RECORD: [Quantity; 6] = [
@@ -20,9 +20,10 @@ pub const MAP_RECORD: [Quantity; 6] = [
     Quantity::RegimeAfterZeroForce,
     Quantity::AdhesionShare,
 ];
-/// Smallest and largest usual number of springs of a map. A scene with fewer keeps its own number; short waves need more.
+/// Smallest and largest usual number of springs of a map. A scene with fewer springs keeps its own number, and short waves
+/// need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
-/// Representatives of all κ and all H.
+/// Values of κ and H that represent all others.
 const ANY: (f64, f64) = (1.0, 0.5);
 
 /// Values of κ: quarters of octaves from 1/8 to 32.
@@ -30,17 +31,17 @@ const KAPPAS: u32 = 33;
 /// Values of H, from 0.05 to 0.95.
 const HURSTS: u32 = 19;
 
-/// Values of κ to three digits, so that a scene set to a shown value is that of the cell.
+/// Returns the values of κ with three digits, so that a scene with a shown value is exactly the scene of the cell.
 fn kappas() -> Vec<f64> {
     let exact = |index: u32| ((f64::from(index) - 12.0) / 4.0).exp2();
     (0..KAPPAS).map(|index| round_to(exact(index), 3)).collect()
 }
 
-/// The study of all cells of the live map of a checked scene: κ and, if its roughness has one, H. Scenes that
-/// differ only in these or in the resolution of their curve have the same.
+/// Returns the plan of the map of a checked scene, over κ, and over the Hurst exponent H if the roughness has one. Scenes
+/// that differ only in these numbers or in the number of curve points have the same map.
 ///
 /// # Errors
-/// The reason why the scene has no map.
+/// The scene has no map, for the returned reason.
 ///
 /// ```
 /// use asperity_study::{MAP_LINES, live_plan};

@@ -1,8 +1,8 @@
 //! The measured files of a study: surfaces, and the table of a form. Their content determines the results as much as the
-//! plan does, so the plan holds its hash, and a run computes with exactly the bytes that were hashed.
+//! plan does. The plan therefore holds the hash of the files, and a run computes with exactly the bytes that were hashed.
 //!
-//! The hash is SHA-256 rather than the checksum of records: one in 4e9 accidental changes would pass a CRC of 32 bits, and
-//! `sha256sum` identifies the right copy of a file.
+//! The hash is SHA-256, because one in 4e9 accidental changes would pass a checksum of 32 bits. `sha256sum` identifies the
+//! right copy of a file.
 
 use super::error::StudyError;
 use super::plan::{PLAN_FILE, Plan};
@@ -14,12 +14,12 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Path of the first measured file of a plan; `None` if its scene has no file.
+/// Returns the path of the first measured file of a plan; `None` if its scene has no file.
 pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
     plan.scene.measured_files().first().map(PathBuf::from)
 }
 
-/// The plan with the present hash of its measured file.
+/// Returns the plan with the present hash of its measured file.
 ///
 /// # Errors
 /// The file cannot be read, or its hash differs from the hash in the plan.
@@ -28,7 +28,7 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     Ok(Plan { measured_sha256, ..plan.clone() })
 }
 
-/// The measured roughness of the study in a folder; `None` if the study has none.
+/// Returns the measured roughness of the study in a folder; `None` if the study has none.
 ///
 /// # Errors
 /// The file cannot be read, is no surface, or its hash differs from the hash in the plan.
@@ -47,8 +47,8 @@ pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> S
     )
 }
 
-/// The surface of a plan, if it has one, and the hash of its bytes, which must equal the hash in the plan. Several files are
-/// hashed one after the other; of a table besides a surface, its own hash is added.
+/// Returns the surface of a plan, if it has one, and the hash of its bytes, which must equal the hash in the plan. Several
+/// files are hashed one after the other. A table besides a surface adds its own hash.
 fn read(
     plan: &Plan,
     origin: impl Fn() -> String,

@@ -1,9 +1,9 @@
 //! Adhesion of a measured surface with two spreads: over random profiles of one spectrum, and over the spectra that the
-//! measurement leaves possible.
+//! measurement allows.
 //!
-//! Each random profile is solved with the fitted spectrum and, with the same phases, with a spectrum changed a little in a
-//! direction drawn from the uncertainty of the fit. Forces with the fitted spectrum differ from profile to profile; the two
-//! forces of one profile differ because of the spectrum alone.
+//! Each random profile is solved twice with the same phases. Its first spectrum is the fitted one. The second differs a
+//! little, in a direction drawn from the uncertainty of the fit. The first forces differ from profile to profile. Both
+//! forces of one profile differ only because of the spectrum.
 
 use super::error::StudyError;
 use super::quantity::Quantity;
@@ -17,28 +17,29 @@ use asperity_surface::{EquivalentLine, MeasuredRoughness, read_faces};
 use serde::Serialize;
 use std::sync::Arc;
 
-/// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first order; its longest
+/// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first order. Its longest
 /// waves are nearly unknown, and a whole step of their logarithms could be several powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
-/// Adhesion of one random profile.
+/// Adhesion of one random profile of a measured surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ProfileAdhesion {
-    /// Seed of the profile.
+    /// Seed of the random phases of the profile.
     pub seed: u64,
-    /// Adhesion force F_a with the fitted spectrum, N; `None` without a tensile force.
+    /// Adhesion force F_a with the fitted spectrum, N; `None` if the body never pulls.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a, N, to first order, for one step of the spectrum drawn from the uncertainty of the fit.
+    /// Change of F_a in N, to first order, for a change of the spectrum drawn from the uncertainty of the fit.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion with the fitted spectrum, from first touch.
+    /// Regime of adhesion with the fitted spectrum, if the loading turns at first touch.
     pub regime: Option<Regime>,
-    /// Regime of adhesion with the fitted spectrum, turned at zero force.
+    /// Regime of adhesion with the fitted spectrum, if the loading turns at zero force.
     pub regime_after_zero_force: Option<Regime>,
 }
 
 impl ProfileAdhesion {
-    /// Solves the scene of a measured surface on one random profile of its equivalent line.
+    /// Computes the adhesion of a scene on the random profile of this seed. `line` has the spectrum of the measured
+    /// surface.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -68,20 +69,21 @@ impl ProfileAdhesion {
     }
 }
 
-/// Adhesion of several random profiles of a measured surface.
+/// Adhesion of several random profiles of one measured surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredAdhesion {
-    /// The profiles, in the order of their seeds.
+    /// Results on the profiles, in the order of their seeds.
     pub profiles: Vec<ProfileAdhesion>,
 }
 
 impl MeasuredAdhesion {
-    /// Solves the scene of a document on `count` profiles of its measured surface: the scene's seed and the seeds
-    /// that follow. The files are read with the scene's own options, relative to the folder of the scene file. `jobs`
-    /// threads share the profiles; no bit of a result depends on their number.
+    /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface, beginning
+    /// with the seed of the scene. The files are read with the options of the scene, relative to the folder of the scene
+    /// file. `jobs` threads share the profiles. The results do not depend on the number of threads.
     ///
     /// # Errors
-    /// The scene has no equivalent line of a measured surface, a file cannot be read, or a profile fails: the first one.
+    /// The scene makes no random profiles from a measured surface, a file cannot be read, or a profile fails. Of several
+    /// errors the first is returned.
     ///
     /// ```
     /// let folder = tempfile::tempdir()?;
@@ -120,7 +122,8 @@ impl MeasuredAdhesion {
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Solves a scene as [`MeasuredAdhesion::of`] does, with an equivalent line made with the options of the scene.
+    /// Does the same as [`MeasuredAdhesion::of`] for a checked scene. `line` has the spectrum of its measured surface,
+    /// analysed with the options of the scene.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -137,20 +140,22 @@ impl MeasuredAdhesion {
         Ok(MeasuredAdhesion { profiles })
     }
 
-    /// Statistics of the adhesion force, N, over the profiles with the fitted spectrum.
+    /// Returns the statistics of the adhesion force in N over the profiles with the fitted spectrum; `None` if no profile
+    /// has one.
     pub fn adhesion_force(&self) -> Option<Statistics> {
         let forces = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
         Statistics::of(forces, Quantity::AdhesionForce.bounds())
     }
 
-    /// Standard deviation of the adhesion force, N, due to the uncertainty of the spectrum: root mean square of the changes
-    /// on all profiles. `None` for fewer than two profiles.
+    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the spectrum; `None` for fewer
+    /// than two profiles. It is the root mean square of the changes on all profiles.
     pub fn fit_deviation(&self) -> Option<f64> {
         rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
     }
 
-    /// Interval around the median adhesion force, N, by the root mean square of its relative changes with the spectrum, on
-    /// a logarithmic scale, since no force is below 0. `None` for fewer than two profiles.
+    /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for
+    /// fewer than two profiles. Its ends are the median divided by a factor and multiplied by this factor, which follows
+    /// from the relative changes of the forces.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
@@ -160,14 +165,15 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Number of profiles in each regime: turned at first touch and at zero force.
+    /// Returns the numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero
+    /// force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))
     }
 }
 
-/// Root mean square of at least two numbers; `None` for fewer.
+/// Returns the root mean square of at least two numbers; `None` for fewer.
 fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     let numbers: Vec<f64> = numbers.collect();
     (numbers.len() >= 2).then(|| root_mean_square(numbers)).flatten()

@@ -5,7 +5,7 @@ use super::error::StudyError;
 use super::plan::{MOST_CHECKED, Plan};
 use asperity_data::check_room;
 
-/// Bytes of code, stacks, files and the reserve of the allocator.
+/// Memory in bytes of code, stacks, files and the reserve of the allocator.
 const PROGRAM: u64 = 16 << 20;
 /// Bytes per spring of a Fourier transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
 const KEPT: u64 = 20;
@@ -14,8 +14,8 @@ const LONGEST_KEPT: u64 = 1 << 22;
 const REVERSED: u64 = 192;
 
 impl Plan {
-    /// Returns the largest memory, bytes, that the study takes with this number of threads, each with the largest scene of
-    /// the plan.
+    /// Returns the largest memory in bytes that the study needs on `jobs` threads, if each thread computes the largest
+    /// scene of the plan.
     ///
     /// # Errors
     /// The study needs more memory than the system provides now.

@@ -1,4 +1,4 @@
-//! Values of axes in scenes: the value that a scene has on an axis, and scenes with other values.
+//! The value that a scene has on an axis, and scenes with other values.
 
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
@@ -8,8 +8,8 @@ use asperity_scene::{
 };
 
 impl Axis {
-    /// Value of the quantity in a scene; `None` if the scene has none. `computed` are the governing parameters of a scene
-    /// whose file must be read to obtain them.
+    /// Returns the value of the quantity in a scene; `None` if the scene has none. `computed` has parameters such as κ,
+    /// which for a measured surface follow only from its file.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -27,11 +27,12 @@ impl Axis {
     }
 }
 
-/// The scene with other values on axes: first numbers of the scene, then quantities that follow from several numbers, then
-/// κ or e_el/γ in place of a work of adhesion. A preload is no part of a scene; the run applies it.
+/// Returns the scene with other values on axes. Numbers of the scene are set first, then quantities that follow from
+/// several numbers, then κ or e_el/γ in place of a work of adhesion. The run applies a preload, which is no part of a
+/// scene.
 ///
 /// # Errors
-/// The path of a number that the scene does not have, with the reason.
+/// The scene lacks a number. The error has its path and the reason.
 pub(super) fn scene_with<'a>(
     base: &Scene,
     values: impl Iterator<Item = (&'a Axis, f64)>,
@@ -69,14 +70,14 @@ pub(super) fn scene_with<'a>(
     Ok(scene)
 }
 
-/// The adhesion of a scene by a parameter; the range of attraction stays.
+/// Returns the adhesion of a scene by a parameter. The range of attraction stays.
 fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> Adhesion {
     let by_parameter = Adhesion::by_parameter(parameter, value);
     scene.adhesion.map_or(by_parameter, |adhesion| adhesion.with_parameter(parameter, value))
 }
 
-/// Path and value of the shortest wave that has this number of springs, as a mode or, if the scene states wavelengths, as a
-/// wavelength.
+/// Returns path and value of the shortest wave that has this number of springs. The value is a mode, or a wavelength if the
+/// scene has wavelengths.
 fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
     let [points, length] = ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
     match tree.get("roughness.wavelengths.1") {
@@ -85,7 +86,7 @@ fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// The physical numbers of a scene, except counts and zeros, each with an axis over it that has no values.
+/// Returns the physical numbers of a scene except counts and zeros, each with an axis over it that has no values.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let tree = Tree::of(scene);
     let is_physical =
@@ -108,7 +109,7 @@ pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     Some(Governing::of(scene, Some(unit), None))
 }
 
-/// Unit of preloads E* h L, N, of a scene with a self-affine profile.
+/// Returns the unit E* h L of preloads in N, for a scene with a self-affine profile.
 fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
 }
@@ -120,8 +121,8 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
     }
 }
 
-/// The document with other values on axes. A scene given by its work of adhesion remains so at another κ or e_el/γ, and a
-/// preload replaces the loading; both are set last, since they depend on the others.
+/// Returns the scene file with other values on axes. A scene that states a work of adhesion gets the work that belongs to
+/// another κ or e_el/γ. A preload replaces the loading of the scene.
 ///
 /// # Errors
 /// A value is not allowed.

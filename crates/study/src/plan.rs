@@ -11,71 +11,73 @@ use serde::{Deserialize, Serialize};
 pub(super) const PLAN_FILE: &str = "plan.ron";
 pub(super) const PRELOAD: &str = "preload";
 
-/// Limit of the number of cells of a plan.
+/// Largest number of cells of a plan.
 pub const MOST_CELLS: u64 = 10_000_000;
-/// Limit of the number of profiles of a plan.
+/// Largest number of profiles of a plan.
 pub const MOST_LINES: u64 = 1_000_000;
-/// Limit of the number of records of a plan: cells times profiles.
+/// Largest number of records of a plan, which is cells times profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
-/// Number of scenes up to which each is checked; of more scenes, only the ones at the ends of all axes are checked.
+/// Largest number of scenes that are all checked. Of more scenes, only the scenes at the ends of all axes are checked.
 pub(super) const MOST_CHECKED: u64 = 4096;
-/// Number of cells with invalid scenes that are named; further ones are counted.
+/// Largest number of cells with invalid scenes that are named. Further ones are counted.
 const MOST_NAMED: usize = 8;
 const MOST_FORCES: u64 = 1000;
 
-/// Groups of axes that set the same quantity; a plan may have one axis of each group.
+/// Groups of axes that set the same quantity. A plan may have one axis of each group.
 const SAME: [&[&str]; 3] = [
     &[PRELOAD, "preload_in_N"],
     &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
 
-/// A checked plan.
+/// Checked plan of a study. A *cell* is a combination of one value on each axis. A *record* has the recorded quantities of
+/// a cell on one random profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Title of the study, one line.
+    /// Title of the study in one line.
     pub title: String,
-    /// Notice for the reader of the results.
+    /// Notice for readers of the results; may be empty.
     pub notice: String,
-    /// The scene whose numbers vary; its files have absolute paths.
+    /// Scene whose numbers vary. Its files have absolute paths.
     pub scene: Scene,
-    /// Axes; the last one varies fastest. An axis of preloads, in units of E* h L, is the last; without it the loading is
-    /// that of the scene.
+    /// Axes of the study; cells are counted with the last axis fastest. An axis of preloads is the last one, and replaces
+    /// the loading of the scene. Its unit is E* h L with the rms height h.
     pub axes: Vec<Axis>,
-    /// Number of random profiles of each cell.
+    /// Number of random profiles on which each cell is computed.
     pub lines: u64,
-    /// Seed of the first profile; the seeds of the others follow, and are the same in all cells.
+    /// Seed of the first profile. The seeds of the other profiles follow, and are the same in all cells.
     pub seed: u64,
-    /// Recorded quantities.
+    /// Quantities that are recorded for each cell and profile.
     pub record: Vec<Quantity>,
-    /// Forces over which the exponents of the contact without adhesion are fitted.
+    /// Range of forces over which the exponents of force and stiffness without adhesion are fitted.
     pub stiffness: StiffnessRange,
-    /// SHA-256 of the content of the measured file, 64 hexadecimal digits; set in the folder of a study.
+    /// SHA-256 of the content of the measured file as 64 hexadecimal digits; `None` outside the folder of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Forces over which the exponents of the contact without adhesion are fitted, in units of E* h L.
+/// Range of forces over which the exponents of force and stiffness without adhesion are fitted, in units of E* h L.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
-    /// Smallest force, above zero.
+    /// Smallest force of the range, above zero.
     pub from: f64,
-    /// Largest force.
+    /// Largest force of the range.
     pub to: f64,
     /// Number of forces, at least 2, with equal ratios between them.
     pub count: u64,
 }
 
 impl Default for StiffnessRange {
-    /// From forces that a few waves carry to forces that flatten the long waves.
+    /// Returns a range from forces that a few waves carry to forces that flatten the long waves.
     fn default() -> Self {
         StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
     }
 }
 
 impl Plan {
-    /// The plan of a checked scene without axes: one cell on `lines` profiles, whose seeds begin with the scene's own.
+    /// Makes the plan of a checked scene without axes: one cell on `lines` profiles, whose seeds begin with the seed of the
+    /// scene.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
         Plan {
             title: String::new(),
@@ -90,22 +92,22 @@ impl Plan {
         }
     }
 
-    /// The axis of preloads, if the plan has one.
+    /// Returns the axis of preloads, if the plan has one.
     pub fn preloads(&self) -> Option<&Axis> {
         self.axes.last().filter(|axis| axis.is_of_preloads())
     }
 
-    /// The axes of numbers of the scene: all axes except the axis of preloads.
+    /// Returns the axes of numbers of the scene, without the axis of preloads.
     pub fn scene_axes(&self) -> &[Axis] {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Number of cells.
+    /// Returns the number of cells.
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }
 
-    /// Number of records: cells times profiles.
+    /// Returns the number of records, which is cells times profiles.
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }
@@ -114,8 +116,8 @@ impl Plan {
         self.places_on(0..self.axes.len(), cell)
     }
 
-    /// Indices of the values for combination `number` of these axes, of which the last one varies fastest; 0 on the other
-    /// axes.
+    /// Returns the indices of the values for combination `number` of these axes, of which the last one varies fastest. The
+    /// index is 0 on the other axes.
     pub(super) fn places_on(&self, axes: impl DoubleEndedIterator<Item = usize>, number: u64) -> Vec<usize> {
         let (mut rest, mut places) = (number, vec![0; self.axes.len()]);
         for axis in axes.rev() {
@@ -135,32 +137,32 @@ impl Plan {
         self.axes[axis].values[(cell / faster % self.axes[axis].count()) as usize]
     }
 
-    /// Values of the axes in a cell.
+    /// Returns the values of the axes in a cell, in the order of the axes.
     pub fn values(&self, cell: u64) -> Vec<f64> {
         (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
     }
 
-    /// Values of a cell on all axes, in words.
+    /// Returns the values of the axes in a cell as text.
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// The scene of a cell; its loading is the loading of the plan's scene, whatever the preload.
+    /// Returns the scene of a cell. Its loading is the one in the plan, without the preload of the cell.
     ///
     /// # Errors
-    /// An axis is over a number that the scene does not have, or values are out of their ranges.
+    /// The scene lacks the number of an axis, or values are out of their ranges.
     pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
         scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()
     }
 
-    /// Seed of the profile with this index.
+    /// Returns the seed of the profile with this index.
     pub fn seed_of(&self, line: u64) -> u64 {
         self.seed.wrapping_add(line)
     }
 
-    /// Index of a quantity among the recorded ones.
+    /// Returns the index of a quantity among the recorded quantities.
     pub fn column(&self, quantity: Quantity) -> Option<usize> {
         self.record.iter().position(|one| *one == quantity)
     }
@@ -170,8 +172,8 @@ impl Plan {
     }
 }
 
-/// Checks of a plan. The checks of the plan itself are quick; the scenes of its cells are checked when a plan is opened,
-/// not when the folder of a study is opened again.
+/// Checks of a plan. The checks of the plan itself are quick. The scenes of its cells are checked when a plan is opened,
+/// but not when the folder of a study is opened again.
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();
@@ -235,7 +237,7 @@ impl Plan {
         wrong
     }
 
-    /// Errors of title and notice, by the rules of a scene, and of a hash without a measured file.
+    /// Returns the errors of title and notice, by the rules of a scene, and of a hash without a measured file.
     fn errors_of_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };
@@ -268,10 +270,10 @@ impl Plan {
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// Cells that represent all: if their scenes are allowed, those of all cells are, and one of them takes the most
-    /// memory. They are the first cell of each combination of values except preloads; of more than `most` combinations,
-    /// those at the ends of all axes, since each condition of a scene bounds a number from one side or both, and so holds
-    /// between values at which it holds.
+    /// Returns cells that represent all cells. If their scenes are allowed, all are allowed, and one of them needs the most
+    /// memory. They are the first cell of each combination of values except preloads. Of more than `most` combinations,
+    /// only the cells at the ends of all axes are returned. Each condition of a scene bounds a number from one side or from
+    /// both, and so holds between values at which it holds.
     pub(super) fn extremes(&self, most: u64) -> Vec<u64> {
         let preloads = self.preloads().map_or(1, Axis::count);
         if self.cells() / preloads <= most {

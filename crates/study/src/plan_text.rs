@@ -1,4 +1,4 @@
-//! The text of a plan: reading it, with the scene that it names, and writing it.
+//! The text of a plan: how it is read, with the scene that it names, and how it is written.
 
 use super::axis::{Axis, AxisText, Spacing};
 use super::error::StudyError;
@@ -13,10 +13,10 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Version of the plan file; no other version is supported.
+/// Version of the plan file. No other version is supported.
 pub const PLAN_VERSION: u32 = 1;
 
-/// The built-in plans.
+/// Built-in plans of studies, such as `figure-6`.
 pub const PLANS: &[Preset] = built_in!("plans/":
     "figure-5a",
     "figure-5b",
@@ -27,12 +27,12 @@ pub const PLANS: &[Preset] = built_in!("plans/":
     "self-averaging"
 );
 
-/// Changes of a plan for one study, given apart from its text.
+/// Changes to a plan for one study, in addition to the text of the plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Overrides of the scene, as paths and values.
+    /// Fields of the scene that are replaced, as paths and values.
     pub set: Vec<(String, String)>,
-    /// Number of random profiles.
+    /// Number of random profiles; `None` for the number in the plan.
     pub lines: Option<u64>,
 }
 
@@ -66,11 +66,11 @@ struct PlanText {
 }
 
 impl Plan {
-    /// Opens and checks a plan: a file, if one of that name exists or the name looks like a path, else a built-in plan. A
-    /// scene that is given by a path is relative to the file of the plan.
+    /// Opens and checks a plan. `name_or_path` means a file if the file exists or if the text looks like a path. Otherwise
+    /// the text is the name of a built-in plan. The path of a scene is relative to the file of the plan.
     ///
     /// # Errors
-    /// All errors, including errors of the scenes of cells.
+    /// The plan cannot be read, or has errors, possibly in the scenes of its cells. All errors are returned.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};
@@ -91,10 +91,11 @@ impl Plan {
         Plan::parse(plan.text, plan.name, changes)
     }
 
-    /// A plan of a scene whose numbers vary: axes as paths and values in SI units, on `profiles` random profiles of each cell.
+    /// Makes a plan of a scene whose numbers vary. Each axis is a path with values in SI units. Each cell has `profiles`
+    /// random profiles.
     ///
     /// # Errors
-    /// All errors, including errors of the scenes of cells.
+    /// The plan has errors, possibly in the scenes of its cells. All errors are returned.
     ///
     /// ```
     /// use asperity_study::{Plan, Quantity};
@@ -126,10 +127,10 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The built-in plan with this name.
+    /// Returns the built-in plan with this name.
     ///
     /// # Errors
-    /// There is no such plan; all names are listed.
+    /// There is no plan of this name. The error lists all names.
     pub fn built_in(name: &str) -> Result<&'static Preset, StudyError> {
         PLANS.iter().find(|plan| plan.name == name).ok_or_else(|| {
             let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
@@ -139,18 +140,18 @@ impl Plan {
         })
     }
 
-    /// Reads and checks a plan; `name`, of its file, is for errors.
+    /// Reads and checks the text of a plan. Errors name the plan by `name`, which is usually its file.
     ///
     /// # Errors
-    /// As [`Plan::open`].
+    /// The same as the errors of [`Plan::open`].
     pub fn parse(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let plan = Plan::read(text, name, changes)?;
         plan.check_cells().map_err(|wrong| in_plan(wrong, name))?;
         Ok(plan)
     }
 
-    /// Reads a plan and checks all but the scenes of its cells: for the plan in the folder of a study, whose cells were
-    /// checked when the study began.
+    /// Reads a plan and checks it without the scenes of its cells. The plan in the folder of a study is read in this way,
+    /// because its cells were checked when the study began.
     pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |what: String| StudyError::Plan(vec![format!("{name}: {what}")]);
@@ -208,7 +209,7 @@ impl Plan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
-    /// Writes the plan as canonical text, including its scene; parsing the text returns the same plan.
+    /// Writes the plan as canonical text with its scene. Reading the text gives the same plan.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};
@@ -260,7 +261,7 @@ fn in_plan(wrong: Vec<String>, name: &str) -> StudyError {
     StudyError::Plan(wrong.into_iter().map(|wrong| format!("{name}: {wrong}")).collect())
 }
 
-/// The scene of a plan with all overrides and with absolute paths.
+/// Returns the scene of a plan with all replaced fields and with absolute paths.
 fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, StudyError> {
     let in_scene =
         |errors: SceneErrors| in_plan(errors.to_string().lines().map(str::to_owned).collect(), name);
@@ -281,7 +282,7 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
     Ok(with_absolute_paths(&document))
 }
 
-/// The scene of a document, whose files are found from any folder.
+/// Returns the scene of a document whose files are found from any folder.
 fn with_absolute_paths(document: &Document) -> Scene {
     let mut scene = Scene::clone(document.scene());
     scene.rename_measured_files(|file| {

@@ -1,4 +1,5 @@
-//! Adhesion force of the scene against preload: first the staircase of its own profile, then the spread over random profiles.
+//! The adhesion force of a scene against the preload: first the staircase of its own profile, then the statistics over
+//! random profiles.
 
 use crate::axis::Axis;
 use crate::preloads::Staircase;
@@ -10,23 +11,23 @@ use asperity_contact::Move;
 use asperity_data::AxisScale;
 use asperity_scene::{CheckedScene, Outcome, Simulation, Solver};
 
-/// Number of preloads, and index of the scene's own preload among them: a linear axis extends from the force at first touch
-/// to twice the preload, a logarithmic one over six decades, two of them above the preload.
+/// Number of preloads, and index of the preload of the scene among them. A linear axis extends from the force at first
+/// touch to twice this preload. A logarithmic axis extends over six decades, two of them above this preload.
 const PRELOADS: usize = 64;
 const PLACES: (f64, f64) = (31.0, 42.0);
 const DECADES: f64 = 6.0;
-/// Relative difference of preloads that count as equal.
+/// Relative difference up to which preloads count as equal.
 const SAME: f64 = 1e-9;
 
-/// Adhesion forces of a scene for many preloads, as far as computed.
+/// Adhesion forces of a scene for many preloads, as far as they are computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    /// The preloads.
+    /// Axis of the preloads, N.
     pub axis: Axis,
-    /// The staircase of the scene's own profile.
+    /// Adhesion force of the scene's own profile against the preload, with each step.
     pub staircase: Staircase,
-    /// Results on random profiles at these preloads, the scene's own profile first; one profile for a scene without random
-    /// phases.
+    /// Results on random profiles at these preloads, beginning with the scene's own profile. A scene without random phases
+    /// has only this profile.
     pub results: Results,
 }
 
@@ -34,11 +35,11 @@ impl PreloadCurve {
     /// Number of random profiles of a curve.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a computed scene, or the missing part of one that was begun before. `report` receives the
-    /// curve after each addition.
+    /// Computes the curve of a computed scene, or the missing part of a curve that was begun. After each addition `report`
+    /// receives the curve.
     ///
     /// # Errors
-    /// The scene has no such curve, a profile or contact fails, or `stop` returned true.
+    /// The scene has no adhesion force over the preload, a profile or contact fails, or `stop` returned true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
@@ -65,7 +66,7 @@ impl PreloadCurve {
         Ok(PreloadCurve { results, ..curve })
     }
 
-    /// Begins the curve of a computed scene, without results.
+    /// Begins the curve of a computed scene without results.
     fn begin(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
@@ -102,18 +103,18 @@ impl PreloadCurve {
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results })
     }
 
-    /// Returns true if nothing is missing.
+    /// Returns true if the curve is complete.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
 
-    /// Number of the computed profiles.
+    /// Returns the number of the computed profiles.
     pub fn profiles(&self) -> usize {
         self.results.records_of(0).count()
     }
 
-    /// Statistics of the adhesion force, N, over the computed profiles at a preload of the axis (N); `None` for fewer than
-    /// two.
+    /// Returns statistics of the adhesion force in N over the computed profiles; `None` for fewer than two profiles.
+    /// `preload` is a preload of the axis in N.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         let spread = self.results.spread_of_adhesion().into_iter();
         let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();

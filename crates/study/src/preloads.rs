@@ -1,4 +1,4 @@
-//! Adhesion force against preload: a study in memory over preloads in N rather than in the unit of a plan, and the
+//! The adhesion force against the preload: a study in memory over preloads in N, not in the unit of a plan, and the
 //! staircase of one profile.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
@@ -13,17 +13,18 @@ use asperity_scene::{CheckedScene, LEG_FORCE};
 use asperity_scene::{RunError, Simulation};
 use std::ops::RangeInclusive;
 
-/// Allowed number of preloads.
+/// Allowed numbers of preloads.
 pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
-/// Number of preloads without a number of one's own, and what a text of preloads may be.
+/// Usual number of preloads, and what a text of preloads may be.
 const USUAL: usize = 64;
 const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
-/// Reads a range of two forces and, after colons, the number of preloads and `log` for equal ratios: `1nN..20uN:64:log`.
+/// Reads preloads from text such as `1nN..20uN:64:log`: two forces, the number of preloads, and `log` for equal ratios. The
+/// number and `log` may be omitted.
 ///
 /// # Errors
-/// What is wrong with the text, and what is allowed.
+/// The text is wrong; the error says what is allowed.
 ///
 /// ```
 /// use asperity_study::parse_preloads;
@@ -47,10 +48,10 @@ pub fn parse_preloads(text: &str) -> Result<Axis, String> {
     Axis::of_preloads(ends, count, scale)
 }
 
-/// Reads a range of two numbers with this SI unit: `1uN..20uN`.
+/// Reads a range of two numbers with this SI unit, such as `1uN..20uN`.
 ///
 /// # Errors
-/// What is wrong with the text, and what is allowed.
+/// The text is wrong; the error says what is allowed.
 ///
 /// ```
 /// assert_eq!(asperity_study::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
@@ -61,16 +62,17 @@ pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
     Ok((number(from)?, number(to)?))
 }
 
-/// Share of the axis of preloads within which each step of a staircase is located: less than the width of a line in a figure.
+/// Share of the axis of preloads within which each step of a staircase is located, which is less than the width of a line
+/// in a figure.
 const FINEST: f64 = 1.0 / 2048.0;
-/// Relative difference of two adhesion forces below which they count as equal.
+/// Relative difference up to which two adhesion forces count as equal.
 const SAME: f64 = 1e-9;
 
 impl Axis {
-    /// Creates an axis of preloads between two forces, N, at equal distances or equal ratios.
+    /// Creates an axis of `count` preloads between two forces in N, with equal differences or equal ratios.
     ///
     /// # Errors
-    /// What is wrong with the forces or their number, and what is allowed.
+    /// The forces or their number are not allowed; the error says what is allowed.
     pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, String> {
         check_ends(from, to, count as u64, *PRELOADS.end() as u64)?;
         let range = LEG_FORCE.range;
@@ -91,7 +93,7 @@ impl Axis {
         })
     }
 
-    /// The axis of preloads in N, without values.
+    /// Returns the axis of preloads in N without values.
     pub(super) fn of_preload() -> Axis {
         Axis {
             path: PRELOAD.into(),
@@ -105,27 +107,28 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile as a function of the preload. It rises only where the loading closes a patch that
-/// decides the pull-off, so the curve is a staircase. With a smaller work of adhesion on closing it also rises
-/// between the steps.
+/// Adhesion force of one profile as a function of the preload. The force rises in steps, where the loading closes a patch
+/// that decides the pull-off. If closing has a smaller work of adhesion than opening, the force also rises between the
+/// steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
-    /// Scale of the preloads.
+    /// Scale of the preloads, linear or logarithmic.
     pub scale: AxisScale,
-    /// Force at first touch and adhesion force after turning there, both in N.
+    /// Force at first touch, and adhesion force if the loading turns there, both in N.
     pub touch: (f64, f64),
-    /// Adhesion force after turning where the force is back at zero, N.
+    /// Adhesion force in N if the loading turns where the force is back at zero.
     pub zero_force: f64,
-    /// Ascending preloads, N, each with the adhesion force after it, N; 0 N if the body does not pull.
+    /// Ascending preloads in N, each with the adhesion force in N after it, which is 0 if the body never pulls.
     pub forces: Vec<(f64, f64)>,
 }
 
 impl Staircase {
-    /// Finds the staircase of a checked scene over an axis of preloads, with each step located within 1/2048 of the axis.
-    /// `report` receives the staircase at the preloads of the axis, and after each halving of the intervals with a step.
+    /// Computes the staircase of a checked scene over an axis of preloads. Each step is located within 1/2048 of the axis.
+    /// `report` receives the staircase at the preloads of the axis, and again each time the intervals with a step are
+    /// halved.
     ///
     /// # Errors
-    /// As for [`Simulation::reverse`], and a preload below the force at first touch.
+    /// A preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -174,12 +177,12 @@ impl Staircase {
         Ok(all)
     }
 
-    /// Returns true if each step is located.
+    /// Returns true if each step is located within 1/2048 of the axis.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }
 
-    /// The middles of the intervals of preloads that have a step and are still wide.
+    /// Returns the middles of the intervals of preloads that contain a step and are still wide.
     fn halves(&self) -> Vec<f64> {
         let at = |point: &(f64, f64)| self.scale.coordinate(point.0);
         let [Some(low), Some(high)] = [self.forces.first(), self.forces.last()].map(|end| end.map(at)) else {
@@ -193,7 +196,7 @@ impl Staircase {
         self.forces.windows(2).filter_map(middle).collect()
     }
 
-    /// Points of the staircase as a line: horizontal up to the next preload, then vertical.
+    /// Returns the points of the staircase as a line, which is horizontal up to the next preload and then vertical.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
         self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()
@@ -201,7 +204,7 @@ impl Staircase {
 }
 
 impl Results {
-    /// Quantities recorded in a study of adhesion against preload.
+    /// Quantities that a study of adhesion against preload records.
     pub const OF_PRELOADS: [Quantity; 4] = [
         Quantity::PreloadIndentation,
         Quantity::AdhesionForce,
@@ -209,8 +212,8 @@ impl Results {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Statistics of the adhesion force, N, over the computed profiles at each preload (N) that at least two have. A
-    /// profile without a tensile force counts as 0 N, so that the mean is the mean adhesion force.
+    /// Returns statistics of the adhesion force in N at each preload in N that at least two profiles have. A profile that
+    /// never pulls counts as 0 N, so that the mean includes all profiles.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let spread = |cell| {
             let (preload, forces) = self.forces_in(cell);
@@ -220,7 +223,8 @@ impl Results {
         (0..self.plan.cells()).filter_map(spread).collect()
     }
 
-    /// The nearest preload of the study, N, and the adhesion forces of the computed profiles there, N.
+    /// Returns the preload of the study nearest to `preload` in N, and the adhesion forces in N of the computed profiles at
+    /// this preload.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));

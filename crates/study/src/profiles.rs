@@ -9,15 +9,15 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-/// Function that returns true once a computation is to end.
+/// Function that returns true once a computation should end.
 pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Solves profiles of a plan, given by their indices, on at most `jobs` threads: fewer where the memory does not suffice. Each
-/// thread has its own simulation, the first one this simulation. `receive` gets each result with the index of its profile, on
-/// this thread, as soon as it is known.
+/// Solves profiles of a plan, given by their indices, on at most `jobs` threads, or on fewer if the memory does not
+/// suffice. Each thread has its own simulation, and the first thread uses this simulation. `receive` gets each result with
+/// the index of its profile, on this thread, as soon as the result is known.
 ///
 /// # Errors
-/// The error of the first of the profiles that fails.
+/// A profile fails. The error belongs to the first of the profiles that fail.
 pub(super) fn on_profiles<R: Send>(
     plan: &Plan,
     lines: &[u64],
@@ -55,11 +55,11 @@ pub(super) fn on_profiles<R: Send>(
     on_threads_received(count, jobs, worker, &mut |(line, solved)| receive(line, solved)).map(drop)
 }
 
-/// Results for the numbers below `count`, computed on `jobs` threads, each with its own `worker`. `receive` gets what the
-/// workers send, on this thread, as soon as it is sent.
+/// Returns results for the numbers below `count`, computed on `jobs` threads, each with its own `worker`. `receive` gets
+/// what the workers send, on this thread, as soon as it is sent.
 ///
 /// # Errors
-/// The error of the smallest number that fails.
+/// A number fails. The error belongs to the smallest number that fails.
 pub(super) fn on_threads_received<M: Send, R: Send, W: FnMut(u64) -> Result<R, StudyError>>(
     count: u64,
     jobs: usize,

@@ -19,17 +19,17 @@ struct Row {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
-    /// The profile and its governing parameters are enough.
+    /// Profile and governing parameters are enough.
     Profile,
-    /// The statistics of the heights without the form are needed.
+    /// Statistics of the heights without the form are needed.
     Heights,
-    /// F_a(d=0) is needed: turning point at first touch.
+    /// F_a(d=0) is needed, which turns at first touch.
     Touch,
-    /// F_a(F=0) is needed: turning point where the force is back at zero.
+    /// F_a(F=0) is needed, which turns where the force is back at zero.
     ZeroForce,
-    /// The loading to the preload is needed, or the scene's own loading.
+    /// Loading to the preload is needed, or the scene's own loading.
     Loading,
-    /// The exponents of the force curve without adhesion are needed.
+    /// Exponents of the force curve without adhesion are needed.
     Stiffness,
 }
 
@@ -50,7 +50,7 @@ const SHARE: (f64, f64) = (0.0, 1.0);
 /// Makes the enum of the quantities and the table of their rows.
 macro_rules! quantities {
     ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
-        /// A recorded quantity.
+        /// Quantity that a study records for each cell and profile.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Quantity {
             $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
@@ -184,19 +184,20 @@ quantities! {
 }
 
 impl Quantity {
-    /// F_a(d=0)/F_a,max and F_a(F=0)/F_a,max.
+    /// Ratios F_a(d=0)/F_a,max and F_a(F=0)/F_a,max of the adhesion force without a preload to the ideal adhesion force.
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
-    /// The regimes turned at first touch and at zero force.
+    /// Regimes of adhesion if the loading turns at first touch, and if it turns at zero force.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// The protocol, in words, of the regime that a map of this quantity shows.
+    /// Returns where the loading turns for the regime in a map of this quantity: `turned at zero force` or
+    /// `turned at first touch`.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }
     }
 
-    /// The protocol of [`Quantity::protocol`] in short, for a title or a legend.
+    /// Returns [`Quantity::protocol`] in short, `F=0` or `d=0`, for a title or a legend.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "d=0" }
     }
@@ -210,30 +211,30 @@ impl Quantity {
         &ROWS[self as usize]
     }
 
-    /// Name in plans and columns.
+    /// Returns the name in plans and in columns of tables.
     pub const fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Symbol; empty where the quantity has none.
+    /// Returns the symbol; empty if the quantity has none.
     pub const fn symbol(self) -> &'static str {
         self.row().symbol
     }
 
-    /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
+    /// Returns the SI unit; `1` for a number without a unit, empty for a regime, which is not a number.
     pub const fn unit(self) -> &'static str {
         self.row().unit
     }
 
-    /// Symbol, or the name where the quantity has no symbol.
+    /// Returns the symbol, or the name if the quantity has no symbol.
     pub const fn symbol_or_name(self) -> &'static str {
         if self.symbol().is_empty() { self.name() } else { self.symbol() }
     }
 
-    /// The quantity with this symbol or this name; words of a name may be separated by blanks.
+    /// Returns the quantity with this symbol or name. Words of a name may be separated by blanks.
     ///
     /// # Errors
-    /// No quantity or several quantities have this name; the possible ones are named.
+    /// No quantity or several quantities have this name. The error names the possible ones.
     ///
     /// ```
     /// use asperity_study::Quantity;
@@ -264,12 +265,12 @@ impl Quantity {
         }
     }
 
-    /// Meaning in one line.
+    /// Returns the meaning in one line.
     pub const fn meaning(self) -> &'static str {
         self.row().meaning
     }
 
-    /// Smallest and largest possible value.
+    /// Returns the smallest and the largest possible value.
     pub const fn bounds(self) -> (f64, f64) {
         self.row().bounds
     }
@@ -278,8 +279,8 @@ impl Quantity {
         self.row().needs
     }
 
-    /// Value of the quantity in a case, in its SI unit; NaN if the case has none. The value of a regime is its index in
-    /// [`asperity_scene::Regime::ALL`].
+    /// Returns the value of the quantity in a case in its SI unit; NaN if the case has none. The value of a regime is its
+    /// index in [`asperity_scene::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
     }
@@ -293,13 +294,13 @@ const RENAMED: [(&str, &str); 4] = [
     ("F_a(0)/F_a,max", "F_a(d=0)/F_a,max"),
 ];
 
-/// A refusal of a former name or symbol, with the present one.
+/// Returns the refusal of a former name or symbol, with the present one.
 pub(super) fn renamed(name: &str) -> Option<String> {
     let (_, present) = RENAMED.iter().find(|(former, _)| *former == name)?;
     Some(format!("{name} is now {present}"))
 }
 
-/// The regime that a recorded value means; `None` for NaN.
+/// Returns the regime that a recorded value means; `None` for NaN.
 pub(super) fn regime_of(value: f64) -> Option<Regime> {
     Regime::ALL.get(Some(value as usize).filter(|_| !value.is_nan())?).copied()
 }

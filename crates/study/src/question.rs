@@ -1,5 +1,5 @@
-//! The question at which value of a number of a scene, or at which preload, a quantity reaches a target, and its answer on one
-//! profile: brackets of all crossings, each narrowed until its ends agree to [`WITHIN`].
+//! The question at which value of a number of a scene, or at which preload, a quantity reaches a target, and its answer on
+//! one profile. The answer has brackets of all crossings, each narrowed until its ends agree to [`WITHIN`].
 
 use super::axis::{Axis, Spacing, Target};
 use super::cells::Streak;
@@ -18,55 +18,56 @@ pub const WITHIN: f64 = 1e-9;
 const FACTOR: f64 = 100.0;
 /// Ratio of the largest searched preload to the preload of full contact, for a loading without a force.
 const DEEPER: f64 = 10.0;
-/// Number of intervals into which the searched range is divided for a quantity that may fall as well as rise.
+/// Number of intervals into which the searched range is divided for a quantity that may rise and fall.
 const INTERVALS: usize = 32;
-/// Ratio of the smallest scanned preload above 0 N to the largest one.
+/// Ratio of the smallest computed preload above 0 N to the largest one.
 const LEAST_PRELOAD: f64 = 1e-4;
-/// Largest width of an allowed range that is searched as a whole, and share of it that is left out at its ends.
+/// Largest width of an allowed range that is searched as a whole, and share of the range that is left out at its ends.
 const NARROW: f64 = 2.0;
 const MARGIN: f64 = 0.01;
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
 
-/// The inverse question: at which value of one number of a scene does a quantity have a given value?
+/// Inverse question: at which value of one number of a scene does a quantity reach a target?
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// The number that is sought, without values; `preload` is in N.
+    /// Number that is sought, as an axis without values; a `preload` is in N.
     pub axis: Axis,
-    /// The quantity.
+    /// Quantity that must reach the target.
     pub quantity: Quantity,
-    /// Wanted value of the quantity, in its SI unit.
+    /// Target value of the quantity in its SI unit.
     pub target: f64,
-    /// Smallest and largest searched number, in SI units; NaN for a number below zero until they are given.
+    /// Smallest and largest searched number in SI units. Both are NaN for a number below zero, for which the user must give
+    /// a range.
     pub searched: (f64, f64),
-    /// Scale of the number.
+    /// Scale of the searched number.
     scale: AxisScale,
-    /// The scene with the sought number, on its profiles.
+    /// Scene with the sought number, on its profiles.
     pub(super) plan: Plan,
 }
 
-/// Answer of one profile.
+/// Answer on one profile.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {
     /// Seed of the profile; `None` for a fixed profile.
     pub seed: Option<u64>,
-    /// All numbers at which the quantity crosses the target, ascending. Each crossing is given by the end at which the
-    /// quantity is at least the target.
+    /// All numbers at which the quantity crosses the target, ascending. A crossing is known as two close numbers. The list
+    /// has the one at which the quantity is at least the target.
     pub crossings: Vec<f64>,
-    /// True where the quantity is at least the target: at the smallest and at the largest searched number.
+    /// Whether the quantity is at least the target, at the smallest and at the largest searched number.
     pub reached: [bool; 2],
-    /// True if the adhesion force after a turn at first touch, without any preload, is at least the target.
+    /// True if the adhesion force turned at first touch, without any preload, is at least the target.
     pub at_touch: bool,
     /// Smallest and largest value of the quantity that the search met; `None` if it met none.
     pub reachable: Option<(f64, f64)>,
 }
 
-/// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`: a quantity by its symbol or by its name in
-/// tables of studies, and a value with prefix and unit.
+/// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side is the symbol of a quantity
+/// or its name in tables of studies. The right side is a value with prefix and unit.
 ///
 /// # Errors
-/// What is wrong with the condition, and what is allowed.
+/// The condition is wrong; the error says what is allowed.
 ///
 /// ```
 /// use asperity_study::{Quantity, parse_condition};
@@ -95,12 +96,12 @@ pub fn parse_condition(text: &str) -> Result<(Quantity, f64), String> {
 }
 
 impl Question {
-    /// Asks for the number at a path of a checked scene, or for the `preload`, on this number of profiles. The searched range
-    /// is from a hundredth to a hundred times the present number, or the whole of a narrow allowed range; preloads are
-    /// searched from 0 N up to a hundred times the largest force of the loading.
+    /// Asks for the number at a path of a checked scene, or for the `preload`, on this number of profiles. The searched
+    /// range extends from a hundredth to a hundred times the present number. A narrow allowed range is searched as a whole.
+    /// Preloads are searched from 0 N to a hundred times the largest force of the loading.
     ///
     /// # Errors
-    /// The scene has no such number, or several profiles are asked of a scene that has one.
+    /// The scene lacks the number, or several profiles are requested of a scene with a fixed profile.
     pub fn new(
         scene: &CheckedScene,
         path: &str,
@@ -144,7 +145,7 @@ impl Question {
         Ok(Question { axis, quantity, target, searched, scale, plan })
     }
 
-    /// Returns an error for a range without an inside.
+    /// Returns an error for an empty range.
     pub(super) fn check(&self) -> Result<(), StudyError> {
         let (from, to) = self.searched;
         // Also for an end that is no number.
@@ -160,12 +161,12 @@ impl Question {
         refused(format!("range {first} to {last}"), "two finite numbers, the first below the second")
     }
 
-    /// Scale on which the range is searched: logarithmic only for fractions of numbers above zero.
+    /// Returns the scale on which the range is searched, which is logarithmic only for fractions of numbers above zero.
     fn scale(&self) -> AxisScale {
         if self.searched.0 > 0.0 && !self.axis.is_whole() { self.scale } else { AxisScale::Linear }
     }
 
-    /// Number of profiles.
+    /// Returns the number of profiles.
     pub fn profiles(&self) -> u64 {
         self.plan.lines
     }
@@ -180,7 +181,7 @@ impl Question {
         at_touch(&self.axis, self.quantity).is_some()
     }
 
-    /// Numbers at which the quantity is computed first.
+    /// Returns the numbers at which the quantity is computed first.
     fn grid(&self) -> Vec<f64> {
         let (from, to) = self.searched;
         let between = |scale: AxisScale, low: f64| {
@@ -203,7 +204,7 @@ impl Question {
         grid
     }
 
-    /// Records of a profile at these numbers, with the reasons of numbers that the scene does not allow.
+    /// Returns the records of a profile at these numbers, with the reasons of numbers that the scene does not allow.
     fn records(
         &self,
         simulation: &mut Simulation,
@@ -257,8 +258,8 @@ impl Question {
         Ok((answer, records.into_iter().find_map(Recorded::err)))
     }
 
-    /// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the quantity is smooth enough
-    /// for it, else bisection. Returns the end at which the quantity is at least the target.
+    /// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the quantity is smooth
+    /// enough, otherwise bisection. Returns the end at which the quantity is at least the target.
     fn crossing(
         &self,
         [(from, at_from), (to, at_to)]: [(f64, f64); 2],
@@ -298,7 +299,7 @@ impl Question {
     }
 }
 
-/// The same quantity after a turn at first touch, for an adhesion force over the preload, which never falls.
+/// Returns the same quantity turned at first touch, for an adhesion force over the preload, which never falls.
 fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
         (Target::Preload { .. }, Quantity::AdhesionForce) => Some(Quantity::FirstTouchAdhesionForce),
@@ -307,7 +308,7 @@ fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     }
 }
 
-/// Scale and range on which a number is searched that is `present` in the scene.
+/// Returns the scale and the range on which a number is searched whose value in the scene is `present`.
 fn usual_range(axis: &Axis, present: f64) -> (AxisScale, Option<(f64, f64)>) {
     let ends = if let Target::Number(field) = axis.target { field.range.ends() } else { None };
     let (least, most) = ends.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
@@ -320,7 +321,7 @@ fn usual_range(axis: &Axis, present: f64) -> (AxisScale, Option<(f64, f64)>) {
 }
 
 impl Answer {
-    /// The number of the profile: the first crossing; for a preload the smallest one that reaches the target.
+    /// Returns the number of the profile: the first crossing, or the smallest preload that reaches the target.
     pub(super) fn value(&self, question: &Question) -> Option<f64> {
         let already = question.is_of_preload() && self.reached[0];
         if already { Some(question.searched.0) } else { self.crossings.first().copied() }

@@ -1,4 +1,4 @@
-//! Recorder of a streak: computes its loadings on one profile and reads the recorded quantities.
+//! The recorder of a streak, which computes its loadings on one profile and reads the recorded quantities.
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Streak;
@@ -18,14 +18,14 @@ use std::mem::take;
 /// have.
 pub(super) type Records = Vec<Vec<f64>>;
 
-/// Values of a record, or the reason, in one line, why they cannot be computed.
+/// Values of a record, or the reason in one line why they cannot be computed.
 pub(super) type Recorded = Result<Vec<f64>, String>;
 
-/// Recorder of the cases of a plan; it keeps the profile, its contact tree and its properties from case to case.
+/// Recorder of the cases of a plan. It keeps the profile, its contact tree and its properties from case to case.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,
-    /// Properties of the last profile, with the scene, without adhesion and loading, that they belong to.
+    /// Properties of the last profile, with its scene without adhesion and loading.
     profile: Option<(CheckedScene, ProfileRecord)>,
     stop: &'p dyn Fn() -> bool,
 }
@@ -39,7 +39,7 @@ impl<'p> Recorder<'p> {
     /// Computes a streak. A cell that cannot be computed gets the reason in place of its values.
     ///
     /// # Errors
-    /// Too little memory, or `stop` returned true: neither is due to a cell.
+    /// The memory does not suffice, or `stop` returned true. Neither is due to a cell.
     pub fn record_each(&mut self, streak: &Streak) -> Result<Vec<Recorded>, RunError> {
         match self.record(streak) {
             Ok(records) => Ok(records.into_iter().map(Ok).collect()),
@@ -107,7 +107,7 @@ impl<'p> Recorder<'p> {
         each.into_iter().map(values).collect()
     }
 
-    /// Outcomes of loadings that each begin at separation, and F_a(d=0), N.
+    /// Returns the outcomes of loadings that each begin at separation, and F_a(d=0) in N.
     fn solve(
         &mut self,
         scene: &CheckedScene,
@@ -179,8 +179,8 @@ impl<'p> Recorder<'p> {
         Ok(record)
     }
 
-    /// Exponents of the contact without adhesion, fitted to logarithms over the plan's range of forces. Since no spring is
-    /// stretched, the stiffness is E* times the contact length.
+    /// Returns the exponents of the contact without adhesion, fitted to logarithms over the range of forces of the plan. No
+    /// spring is stretched, so the stiffness is E* times the contact length.
     fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
         let Some(unit) = governing.force_unit(scene.length) else { return Ok(None) };
@@ -197,7 +197,7 @@ impl<'p> Recorder<'p> {
     }
 }
 
-/// Records cases of a plan with a recorder that has this simulation, and gives the simulation back.
+/// Records cases of a plan with a recorder that has this simulation, and returns the simulation.
 pub(super) fn with_recorder<R>(
     plan: &Plan,
     simulation: &mut Simulation,

@@ -1,8 +1,8 @@
-//! The same contact as a line and in three dimensions: means over random profiles and random squares with one spectrum.
+//! The same contact as a profile and in three dimensions: means over random profiles and random squares with one spectrum.
 //!
-//! A free rigid square of the side L is compared with a line of the length L, without a fit. Line and square are independent
-//! draws, so only their means compare. The area of contact does not: at the same force the line has 1.1 to 4.2 times
-//! the area of three dimensions.
+//! A free rigid square of the side L is compared with a profile (line) of the length L, without a fit. Line and square are
+//! independent draws, so only their means are compared. The areas of contact are not: at the same force the line has 1.1 to
+//! 4.2 times the area in three dimensions.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_threads_received};
@@ -19,53 +19,53 @@ use std::time::Instant;
 
 /// Forces of the comparison without adhesion, as shares of the preload.
 const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
-/// Steps of the indentation from the preload to pull-off.
+/// Number of steps of the indentation from the preload to pull-off.
 const STEPS: f64 = 40.0;
-/// Fewest cells of a square, and of the coarser one that is compared with it.
+/// Smallest number of cells along the side of a square, and of the coarser square that is compared with it.
 const LEAST_CELLS: usize = 32;
-/// Time, s, of a smaller square from which the time of larger ones follows.
+/// Smallest time in s of a square from which the time of larger squares follows.
 const LEAST_TIMED: f64 = 0.2;
-/// Growth of the time of a square with twice the cells along a side, without and with adhesion.
+/// Factor of the time of a square with twice the cells along its side, without and with adhesion.
 const GROWTH: [f64; 2] = [6.5, 8.5];
 
-/// Numbers of a comparison.
+/// Options of a comparison of profiles with random squares in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
-    /// Cells along the side of a square: a power of two.
+    /// Number of cells along the side of a square, which is a power of two.
     pub cells: usize,
     /// Number of random squares.
     pub maps: u64,
-    /// Number of random lines.
+    /// Number of random profiles.
     pub lines: u64,
 }
 
-/// Lines for each square: a line takes a thousandth of the time.
+/// Number of random profiles for each square. A profile takes a thousandth of the time.
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
-    /// Numbers for a scene: by default 24 squares without adhesion, and 12 with adhesion, where a square takes ten times as
-    /// long.
+    /// Returns the options of a comparison with `maps` random squares. By default there are 24 squares without adhesion,
+    /// and 12 squares with adhesion, which take ten times as long.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
     }
 }
 
-/// A number of both models.
+/// Quantity in both models: on random profiles and on random squares in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Compared {
-    /// On the lines.
+    /// Statistics over the profiles.
     pub line: Statistics,
-    /// On the squares.
+    /// Statistics over the squares.
     pub half_space: Statistics,
-    /// Mean of the lines over mean of the squares.
+    /// Mean over the profiles divided by the mean over the squares.
     pub ratio: f64,
-    /// Half the width of the interval that holds the ratio in about 95 of 100 cases, by the standard errors of both means;
-    /// `None` for fewer than two of either.
+    /// Half the width of the 95 % interval of the ratio, from the standard errors of both means. It is `None` for fewer
+    /// than two profiles or squares.
     pub error: Option<f64>,
 }
 
-/// Both models at one force, without adhesion.
+/// Contact without adhesion in both models at one force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
     /// Force, N.
@@ -78,94 +78,96 @@ pub struct Loaded {
     pub area: f64,
 }
 
-/// Comparison of a scene as a line and in three dimensions.
+/// Comparison of a scene as a profile and as squares in three dimensions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// Numbers of the comparison.
+    /// Options of the comparison.
     #[serde(flatten)]
     pub options: ReferenceOptions,
-    /// First and last wave of both models, in waves over the length; `None` for a smooth body.
+    /// Numbers of periods over the length L for the longest and the shortest wave in both models; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Last wave of the scene where squares do not resolve it and both models leave out the waves beyond `waves`.
+    /// Number of periods of the scene's shortest wave, if squares do not resolve it; otherwise `None`. Both models then
+    /// omit the waves beyond `waves`.
     pub omitted: Option<u64>,
-    /// Preload, N.
+    /// Preload of both models, N.
     pub preload: f64,
-    /// Loading without adhesion.
+    /// Both models at several forces up to the preload, without adhesion.
     pub loading: Vec<Loaded>,
-    /// Adhesion force after the preload, N.
+    /// Adhesion force after the preload, N; `None` without adhesion.
     pub adhesion_force: Option<Compared>,
-    /// Adhesion force after a turn at first touch, N.
+    /// Adhesion force turned at first touch, N; `None` without adhesion.
     pub first_touch_adhesion_force: Option<Compared>,
-    /// Dissipated energy, J.
+    /// Dissipated energy, J; `None` without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// Errors of the line by their sources.
+    /// Errors of the profile as a model of three dimensions, by their sources.
     pub budget: ReferenceBudget,
-    /// Convolutions on the squares.
+    /// Number of convolutions on the squares, the costly operation of the solver.
     pub convolutions: u64,
-    /// Time of the lines and of the squares, s.
+    /// Computing times of all profiles and of all squares, s.
     pub seconds: [f64; 2],
-    /// Mean time of one square, s.
+    /// Mean computing time of one square, s.
     pub seconds_of_square: f64,
 }
 
-/// Errors by their sources, as shares of the adhesion force, or without adhesion of the indentation.
+/// Errors by their sources, as shares of the adhesion force, or of the indentation without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest residual of the contacts without adhesion, in rms heights.
+    /// Largest residual of the solver in contacts without adhesion, in units of the rms height.
     pub solver: f64,
-    /// Difference of the means on squares of half as many cells; `None` where half of the cells are too few.
+    /// Difference from squares with half as many cells along the side; `None` if the coarser squares have too few cells.
     pub grid: Option<f64>,
-    /// Half the width of the interval of the ratio, by the finite number of squares and lines.
+    /// Half the width of the 95 % interval of the ratio, due to the finite numbers of squares and profiles.
     pub sample: Option<f64>,
-    /// Difference of the ratio of both models from 1.
+    /// Difference between 1 and the ratio of both models.
     pub model: f64,
-    /// Name of the largest.
+    /// Name of the source with the largest error.
     pub largest: &'static str,
 }
 
-/// What happens during a comparison.
+/// Event during a comparison, which a caller can report.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
-    /// The squares begin.
+    /// The computation of the squares begins.
     Begins {
-        /// Number of squares: one for a body without random roughness.
+        /// Number of squares, which is one for a body without random roughness.
         maps: u64,
-        /// Threads that share the squares: fewer than asked where the memory does not suffice for more.
+        /// Number of threads that share the squares. It is smaller than requested if the memory does not suffice.
         threads: usize,
-        /// Memory of all threads, bytes.
+        /// Memory of all threads, in bytes.
         bytes: u64,
-        /// Time of all squares, s, by smaller ones.
+        /// Estimated computing time of all squares, s, from smaller squares.
         seconds: f64,
     },
-    /// A square is done.
+    /// The computation of a square is finished.
     Square {
-        /// Its indentations, m, and forces, N.
+        /// Indentations in m and forces in N of the square.
         curve: Vec<(f64, f64)>,
-        /// Its adhesion force, N, with adhesion.
+        /// Adhesion force of the square in N; `None` without adhesion.
         adhesion_force: Option<f64>,
     },
 }
 
-/// A random square, and the coarser one.
+/// A random square, and the coarser square that is compared with it.
 struct OfSquare {
     fine: Loads,
     coarse: Option<Loads>,
-    /// Time of the finer one, s.
+    /// Computing time of the finer square, s.
     seconds: f64,
 }
 
 impl Reference {
-    /// The number of both models that is compared first: the adhesion force, or without one the last indentation.
+    /// Returns the most important quantity in both models: the adhesion force, or the indentation at the preload without
+    /// adhesion.
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
     }
 
-    /// Compares a checked scene with squares. `simulation` has the files of the scene; `jobs` threads share the lines and the
-    /// squares, and no bit but the seconds depends on their number.
+    /// Compares a checked scene with random squares. `simulation` has the files of the scene. `jobs` threads share the
+    /// profiles and the squares. Only the computing times depend on the number of threads. `report` receives each event.
     ///
     /// # Errors
-    /// The scene has no body in three dimensions or no preload above zero, the number of cells is not allowed, too little
-    /// memory, or `stop` returned true.
+    /// The scene has no body in three dimensions, or no preload above zero. The number of cells is not allowed, the memory
+    /// does not suffice, or `stop` returned true.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
@@ -311,7 +313,7 @@ fn run(scene: &CheckedScene, simulation: &mut Simulation, stop: &Stop<'_>) -> Re
     simulation.run(scene, &|| stop(), &mut |_, _, _| Ok(())).map_err(of_scene)
 }
 
-/// Time of a square, s, by smaller ones, each with twice the cells of the one before.
+/// Estimates the time of a square in s from smaller squares, each with twice the cells of the one before.
 fn seconds_of_square(
     body: &Body,
     (cells, seed): (usize, u64),
@@ -331,7 +333,7 @@ fn seconds_of_square(
     }
 }
 
-/// The point of a loading without adhesion at a force, N, between the samples of its curve.
+/// Returns the point of a loading without adhesion at a force in N, between the samples of its curve.
 fn at_force(outcome: &Outcome, force: f64) -> CurvePoint {
     let curve = outcome.history.legs.first().map_or(&[][..], |leg| &leg.curve);
     let after = curve.partition_point(|point| point.force < force).min(curve.len().saturating_sub(1));
@@ -348,7 +350,7 @@ fn at_force(outcome: &Outcome, force: f64) -> CurvePoint {
     }
 }
 
-/// Statistics of both models and the ratio of their means; `None` without values.
+/// Returns the statistics of both models and the ratio of their means; `None` without values.
 fn compared(line: impl Iterator<Item = f64>, square: impl Iterator<Item = f64>) -> Option<Compared> {
     let bounds = Quantity::AdhesionForce.bounds();
     let [line, half_space] =

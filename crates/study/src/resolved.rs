@@ -1,4 +1,4 @@
-//! A scene with the waves that squares resolve, as a line and in three dimensions.
+//! A scene with the waves that squares resolve, as a profile and in three dimensions.
 
 use super::error::StudyError;
 use super::spatial::{Body, Spectrum};
@@ -8,22 +8,22 @@ use asperity_surface::MeasuredRoughness;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Cells for the shortest wave of a square.
+/// Number of cells for the shortest wave of a square.
 const CELLS_PER_WAVE: u64 = 8;
-/// Springs for the shortest wave of a line.
+/// Number of springs for the shortest wave of a profile.
 const SPRINGS_PER_WAVE: u64 = 64;
 const LEAST_SPRINGS: u64 = 4096;
 
-/// A scene with the waves that squares resolve.
+/// Scene with the waves that squares resolve.
 pub(super) struct Resolved {
-    /// The scene of the lines.
+    /// Scene of the profiles.
     pub line: CheckedScene,
-    /// The equivalent line of a measured surface without the waves that squares do not resolve.
+    /// Spectrum of the random profiles of a measured surface, without the waves that squares do not resolve.
     measured: Option<Arc<MeasuredRoughness>>,
     pub body: Body,
     /// First and last wave over the length; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Last wave of the scene where it is left out.
+    /// Last wave of the scene, if it is left out.
     pub omitted: Option<u64>,
 }
 
@@ -95,7 +95,7 @@ impl Resolved {
         Ok(resolved)
     }
 
-    /// A simulation of the lines.
+    /// Returns a simulation of the profiles.
     pub fn simulation(&self) -> Simulation {
         let simulation = Simulation::default();
         match &self.measured {
@@ -105,7 +105,7 @@ impl Resolved {
     }
 }
 
-/// Error of the scene itself.
+/// Converts an error of the scene itself.
 pub(super) fn of_scene(error: RunError) -> StudyError {
     StudyError::Run { place: String::new(), error }
 }

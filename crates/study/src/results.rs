@@ -1,4 +1,4 @@
-//! All records of a study: read from its shard files or its merged table, or computed in memory.
+//! All values of a study: read from its shard files or its merged table, or computed in memory.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -19,7 +19,7 @@ use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
-/// The records of a study.
+/// Values of a study: the recorded quantities of each cell on each random profile.
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
@@ -30,25 +30,26 @@ pub struct Results {
     failed: BTreeMap<u64, String>,
 }
 
-/// What a merge found in the shard files of a study.
+/// What a merge found in the shard files of a study, each written by one process. A record has the values of one cell on
+/// one profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of records, each counted once.
+    /// Number of different records in the files.
     pub records: u64,
-    /// Number of records without values, since they cannot be computed.
+    /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
-    /// The first records without values: cell, seed and reason.
+    /// First records without values, as cell, seed and reason.
     pub first_failed: Vec<(u64, u64, String)>,
-    /// Number of records that the whole study has.
+    /// Number of records in the complete study.
     pub total: u64,
-    /// Number of records that occur more than once, bit for bit the same.
+    /// Number of records that repeat another one with the same bits.
     pub duplicates: u64,
-    /// Number of torn or damaged lines of shard files, which are left out.
+    /// Number of incomplete or damaged lines of shard files. These lines are left out.
     pub damaged: u64,
     /// Number of cells with missing profiles.
     pub missing_cells: u64,
-    /// The first of the cells with missing profiles.
+    /// Numbers of the first cells with missing profiles.
     pub first_missing: Vec<u64>,
     /// Number of shard files with records.
     pub files: usize,
@@ -57,7 +58,7 @@ pub struct Merged {
 }
 
 impl PartialEq for Results {
-    /// Studies are equal if their plans are and their values are equal bit by bit; missing values are equal.
+    /// Studies are equal if their plans are equal and their values are equal bit by bit. Missing values are equal.
     fn eq(&self, other: &Self) -> bool {
         self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
     }
@@ -69,7 +70,7 @@ impl std::fmt::Debug for Results {
     }
 }
 
-/// Returns true for values with equal bits; all NaN are equal.
+/// Returns true for values with equal bits. All NaN are equal.
 fn same(one: &[f64], other: &[f64]) -> bool {
     let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     one.len() == other.len() && one.iter().zip(other).all(equal)
@@ -95,12 +96,12 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// Begins a study in memory, without records, of a checked scene on random profiles, at each of these preloads (N), if
-    /// any.
+    /// Makes a study in memory without values so far: a checked scene on `lines` random profiles. Each of the `preloads` in
+    /// N, if any, replaces the loading.
     ///
     /// # Errors
-    /// Several profiles of a scene that has one, preloads without the exact solver, or a study that is too large for the
-    /// memory.
+    /// Several profiles are requested of a scene with a fixed profile, or preloads without the exact solver. The study is
+    /// too large for the memory.
     pub fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -115,11 +116,11 @@ impl Results {
         Results::empty(Plan { axes, ..Plan::of_scene(scene, lines, record) })
     }
 
-    /// Computes a whole study such as [`Results::begin`] begins. Files of the scene are relative to `folder`. `jobs`
-    /// threads share the profiles; no bit of a result depends on their number.
+    /// Makes a study as [`Results::begin`] does, and computes it. Files of the scene are relative to `folder`. `jobs`
+    /// threads share the profiles. The results do not depend on the number of threads.
     ///
     /// # Errors
-    /// As for [`Results::begin`], or the error of the first profile that fails.
+    /// A profile fails. The errors of [`Results::begin`] are possible too.
     pub fn of_scene(
         scene: &Scene,
         folder: &Path,
@@ -135,8 +136,8 @@ impl Results {
         Ok(results)
     }
 
-    /// Computes the missing profiles of a study that [`Results::begin`] began, on `jobs` threads, the first of which uses this
-    /// simulation. `report` receives the results after each profile, on this thread.
+    /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` are the simulation of the first
+    /// thread and the number of threads. After each profile `report` receives the results on this thread.
     ///
     /// # Errors
     /// A profile or its contact fails, or `stop` returned true.
@@ -227,7 +228,7 @@ impl Results {
         Ok((results, merged))
     }
 
-    /// Error for two different records with the same index, the second of which is in the file `other`.
+    /// Returns the error for two different records with the same index, of which the second is in the file `other`.
     fn conflict(&self, folder: &Folder, files: &[ShardFile], place: u64, other: &ShardFile) -> StudyError {
         let is_there = |record: Result<Option<Record>, StudyError>| matches!(record, Ok(Some((found, _))) if found == place);
         let has = |file: &&ShardFile| folder.records(file).is_ok_and(|mut records| records.any(is_there));
@@ -241,14 +242,14 @@ impl Results {
         self.done.iter().filter(|done| **done).count() as u64
     }
 
-    /// Sets the values of a record by its index: by cell, then by profile.
+    /// Sets the values of a record, which is counted by cell, then by profile.
     pub(super) fn set(&mut self, place: u64, values: &[f64]) {
         let columns = self.plan.record.len();
         self.values[place as usize * columns..][..columns].copy_from_slice(values);
         self.done[place as usize] = true;
     }
 
-    /// Sets a record by its index, to its values or to the reason why it has none.
+    /// Sets a record to its values, or to the reason why it has none.
     pub(super) fn set_record(&mut self, place: u64, record: Recorded) {
         match record {
             Ok(values) => self.set(place, &values),
@@ -259,7 +260,7 @@ impl Results {
         }
     }
 
-    /// The record with this index, if there is one.
+    /// Returns the record with this index, if there is one.
     fn recorded(&self, place: u64) -> Option<Recorded> {
         match self.failed.get(&place) {
             Some(reason) => Some(Err(reason.clone())),
@@ -267,31 +268,31 @@ impl Results {
         }
     }
 
-    /// The records that cannot be computed: cell, index of the profile and reason.
+    /// Returns the records that cannot be computed, as cell, index of the profile and reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
         self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
     }
 
-    /// Reason why a record has no values; `None` if it has values or is missing.
+    /// Returns the reason why a record has no values; `None` if it has values or is missing.
     pub(super) fn reason(&self, cell: u64, line: u64) -> Option<&str> {
         self.failed.get(&(cell * self.plan.lines + line)).map(String::as_str)
     }
 
-    /// Reason why a cell has no values, if it cannot be computed on any profile.
+    /// Returns the reason why a cell has no values, if it cannot be computed on any profile.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let reasons = || self.failed.range(places.clone()).map(|(_, reason)| reason.as_str());
         (reasons().count() as u64 == self.plan.lines).then(|| reasons().next()).flatten()
     }
 
-    /// The plan of the study.
+    /// Returns the plan of the study.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Values of a cell on a profile, in the order of the recorded quantities; NaN for a quantity without a value. A regime
-    /// is an index in [`asperity_scene::Regime::ALL`]. `None` for a missing record.
+    /// Returns the values of a cell on a profile, in the order of the recorded quantities; `None` if they are missing. A
+    /// quantity without a value is NaN. A regime is an index into [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -302,18 +303,19 @@ impl Results {
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
-    /// A recorded quantity of a cell on a profile, in its SI unit; `None` without a value.
+    /// Returns the value of a recorded quantity for a cell and a profile, in its SI unit; `None` without a value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
         self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
     }
 
-    /// A recorded regime of a cell on a profile.
+    /// Returns the recorded regime of a cell on a profile; `None` if there is none. `regime` is one of
+    /// [`Quantity::REGIMES`].
     pub fn regime(&self, cell: u64, line: u64, regime: Quantity) -> Option<Regime> {
         regime_of(self.value(cell, line, regime)?)
     }
 
-    /// Existing records of a cell: index of the profile, and values.
+    /// Returns the existing records of a cell, as index of the profile and values.
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
@@ -322,18 +324,18 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true for a cell that has all its records.
+    /// Returns true if the cell is computed on all profiles.
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// Values of a recorded quantity on all profiles of a cell that have one.
+    /// Returns the values of a recorded quantity in a cell, on all profiles that have one.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else { return Vec::new() };
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
     }
 
-    /// Statistics of a recorded quantity over the profiles of a cell; `None` without values.
+    /// Returns the statistics of a recorded quantity over the profiles of a cell; `None` without values.
     ///
     /// ```
     /// use asperity_data::Control;
@@ -351,26 +353,27 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Number of profiles of a cell in each regime, by each protocol of [`Quantity::REGIMES`].
+    /// Returns the numbers of profiles of a cell in each regime. The first numbers are for loadings that turn at first
+    /// touch, the second for loadings that turn at zero force.
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))
     }
 
-    /// The recorded quantities except regimes, on scales for the whole study.
+    /// Returns the recorded quantities except regimes, on scales for the whole study.
     pub(super) fn layers(&self) -> Vec<GridLayer> {
         let recorded = self.plan.record.iter().filter(|quantity| !quantity.is_regime());
         recorded.map(|quantity| self.layer(*quantity, None)).collect()
     }
 
-    /// A recorded quantity with a scale for the whole study: the given one, or one chosen from all means.
+    /// Returns a recorded quantity with a scale for the whole study, either the given one or one that suits all means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means = (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         GridLayer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
-    /// The cells over one or two axes, at the values with these indices on the other axes, with the quantities of these
-    /// layers.
+    /// Returns the cells over one or two axes with the quantities of these layers. `places` has the indices of the values
+    /// on the other axes.
     pub(super) fn grid(
         &self,
         (across, up): (usize, Option<usize>),
@@ -396,7 +399,7 @@ impl Results {
         Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), fixed, layers, cells)
     }
 
-    /// A cell with the statistics of these quantities; `None` without records.
+    /// Returns a cell with the statistics of these quantities; `None` without records.
     pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<GridCell> {
         let statistics = quantities.iter().map(|quantity| self.statistics(cell, *quantity)).collect();
         let regimes = self.regimes(cell);

@@ -1,15 +1,15 @@
-//! Numbers of the theories of adhesion between nominally flat, randomly rough bodies.
+//! The numbers by which theories judge the adhesion between nominally flat, randomly rough bodies.
 //!
-//! They are moments of the surface in two dimensions, which the equivalent profile has by construction, C1D = πq C2D: rms
-//! height h, rms gradient g, and c, the rms mean curvature, half of the rms Laplacian.
+//! The numbers are moments of the surface in two dimensions: rms height h, rms gradient g, and rms mean curvature c, which
+//! is half of the rms Laplacian. The equivalent profile has these moments by construction, C1D = πq C2D.
 
 use super::criterion::{Criterion, long_ranged, number};
 use asperity_scene::LEAST_TABOR_NUMBER;
 use asperity_surface::{Amplitude, SelfAffine};
 use std::f64::consts::{E, PI, TAU};
 
-/// Largest range of attraction over the gap (16/3)g²/c at which the criterion of Pastewka and Robbins holds; Monti, Sanner
-/// and Pastewka (2021).
+/// Largest range of attraction divided by the gap (16/3)g²/c at which the criterion of Pastewka and Robbins holds; Monti,
+/// Sanner and Pastewka (2021).
 const MOST_OF_GAP: f64 = 0.1;
 
 /// Hurst exponents at which the repulsion 0.75 q_L h E* e^(−2u/h) of the bearing area model holds.
@@ -40,14 +40,14 @@ const FULLER_TABOR: Criterion = Criterion::new(
     1.0,
 );
 
-/// A nominally flat, randomly rough contact with adhesion.
+/// Nominally flat, randomly rough contact with adhesion.
 pub(super) struct RoughContact {
     pub amplitude: Amplitude,
     /// γ/E*, m.
     pub stretch: f64,
     /// Range of attraction z₀, m.
     pub range: f64,
-    /// Spectrum of a self-affine surface; `None` for a measured one.
+    /// Spectrum of a self-affine surface; `None` for a measured surface.
     pub spectrum: Option<SelfAffine>,
     /// Length L of the profile, m.
     pub length: f64,
@@ -59,13 +59,14 @@ impl RoughContact {
         vec![self.persson_tosatti(), self.pastewka_robbins(), self.bearing_area(), self.fuller_tabor()]
     }
 
-    /// The rms mean curvature c of the surface, 1/m: half of its rms Laplacian, which is the rms curvature of the profile.
+    /// Returns the rms mean curvature c of the surface in 1/m: half of its rms Laplacian, which is the rms curvature of the
+    /// profile.
     fn mean_curvature(&self) -> f64 {
         0.5 * self.amplitude.rms_curvature
     }
 
-    /// Elastic energy of the bodies pressed flat over the work of adhesion, Persson and Tosatti (2001): bodies conform where
-    /// they gain more than they store. Its limit for ever shorter waves exists for H > ½ alone.
+    /// Elastic energy of the bodies pressed flat, divided by the work of adhesion, Persson and Tosatti (2001). Bodies
+    /// conform where they gain more energy than they store. The limit for ever shorter waves exists only for H > ½.
     fn persson_tosatti(&self) -> Criterion {
         let rough = self.spectrum.map(|spectrum| spectrum.hurst).filter(|hurst| *hurst <= 0.5);
         let rough = rough.map(|hurst| format!("H {}, needs H > 0.5", number(hurst)));
@@ -73,11 +74,11 @@ impl RoughContact {
         PERSSON_TOSATTI.judge(value, &[long_ranged(self.tabor_number), rough])
     }
 
-    /// P = (g z₀/2ℓ)(g²/(c z₀))^(2/3), ℓ = γ/E*, Pastewka and Robbins (2014), eq. (10). In contact spots of the mean chord
-    /// 4g/c under the mean pressure E*g/2 of a contact without adhesion, the edge at which the gap is below z₀ attracts more
-    /// than the spots repel for P < π(3/16)^(2/3).
+    /// P = (g z₀/2ℓ)(g²/(c z₀))^(2/3) with ℓ = γ/E*, Pastewka and Robbins (2014), eq. (10). Contact spots have the mean
+    /// chord 4g/c and the mean pressure E*g/2 of a contact without adhesion. For P < π(3/16)^(2/3) the edge with a gap
+    /// below z₀ attracts more than the spots repel.
     ///
-    /// c is half of the Laplacian, as in the published example of `ContactEngineering/Adhesion`; with the whole Laplacian P
+    /// c is half of the Laplacian, as in the published example of `ContactEngineering/Adhesion`. With the whole Laplacian P
     /// would be 1.6 times smaller.
     fn pastewka_robbins(&self) -> Criterion {
         let (gradient, range) = (self.amplitude.rms_gradient, self.range);
@@ -89,9 +90,9 @@ impl RoughContact {
         PASTEWKA_ROBBINS.judge(value, &[far])
     }
 
-    /// h/h_c with the largest rms height h_c at which the attraction γφ(u/h)/h of the bearing area (φ the normal density)
-    /// exceeds the repulsion 0.75 q_L h E* e^(−2u/h) at any mean gap u: h_c² = ℓλ_L e²/(0.75·√(2π)·2π) = 0.626 ℓλ_L,
-    /// published as 0.6; Ciavarella (2018).
+    /// Returns h/h_c. The largest rms height h_c is the one at which the attraction γφ(u/h)/h of the bearing area exceeds
+    /// the repulsion 0.75 q_L h E* e^(−2u/h) at some mean gap u, with the normal density φ: h_c² = ℓλ_L e²/(0.75·√(2π)·2π)
+    /// = 0.626 ℓλ_L, published as 0.6; Ciavarella (2018).
     fn bearing_area(&self) -> Criterion {
         let Some(SelfAffine { hurst, first, roll_off_mode, .. }) = self.spectrum else {
             let reason = "needs a self-affine spectrum of H near 0.8".to_owned();
@@ -107,10 +108,10 @@ impl RoughContact {
         BEARING_AREA.judge(self.amplitude.rms_height / critical, &[soft, other])
     }
 
-    /// θ = (E*/γ)√(σ³/ρ), Fuller and Tabor (1975), with the rms height σ and the radius ρ = 1/c of the summits; below 1
-    /// surfaces bond by themselves, above 12 never, Gui et al. (1999).
+    /// θ = (E*/γ)√(σ³/ρ), Fuller and Tabor (1975), with the rms height σ and the radius ρ = 1/c of the summits. Surfaces
+    /// bond by themselves for θ below 1, and never for θ above 12, Gui et al. (1999).
     ///
-    /// Summits count as separate here if they, each pressed in by σ, cover together at most the area: πρσ times their density.
+    /// Summits count as separate if together they cover at most the area, each pressed in by σ: πρσ times their density.
     fn fuller_tabor(&self) -> Criterion {
         let Summits { height, density } = Summits::of(self.amplitude);
         let curvature = self.mean_curvature();
@@ -131,9 +132,9 @@ impl RoughContact {
 
 /// Summits of an isotropic surface with normally distributed heights.
 struct Summits {
-    /// Rms height σ around their mean, m.
+    /// Rms height σ of the summits around their mean, m.
     height: f64,
-    /// Number per area, 1/m².
+    /// Number of summits per area, 1/m².
     density: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Computation of the missing records of a plan on all cores; no bit of a result depends on the number of threads.
+//! Computation of the missing records of a plan on all cores. The results do not depend on the number of threads.
 
 use super::cells::{Cells, Streak};
 use super::compute::Streaks;
@@ -17,25 +17,26 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-/// Longest time that written records wait for the disk; a power cut loses them, and they are computed again. One sync takes
-/// tenths of a millisecond, and many on network file systems: on a local disk 100 000 records of 256 springs take 11 s with
-/// this wait, 12 s if each sync takes the records written since the one before, and 190 s with a sync for each record. For
-/// cells of thousands of springs there is no difference.
+/// Longest time that written records wait for the disk. A power cut loses waiting records, which are computed again. One
+/// sync takes tenths of a millisecond, and many on network file systems. On a local disk 100 000 records of 256 springs
+/// take 11 s with this wait, 12 s if each sync takes all records since the one before, and 190 s with a sync for each
+/// record. For cells of thousands of springs there is no difference.
 const SYNC: Duration = Duration::from_millis(50);
 /// Number of records that may wait between computation and file.
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Progress of a run, in records of its part of the plan.
+/// Progress of a run in records of its shard, which is its part of the plan. A record has the values of one cell on one
+/// profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudyProgress {
-    /// Number of existing records.
+    /// Number of records that exist now.
     pub done: u64,
     /// Number of records that existed before this run.
     pub before: u64,
-    /// Number of all records.
+    /// Number of records of the complete shard.
     pub total: u64,
-    /// Time from the creation of this run's file to the last records in it.
+    /// Time from the creation of the run's file to the last records in it.
     pub elapsed: Duration,
 }
 
@@ -45,23 +46,23 @@ impl StudyProgress {
         self.done == self.total
     }
 
-    /// Records per second, computed as [`crate::status::Attempt::rate`]; `None` before the first record.
+    /// Returns the number of records per second in this run; `None` before the first record.
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
-    /// Time left at the rate so far; `None` before the first record.
+    /// Returns the estimated time left at the rate so far; `None` before the first record.
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
 }
 
-/// Computes the missing records of a part of a study in a folder, on this number of threads. `stop` is asked after each loading;
-/// `report` is called now and then and at the end.
+/// Computes the missing records of a shard of a study in a folder, on this number of threads. `stop` is asked after each
+/// loading. `report` is called several times a second and at the end.
 ///
 /// # Errors
-/// Too little memory for a record, or a record cannot be written. Earlier records are kept.
+/// The memory does not suffice for a record, or a record cannot be written. Earlier records are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,
@@ -111,7 +112,7 @@ pub fn run_study(
     Ok(progress)
 }
 
-/// Writes records as they arrive. Syncs with the disk after the longest wait and at the end; the progress counts only
+/// Writes records as they arrive. Syncs with the disk after the longest wait and at the end. The progress counts only
 /// records that have reached the disk.
 fn write(
     (path, file): (&Path, &mut File),

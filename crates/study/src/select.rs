@@ -1,4 +1,4 @@
-//! Selection of a figure from a merged study: quantities, axes across and up, and values of the other axes.
+//! The selection of a figure from a merged study: quantities, axes, and values of the fixed axes.
 
 use super::axis::Axis;
 use super::grid::{Grid, GridLayer, across_and_up, scale_of};
@@ -8,31 +8,31 @@ use super::results::Results;
 use asperity_data::AxisScale;
 use asperity_data::{format_quantity, parse_quantity};
 
-/// Largest number of values of a second axis that is shown as curves of a section rather than as rows of a map.
+/// Largest number of values of a second axis that is shown as curves. With more values the figure is a map.
 const MOST_CURVES: usize = 5;
 const MOST_NAMED: usize = 12;
 
-/// What the user selects; each field is an option of `asperity sweep plot`.
+/// Selection of a figure by the user. Each field is an option of `asperity sweep plot`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// Quantity of each panel; default: F_a(d=0) and F_a/F_n
     ///
-    /// Without F_a/F_n: F_a(d=0) and F_a(F=0); without either: the first one.
+    /// Without F_a/F_n: F_a(d=0) and F_a(F=0); without any of these: the first quantity.
     #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME"))]
     pub quantities: Vec<String>,
-    /// Axis across
+    /// Horizontal axis
     #[cfg_attr(feature = "clap", arg(long = "x", value_name = "AXIS"))]
     pub across: Option<String>,
-    /// Axis up
+    /// Vertical axis
     #[cfg_attr(feature = "clap", arg(long = "y", value_name = "AXIS"))]
     pub up: Option<String>,
     /// Fix an axis at one of its values, as often as needed
     #[cfg_attr(feature = "clap", arg(long, value_name = "AXIS=VALUE", value_parser = axis_and_value))]
     pub at: Vec<(String, String)>,
-    /// Scale of quantities
+    /// Scale of quantities, linear or logarithmic
     ///
-    /// Default: by the range of the values; small values have a second, logarithmic chart.
+    /// By default the range of the values decides; small values have a second, logarithmic chart.
     #[cfg_attr(feature = "clap", arg(long, value_enum))]
     pub scale: Option<AxisScale>,
 }
@@ -45,27 +45,29 @@ fn axis_and_value(text: &str) -> Result<(String, String), String> {
     owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
 }
 
-/// A selected part of a study.
+/// Selected part of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selected {
     /// Cells of the selected part.
     pub grid: Grid,
-    /// Quantities to show.
+    /// Quantities of the figure.
     pub quantities: Vec<Quantity>,
-    /// True if each row of the grid is drawn as a curve over the axis across; false for a map.
+    /// True if each row of the grid is a curve over the horizontal axis; false for a map.
     pub curves: bool,
-    /// Sentence on a preload that was not named, of which the first is shown.
+    /// Sentence that says which preload is shown, if the user selected none of several; otherwise `None`.
     pub note: Option<String>,
 }
 
-/// Indices of the axes named for across and up, and for each axis of the study the index of the value at which it is fixed.
+/// Indices of the axes that the user named as horizontal and vertical, and for each axis of the study the index of its
+/// fixed value.
 type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
 
 impl Selection {
     /// Selects a part of a study.
     ///
     /// # Errors
-    /// A quantity, axis or value that the study does not have, with a list of what it has; or more than two free axes.
+    /// The study lacks a quantity, an axis or a value; the error lists what it has. More than two axes are left without a
+    /// fixed value.
     pub fn of(&self, study: &Results) -> Result<Selected, String> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
@@ -110,7 +112,7 @@ impl Selection {
         if usual.is_empty() { Ok(vec![first()?]) } else { Ok(usual) }
     }
 
-    /// Resolves the named axes, which must exist and be named once; an axis with one value is fixed.
+    /// Returns the named axes, which must exist and be named once. An axis with one value is fixed.
     fn axes(&self, axes: &[Axis]) -> Result<Chosen, String> {
         let mut named: Vec<(usize, &str)> = Vec::new();
         let mut name = |path: &str, option| {
@@ -142,8 +144,8 @@ impl Selection {
         Ok(([across, up], fixed))
     }
 
-    /// Indices of the axis across and, if there is one, of the second axis: as named; otherwise H goes across and κ or
-    /// e_el/γ up, or curves go along the longer of two axes.
+    /// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless the user names them, H
+    /// is horizontal and κ or e_el/γ vertical, or curves extend along the longer of two axes.
     fn free(
         &self,
         axes: &[Axis],
@@ -183,7 +185,7 @@ impl Selection {
     }
 }
 
-/// Fixes an axis of preloads at its first value where too many axes are free, and says so.
+/// Fixes an axis of preloads at its first value if too many axes are free, and says so.
 fn first_preload(axes: &[Axis], named: [Option<usize>; 2], fixed: &mut [Option<usize>]) -> Option<String> {
     let last = axes.len().checked_sub(1)?;
     let axis = axes.get(last).filter(|axis| axis.is_of_preloads())?;
@@ -196,14 +198,14 @@ fn first_preload(axes: &[Axis], named: [Option<usize>; 2], fixed: &mut [Option<u
     Some(format!("{} is the first of {count} preloads; --at {path}=VALUE selects another one", axis.at(0)))
 }
 
-/// Returns true if axis `one` has few values and axis `other` many, so that the few are curves over the other axis.
+/// Returns true if axis `one` has few values and axis `other` many. The few values are then curves over the other axis.
 fn is_few(axes: &[Axis], one: usize, other: usize) -> bool {
     let few = |index: usize| axes[index].values.len() <= MOST_CURVES;
     few(one) && !few(other)
 }
 
-/// A quantity shown as curves. A single curve is linear, with a second, logarithmic chart for small values; of several
-/// curves on a linear scale the highest would hide the others.
+/// Returns a quantity shown as curves. A single curve has a linear scale, with a second, logarithmic chart for small
+/// values. Several curves need one scale on which the highest does not hide the others.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
     let statistics = grid.statistics(quantity, false);
     let mut curves = statistics.chunks(grid.size().0.max(1));

@@ -1,5 +1,5 @@
-//! Sensitivity of the results of a scene: how their medians over random profiles change with each number of the scene, by a
-//! tenth. Each number is changed on the same profiles, so that the chance of another profile does not count as an influence.
+//! The sensitivity of the results of a scene: how the medians over random profiles change when each number of the scene
+//! changes by a tenth. Each number is changed on the same profiles, so that another profile does not count as an influence.
 
 use super::axis::{Axis, Shapes};
 use super::cells::Streak;
@@ -14,56 +14,59 @@ use asperity_data::median;
 use asperity_scene::{CheckedScene, Scene, Simulation};
 use std::cmp::Reverse;
 
-/// Share by which a number is made smaller and larger.
+/// Share by which each number is decreased and increased.
 pub const STEP: f64 = 0.1;
 
-/// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`].
+/// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`]; `None` for a result that the scene does not
+/// have.
 pub type Values = [Option<f64>; 3];
 
 /// Results of a scene with one changed number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed {
-    /// Medians over the profiles.
+    /// Medians of the results over the profiles.
     pub medians: Values,
-    /// Smallest and largest relative change of the results of single profiles; `None` for a fixed profile.
+    /// Smallest and largest relative change of each result on single profiles; `None` for a fixed profile.
     pub range: [Option<(f64, f64)>; 3],
 }
 
 /// Results for a smaller and a larger value of one number of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
-    /// Path, name and unit of the number.
+    /// Path, name and unit of the number, as an axis without values.
     pub axis: Axis,
-    /// The number in the scene.
+    /// Value of the number in the scene.
     pub value: f64,
-    /// The smaller and the larger number, each with the results; `None` for a number that the scene does not allow.
+    /// Smaller and larger value of the number, each with its results; `None` for a value that the scene does not allow.
     pub sides: [(f64, Option<Changed>); 2],
 }
 
-/// Results of a scene, and of scenes with one number changed.
+/// Results of a scene, and of the same scene with one number changed at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Number of profiles computed so far: the seed of the scene and the seeds that follow.
+    /// Number of profiles computed so far. Their seeds begin with the seed of the scene.
     pub profiles: u64,
-    /// Medians of the results of the scene.
+    /// Medians of the results of the unchanged scene.
     pub present: Values,
-    /// Smallest and largest results over the profiles; `None` for a fixed profile.
+    /// Smallest and largest result over the profiles, for each result; `None` for a fixed profile.
     pub range: Option<[Values; 2]>,
-    /// Influence of each number of the scene that is not a count.
+    /// Results for changes of each number of the scene, except numbers that count something.
     pub influences: Vec<Influence>,
 }
 
-/// Results of one profile for the scene and for each changed scene; NaN for a result that is missing.
+/// Results on one profile for the scene and for each changed scene; NaN for a missing result.
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
-    /// The results that are compared.
+    /// Results whose changes are computed.
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
-    /// Computes a checked scene, and scenes with one number changed, on the profiles of an ensemble. All other numbers stay: if
-    /// κ is given, the work of adhesion follows from κ. `jobs` threads share the profiles, the first with this simulation; no
-    /// bit depends on their number. `report` receives the sensitivity over the profiles so far after each.
+    /// Computes a checked scene, and scenes with one number changed, on the profiles of an ensemble. All other numbers of
+    /// the scene stay. If κ is given, the work of adhesion follows from κ.
+    ///
+    /// `jobs` threads share the profiles, and `simulation` serves the first thread. The results do not depend on the number
+    /// of threads. After each profile `report` receives the sensitivity over the profiles so far.
     ///
     /// # Errors
     /// A profile or its contact fails, or `stop` returned true.
@@ -152,20 +155,21 @@ impl Sensitivity {
         }
     }
 
-    /// Relative changes from the medians of the scene to these values; `None` if either is missing or the result of the
-    /// scene is zero.
+    /// Returns the relative changes from the medians of the scene to these values. A change is `None` if a value is missing
+    /// or the median of the scene is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// The reason, in words, why no change of the adhesion force is known; `None` if there is an adhesion force.
+    /// Returns the reason in words why no change of the adhesion force is known; `None` if there is an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known)
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// The influences, with the largest change of a result first; `result` is the index of the result.
+    /// Returns the influences, beginning with the largest change of a result. `result` is an index into
+    /// [`Sensitivity::RESULTS`].
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {
@@ -178,7 +182,7 @@ impl Sensitivity {
     }
 }
 
-/// A number changed by the share [`STEP`] up or down; a whole number by at least 1.
+/// Returns a number that is changed by the share [`STEP`] up or down, a whole number by at least 1.
 fn changed(axis: &Axis, value: f64, sign: f64) -> f64 {
     let step = STEP * value.abs();
     if axis.is_whole() { value + sign * step.round().max(1.0) } else { value + sign * step }

@@ -1,4 +1,4 @@
-//! Parts (shards) of a plan, for processes that share it.
+//! Shards of a plan: parts for processes that share the plan.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 const MOST: u32 = 1_000_000;
 
-/// Part number `number`, from 1, of `count` parts of a plan.
+/// Shard of a plan: part `number` of `count` equal parts, each for one process.
 ///
 /// ```
 /// use asperity_study::Shard;
@@ -17,27 +17,27 @@ const MOST: u32 = 1_000_000;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Shard {
-    /// Number of the part, from 1.
+    /// Number of the shard, from 1.
     pub number: u32,
-    /// Number of parts.
+    /// Number of shards of the plan.
     pub count: u32,
 }
 
 impl Shard {
-    /// The whole plan.
+    /// Whole plan as a single shard.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
     /// Creates a part of a plan.
     ///
     /// # Errors
-    /// The allowed numbers, in words.
+    /// The numbers are not allowed; the error says what is allowed.
     pub(super) fn new(number: u32, count: u32) -> Result<Shard, String> {
         let is_sound = (1..=MOST).contains(&count) && (1..=count).contains(&number);
         let allowed = || format!("shard {number}/{count}: allowed: K/N with K from 1 to N, N at most {MOST}");
         is_sound.then_some(Shard { number, count }).ok_or_else(allowed)
     }
 
-    /// Indices of the units of work that belong to this part, out of all `units`.
+    /// Returns the indices of the units of work that belong to this shard, out of `units` units.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }

@@ -8,19 +8,19 @@ use asperity_surface::{EquivalentLine, Form, SelfAffine};
 
 /// Residual of contacts without adhesion, in rms heights.
 const TOLERANCE: f64 = 1e-8;
-/// Relative difference of two forces by which a stiffness is found.
+/// Relative difference of two forces that determine a stiffness.
 const APART: f64 = 0.02;
 /// Share of the preload by which a loop may miss the preload.
 const NEAR: f64 = 0.01;
-/// Most steps of a loop: far more than any takes.
+/// Largest number of steps of a loop, far more than any loop needs.
 const MOST_STEPS: usize = 4000;
 
 /// Spectrum of a random surface.
 #[derive(Clone, Debug)]
 pub(super) enum Spectrum {
-    /// With the amplitude A₁, m, of its first mode without a roll-off.
+    /// Self-affine spectrum with the amplitude A₁ in m of its first mode without a roll-off.
     SelfAffine(SelfAffine, f64),
-    /// That of the surface with this equivalent line.
+    /// Spectrum of the surface whose equivalent line this is.
     Measured(EquivalentLine),
 }
 
@@ -30,21 +30,21 @@ pub(super) struct Body {
     pub form: Option<Form>,
     /// Spectrum of the roughness; `None` for a smooth body.
     pub spectrum: Option<Spectrum>,
-    /// Side L, m.
+    /// Side L of the square, m.
     pub side: f64,
-    /// E*, Pa.
+    /// Effective modulus E*, Pa.
     pub effective_modulus: f64,
-    /// Works of adhesion on closing and on opening, J/m².
+    /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
     pub works: Option<[f64; 2]>,
 }
 
-/// A state without adhesion at one force.
+/// State without adhesion at one force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pressing {
     pub indentation: f64,
-    /// dF/dd, N/m.
+    /// Stiffness dF/dd, N/m.
     pub stiffness: f64,
-    /// m².
+    /// Contact area, m².
     pub area: f64,
     pub residual: f64,
 }
@@ -52,13 +52,13 @@ pub(super) struct Pressing {
 /// Figures of an adhesive loop.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
-    /// N.
+    /// Adhesion force, N.
     pub adhesion_force: f64,
-    /// Adhesion force after a turn at first touch, N.
+    /// Adhesion force turned at first touch, N.
     pub at_touch: f64,
-    /// J.
+    /// Dissipated energy, J.
     pub dissipated_energy: f64,
-    /// Indentation, m, and force, N, from first touch on.
+    /// Indentation in m and force in N from first touch on.
     pub curve: Vec<(f64, f64)>,
 }
 
@@ -66,13 +66,13 @@ pub(super) struct Pulling {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loads {
     pub pressings: Vec<Pressing>,
-    /// `None` without adhesion.
+    /// Figures of the adhesive loop; `None` without adhesion.
     pub pulling: Option<Pulling>,
     pub convolutions: u64,
 }
 
 impl Body {
-    /// Bytes of the heaviest part of a computation.
+    /// Returns the memory in bytes of the largest part of a computation.
     pub fn bytes(&self, cells: usize) -> u64 {
         let adhesive = if self.works.is_some() { AdhesiveSquare::bytes(cells) } else { 0 };
         // Heights; waves in their place before.
@@ -80,8 +80,8 @@ impl Body {
         heights + HalfSpace::bytes(cells, Boundary::Free).max(adhesive).max(3 * heights)
     }
 
-    /// Loads the square with these random phases with each force, N, without adhesion, and with the last one with adhesion,
-    /// in steps of the indentation, m.
+    /// Loads the square with these random phases to each force in N without adhesion, and to the last one with adhesion, in
+    /// steps of the indentation in m.
     pub fn load(
         &self,
         (cells, seed): (usize, u64),
@@ -109,7 +109,7 @@ impl Body {
         Ok(loads)
     }
 
-    /// Heights, m, of the square with these random phases, row by row.
+    /// Returns the heights in m of the square with these random phases, row by row.
     pub fn heights(&self, cells: usize, seed: u64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.spectrum {
             Some(Spectrum::SelfAffine(spectrum, first)) => {
@@ -136,7 +136,7 @@ impl Body {
         Square { heights, side: self.side, effective_modulus: self.effective_modulus }
     }
 
-    /// Presses the square without adhesion with each force, N.
+    /// Presses the square without adhesion to each force in N.
     fn press(
         &self,
         heights: &[f64],
@@ -168,7 +168,7 @@ struct Loop {
 }
 
 impl Loop {
-    /// At first touch.
+    /// Begins the motion at first touch.
     fn begin(mut body: AdhesiveSquare, stop: &dyn Fn() -> bool) -> Result<Loop, HalfSpaceError> {
         let state = body.move_to(0.0, stop)?;
         Ok(Loop { body, state, curve: vec![(0.0, state.force)] })
@@ -180,7 +180,7 @@ impl Loop {
         Ok(())
     }
 
-    /// Presses to a force, N, in steps of the indentation, m.
+    /// Presses to a force in N, in steps of the indentation in m.
     fn press(&mut self, preload: f64, step: f64, stop: &dyn Fn() -> bool) -> Result<(), StudyError> {
         // The next step ends at the preload, by the stiffness of the last one.
         let mut next = step;
@@ -198,7 +198,7 @@ impl Loop {
         Err(StudyError::refused(Some("the preload in three dimensions"), found, "a smaller preload"))
     }
 
-    /// Pulls off in steps of the indentation, m, until nothing touches.
+    /// Pulls off in steps of the indentation in m, until nothing touches.
     fn pull_off(&mut self, step: f64, stop: &dyn Fn() -> bool) -> Result<(), StudyError> {
         for _ in 0..MOST_STEPS {
             if self.state.area == 0.0 {
@@ -209,13 +209,13 @@ impl Loop {
         Ok(())
     }
 
-    /// Largest tensile force, N.
+    /// Returns the largest tensile force in N.
     fn adhesion_force(&self) -> f64 {
         self.curve.iter().map(|(_, force)| -force).fold(0.0, f64::max)
     }
 }
 
-/// Work of the force along a curve, J.
+/// Returns the work of the force along a curve in J.
 fn work(curve: &[(f64, f64)]) -> f64 {
     curve.windows(2).map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0)).sum()
 }

@@ -1,4 +1,4 @@
-//! Loops of random squares in three dimensions beside the line, as far as they are computed.
+//! Loops of random squares in three dimensions for comparison with the profile, as far as they are computed.
 
 use super::error::StudyError;
 use super::profiles::Stop;
@@ -6,24 +6,24 @@ use super::reference::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Loops of random squares, as far as they are computed.
+/// Loops of loading and unloading for random squares in three dimensions, as far as they are computed.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
-    /// Number of squares in all.
+    /// Number of squares when all are computed.
     pub maps: u64,
-    /// Indentation and force from first touch on, of each square that is done.
+    /// Indentation and force of each computed square, from first touch on.
     pub curves: Vec<Vec<CurvePoint>>,
-    /// Adhesion forces of these squares, N, with adhesion.
+    /// Adhesion forces of these squares, N; empty without adhesion.
     pub adhesion_forces: Vec<f64>,
-    /// The comparison with the line, once all squares are done.
+    /// Comparison with random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
 }
 
 impl SquareLoops {
-    /// Computes the loops of a scene, and reports the loops so far after each of them.
+    /// Computes the loops of a scene. After each loop `report` receives the loops so far.
     ///
     /// # Errors
-    /// Those of [`Reference::of`].
+    /// The same as the errors of [`Reference::of`].
     pub fn of(
         scene: &CheckedScene,
         simulation: (Simulation, usize),

@@ -8,7 +8,7 @@ use serde::Serialize;
 /// Probability with which a confidence interval holds the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// Share of random profiles in one regime from which on the profiles agree.
+/// Share of random profiles in one regime above which the profiles agree.
 const AGREEING_SHARE: f64 = 0.75;
 
 /// Share of one profile in a mean above which a warning is given.
@@ -17,7 +17,7 @@ const MOST_OF_ONE: f64 = 0.5;
 /// Statistics of a quantity over random profiles, in its SI unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
-    /// Number of values; profiles without a value are left out.
+    /// Number of values. Profiles without a value are left out.
     pub count: usize,
     /// Mean of the values.
     pub mean: f64,
@@ -25,29 +25,29 @@ pub struct Statistics {
     pub quartiles: [f64; 3],
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// Spread of the values and confidence of the mean; `None` for one value, or for too few to state a confidence.
+    /// Spread of the values and confidence of the mean; `None` for one value, or if no confidence interval can be computed.
     #[serde(flatten)]
     pub spread: Option<Spread>,
 }
 
-/// Spread of several values and confidence of their mean.
+/// Spread of several values, and confidence of their mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Sample standard deviation (divisor n − 1).
+    /// Sample standard deviation of the values, with the divisor n − 1.
     pub standard_deviation: f64,
     /// Standard error of the mean.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t, on a scale on which the quantity
-    /// has no bounds.
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. The interval never reaches a bound
+    /// of the quantity, such as 0 for a force.
     pub confidence_interval: (f64, f64),
 }
 
-/// Function that gives the value in a column of a table of statistics, if it is known.
+/// Function that returns the value in a column of a table of statistics; `None` if it is unknown.
 pub type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
-    /// Computes the statistics of values of a quantity with these bounds, (−∞, ∞) without any. Values that are not finite
-    /// are left out as missing; `None` without values.
+    /// Computes the statistics of values of a quantity; `None` without values. `bounds` are the smallest and the largest
+    /// possible value, (−∞, ∞) without bounds. Values that are not finite are left out.
     ///
     /// ```
     /// use asperity_study::{Quantity, Statistics};
@@ -80,7 +80,7 @@ impl Statistics {
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
     }
 
-    /// Columns of tables of statistics: ending of the name, and value.
+    /// Columns of a table with statistics: ending of the name, and function that returns the value.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -93,7 +93,7 @@ impl Statistics {
         ("max", |all| Some(all.range.1)),
     ];
 
-    /// Median, quartiles and range of several values in words, or the only value.
+    /// Returns median, quartiles and range of several values in words, or the only value.
     ///
     /// ```
     /// let all = asperity_study::Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
@@ -109,33 +109,34 @@ impl Statistics {
         format!("median {median} (quartiles {quartiles}, range {range})")
     }
 
-    /// A warning if one of at least three profiles makes up more than half of the mean of `what`.
+    /// Returns a warning if one of at least three profiles makes up more than half of the mean; otherwise `None`. `what`
+    /// names the quantity.
     pub fn warning(&self, what: &str) -> Option<String> {
         let share = self.share_of_largest().filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
         let percent = format_rounded(100.0 * share, 2, "1");
         Some(format!("One profile makes {percent} % of the mean of {what}: the median is the better guide."))
     }
 
-    /// Share of the largest value in the sum of the values; `None` if a value is negative.
+    /// Returns the share of the largest value in the sum of the values; `None` if a value is negative.
     pub fn share_of_largest(&self) -> Option<f64> {
         let share = self.range.1 / (self.mean * self.count as f64);
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Both ends of the confidence interval of the mean; the mean twice if there is none.
+    /// Returns both ends of the confidence interval of the mean, or twice the mean if there is none.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
 
-    /// The confidence interval of the mean, if it is known.
+    /// Returns the confidence interval of the mean; `None` if it is unknown.
     pub fn confidence_interval(&self) -> Option<(f64, f64)> {
         self.spread.map(|spread| spread.confidence_interval)
     }
 }
 
-/// Interval around the mean with the half width `half`. For a quantity without bounds it is added to the mean; for one
-/// bound to the logarithm of the distance from the bound; for two to the logarithm of the ratio of both distances. The
-/// interval never reaches a bound, and hardly differs where it is narrow.
+/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added to the mean. With one
+/// bound it is added to the logarithm of the distance from the bound, with two bounds to the logarithm of the ratio of both
+/// distances. The interval never reaches a bound. A narrow interval hardly changes.
 fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     let (above, below) = (mean - least, most - mean);
     // Rounding may have carried the mean itself across a bound.
@@ -153,16 +154,16 @@ fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     (end(-half), end(half))
 }
 
-/// Number of profiles in each regime.
+/// Number of random profiles in each regime of adhesion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RegimeCounts {
     /// Number of profiles with pressure-insensitive adhesion.
     pub pressure_insensitive: usize,
     /// Number of profiles with pressure-sensitive adhesion.
     pub pressure_sensitive: usize,
-    /// Number of profiles that are non-adhesive.
+    /// Number of non-adhesive profiles.
     pub non_adhesive: usize,
-    /// Number of profiles whose regime is unknown, since there is no tensile force.
+    /// Number of profiles whose regime is unknown because they never pull.
     pub none: usize,
 }
 
@@ -175,17 +176,18 @@ impl RegimeCounts {
         RegimeCounts { pressure_insensitive, pressure_sensitive, non_adhesive, none }
     }
 
-    /// Number of profiles in each regime, in the order of [`Regime::ALL`].
+    /// Returns the number of profiles in each regime, in the order of [`Regime::ALL`].
     fn known(self) -> [usize; 3] {
         [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
     }
 
-    /// Number of profiles.
+    /// Returns the number of all profiles.
     pub fn profiles(self) -> usize {
         self.known().iter().sum::<usize>() + self.none
     }
 
-    /// Regime of most profiles, with their number; of two with equal numbers the one with more adhesion.
+    /// Returns the regime of most profiles, with their number. Of two regimes with equal numbers it is the one with more
+    /// adhesion.
     ///
     /// ```
     /// use asperity_scene::Regime;
@@ -199,14 +201,15 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Regime with the second largest number of profiles, if too few profiles agree on the first.
+    /// Returns the regime with the second largest number of profiles, if less than three quarters of the profiles agree on
+    /// the first; otherwise `None`.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
         second.filter(|_| !agree).map(|(regime, _)| regime)
     }
 
-    /// Regimes that occur, with their numbers of profiles, the largest first.
+    /// Returns the regimes that occur with their numbers of profiles, the largest first.
     fn ordered(self) -> [Option<(Regime, usize)>; 3] {
         let mut counts = [0, 1, 2].map(|place| (Regime::ALL[place], self.known()[place]));
         // Stable: of equal numbers the one with more adhesion remains first.
@@ -214,14 +217,16 @@ impl RegimeCounts {
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
 
-    /// Names of the regimes that occur, with their numbers of profiles.
+    /// Returns the names of the regimes that occur, with their numbers of profiles. Profiles without a known regime are
+    /// `not known`.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);
         let names = Regime::ALL.map(Regime::name).into_iter().chain(["not known"]);
         names.zip(counts).filter(|(_, count)| *count > 0)
     }
 
-    /// Share of each regime among the profiles of known regime, in the order of [`Regime::ALL`]; `None` if none is known.
+    /// Returns the share of each regime among the profiles of known regime, in the order of [`Regime::ALL`]; `None` if none
+    /// is known.
     pub fn shares(self) -> Option<[f64; 3]> {
         let all: usize = self.known().iter().sum();
         (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))

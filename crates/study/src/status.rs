@@ -1,4 +1,4 @@
-//! Progress of a study and of the processes that work on it.
+//! The progress of a study and of the processes that work on it.
 
 use super::cells::{Cells, Streak};
 use super::error::StudyError;
@@ -9,60 +9,60 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Progress of a study.
+/// Progress of a study. A record has the values of one cell on one profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Number of existing records.
+    /// Number of records that exist.
     pub done: u64,
-    /// Number of records that the whole study has.
+    /// Number of records in the complete study.
     pub total: u64,
     /// Number of missing records.
     pub missing: u64,
-    /// Number of records without values, since they cannot be computed.
+    /// Number of existing records that have no values because they cannot be computed.
     pub failed: u64,
-    /// Number of lines of shard files that are torn or damaged.
+    /// Number of incomplete or damaged lines of shard files.
     pub damaged: u64,
-    /// The parts of the plan that processes work on.
+    /// Progress of the shards, which are the parts of the plan that processes compute.
     pub shards: Vec<ShardStatus>,
 }
 
-/// Progress of one part.
+/// Progress of one shard.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShardStatus {
-    /// The part, as `3/8`.
+    /// Name of the shard, such as `3/8`.
     pub shard: String,
-    /// Number of all records of the part.
+    /// Number of records of the complete shard.
     pub total: u64,
-    /// Number of existing records of the part, from any process.
+    /// Number of existing records of the shard, from any process.
     pub done: u64,
-    /// The processes that worked on the part.
+    /// Processes that worked on the shard.
     pub attempts: Vec<Attempt>,
 }
 
-/// One process, with its file.
+/// Process that worked on a shard, with its file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
-    /// Name of the file.
+    /// Name of the file that the process wrote.
     pub file: String,
-    /// Name of the machine.
+    /// Name of the machine on which the process ran.
     pub host: String,
-    /// Process id on that machine.
+    /// Number of the process (PID) on this machine.
     pub process: u32,
-    /// Time at which the process began, s since 1970.
+    /// Time at which the process began, in s since 1970.
     pub started: u64,
-    /// Time of its last write, s since 1970.
+    /// Time of the last write of the process, in s since 1970.
     pub written: f64,
-    /// Number of records written by the process.
+    /// Number of records that the process wrote.
     pub records: u64,
-    /// Records per second, from the beginning to the last write; `None` if no time passed.
+    /// Records per second from the beginning to the last write; `None` if no time passed.
     pub rate: Option<f64>,
 }
 
 impl Status {
-    /// Status of a study from the present content of its folder.
+    /// Reads the status of a study from the present content of its folder.
     ///
     /// # Errors
-    /// The folder cannot be read.
+    /// A file of the folder cannot be read, or belongs to another plan.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let total = folder.plan().records_in_all();
         let (mut done, mut damaged, mut failed) = (vec![false; total as usize], 0, 0);
@@ -101,13 +101,13 @@ impl Status {
     }
 }
 
-/// Records per second over a time, s; `None` for zero time.
+/// Returns the records per second over a time in s; `None` for zero time.
 pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// Number of all records of a part of a study, and number of the existing ones. Counting all parts together takes as long
-/// as counting the whole study.
+/// Returns the number of all records of a shard, and the number of existing ones. Counting all shards together takes as
+/// long as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
     for Streak { cells, line } in shard.units(cells.units()).flat_map(|unit| cells.streaks(unit)) {

@@ -1,8 +1,8 @@
 //! The folder of a study: its plan, and one file for each process that has worked on it.
 //!
-//! A shard file is only ever appended to, by the process that made it; each record is a line with a checksum. However a
-//! process ends, its written records remain, and a torn line is ignored. A crash of the machine loses the records that have
-//! not reached the disk; they are computed again.
+//! A shard file is only ever appended to, by the process that made it. Each record is a line with a checksum. However a
+//! process ends, its written records remain, and an incomplete line is ignored. A crash of the machine loses the records
+//! that have not reached the disk. They are computed again.
 
 use super::error::StudyError;
 use super::measured::{changed, file_of, with_hash};
@@ -25,7 +25,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the shard files.
 pub const STORE_VERSION: u32 = 1;
-/// Limit of the length of a line of a shard file or a table, bytes; records are much shorter.
+/// Largest length in bytes of a line of a shard file or a table. Records are much shorter.
 const LONGEST_LINE: u64 = 1 << 16;
 
 const SHARDS: &str = "shards";
@@ -34,55 +34,55 @@ const ENDING: &str = "shard";
 /// Text between cell and seed and the reason, in a record without values.
 const FAILED: &str = ",:";
 
-/// Number of characters of the checksum and the comma behind it.
+/// Number of characters of the checksum and the comma after it.
 const CHECKSUM: usize = 9;
 
-/// The folder of a study.
+/// Folder of a study, with its plan and the values that are computed.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
     plan: Plan,
 }
 
-/// Header of a shard file, which is its first line.
+/// Header of a shard file, which is the first line of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
     /// Version of the format of shard files.
     pub format: u32,
-    /// Checksum of the plan.
+    /// Checksum of the plan as text.
     pub plan: String,
-    /// The part of the plan assigned to the process.
+    /// Shard, which is the part of the plan that the process computes.
     pub shard: Shard,
-    /// Name of the machine.
+    /// Name of the machine on which the process ran.
     pub host: String,
-    /// Process id on that machine.
+    /// Number of the process (PID) on this machine.
     pub process: u32,
-    /// Time at which the process began, s since 1970.
+    /// Time at which the process began, in s since 1970.
     pub begun: f64,
     /// Version of the program that wrote the file.
     pub program: String,
 }
 
-/// A shard file.
+/// Shard file: the values that one process has computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShardFile {
-    /// Path.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Header.
+    /// Header of the file.
     pub header: ShardHeader,
-    /// Time of the last write, s since 1970.
+    /// Time of the last write, in s since 1970.
     pub written: f64,
 }
 
-/// A record: its index among all records of the study (by cell, then by seed), and one value for each quantity of the plan
-/// (NaN if missing), or the reason why there are none.
+/// Record of a study: its index, counted by cell, then by seed, and one value for each quantity of the plan, NaN if
+/// missing, or the reason why there are none.
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
-    /// Creates the folder of a plan, or opens one that holds the same plan.
+    /// Creates the folder of a plan, or opens the folder if it has the same plan.
     ///
     /// # Errors
-    /// The folder holds another plan or cannot be written, or a measured file has changed or cannot be read.
+    /// The folder contains another plan or cannot be written. A measured file has changed or cannot be read.
     ///
     /// ```
     /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, Status, merge, run_study};
@@ -132,10 +132,10 @@ impl Folder {
         path.join(PLAN_FILE).is_file()
     }
 
-    /// Opens the folder of a study; its plan was checked when the study began.
+    /// Opens the folder of a study. Its plan is not checked again.
     ///
     /// # Errors
-    /// The folder holds no study, or its plan cannot be read.
+    /// The folder contains no study, or its plan cannot be read.
     pub fn open(path: &Path) -> Result<Folder, StudyError> {
         let file = path.join(PLAN_FILE);
         if !file.is_file() {
@@ -146,12 +146,12 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan })
     }
 
-    /// Path.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Plan of the study.
+    /// Returns the plan of the study.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -191,7 +191,8 @@ impl Folder {
         Ok((path, file))
     }
 
-    /// All shard files that have a header, sorted by name; a process that ended before it wrote one has no records.
+    /// Returns all shard files that have a header, sorted by name. A process that ended before it wrote a header has no
+    /// records.
     ///
     /// # Errors
     /// A file cannot be read, or belongs to another plan or version.
@@ -209,8 +210,8 @@ impl Folder {
         paths.into_iter().filter_map(|path| file_of_plan(path, &checksum).transpose()).collect()
     }
 
-    /// The records of a file in the order of writing; `None` for a line that is torn, was changed later, or is no record of
-    /// this plan.
+    /// Returns the records of a file in the order of writing. A record is `None` if its line is incomplete, was changed
+    /// later, or is no record of this plan.
     pub(super) fn records<'f>(
         &'f self,
         file: &'f ShardFile,
@@ -231,8 +232,8 @@ impl Folder {
         }))
     }
 
-    /// Which records exist, by index, after all files are synced to the disk: otherwise a power cut could lose records that
-    /// a killed process left unsynced, although they were counted.
+    /// Returns which records exist, by index, after all files are synced to the disk. Otherwise a power cut could lose
+    /// records that a killed process did not sync, although they were counted.
     pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
         let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {
@@ -249,7 +250,7 @@ impl Folder {
     }
 }
 
-/// A shard file of the plan with this checksum; `None` if it has no header yet.
+/// Returns the shard file of the plan with this checksum; `None` if it has no header yet.
 fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, StudyError> {
     let file = open_regular(&path).map_err(|error| StudyError::folder(&path, error))?;
     let written =
@@ -263,7 +264,7 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
     Ok(Some(ShardFile { header, written, path }))
 }
 
-/// Reads a whole header. A crash cannot cause an error in it, so an error is a fault of the writer.
+/// Reads a whole header. A crash cannot cause an error in a header, so an error is a fault of the writer.
 fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
     let header: ShardHeader = serde_json::from_str(payload).map_err(|error| {
         format!(
@@ -279,13 +280,13 @@ fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
     Ok(ShardHeader { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
 }
 
-/// Appends a line with its checksum in front; `payload` has no line break.
+/// Appends a line with its checksum in front. `payload` has no line break.
 pub(super) fn seal(payload: &str, into: &mut String) {
     // Writing to a string cannot fail.
     let _ = writeln!(into, "{:08x},{payload}", crc32fast::hash(payload.as_bytes()));
 }
 
-/// The payload of a line without its line break; `None` if it does not agree with the checksum.
+/// Returns the payload of a line without its line break; `None` if it does not agree with the checksum.
 pub(super) fn unseal(line: &str) -> Option<&str> {
     let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
     let checksum = checksum.strip_suffix(',')?;
@@ -294,7 +295,7 @@ pub(super) fn unseal(line: &str) -> Option<&str> {
     is_ours.then_some(payload)
 }
 
-/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column; a reason follows a colon.
+/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column. A reason follows a colon.
 pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String) {
     let mut payload = format!("{cell},{seed}");
     if let Err(reason) = record {
@@ -311,7 +312,7 @@ pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String)
     seal(&payload, into);
 }
 
-/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has `count` values or a reason.
+/// Returns cell, seed and values of a payload, with NaN for empty columns; `None` unless it has `count` values or a reason.
 pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)> {
     if let Some((place, reason)) = payload.split_once(FAILED) {
         let (cell, seed) = place.split_once(',')?;
@@ -324,7 +325,7 @@ pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)
     (values.len() == count).then_some((cell, seed, Ok(values)))
 }
 
-/// Lines of a text without their line breaks; `None` for a line that is too long, torn or not text.
+/// Returns the lines of a text without their line breaks; `None` for a line that is too long, incomplete or not text.
 pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<Option<String>>> {
     std::iter::from_fn(move || {
         let mut line = Vec::new();
@@ -341,7 +342,7 @@ fn text_of(file: &Path) -> Result<String, StudyError> {
     read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
 }
 
-/// Error for a folder that holds another plan, with the text `there`, than `plan`.
+/// Returns the error for a folder with another plan than `plan`. `there` is the text of this other plan.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
     // If only the content of the measured file differs, the error is specific.
@@ -367,7 +368,7 @@ fn difference(there: &str, asked: &str) -> String {
     first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
 }
 
-/// Name of this machine, in letters allowed in a file name.
+/// Returns the name of this machine in letters allowed in a file name.
 fn host() -> String {
     #[cfg(unix)]
     let name = rustix::system::uname().nodename().to_string_lossy().into_owned();

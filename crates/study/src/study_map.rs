@@ -1,5 +1,5 @@
-//! The maps of a finished study: over H and κ or over other axes, one map for each combination of values on the remaining
-//! axes.
+//! The maps of a finished study over H and κ or over other axes. Each combination of values on the remaining axes has one
+//! map.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -12,12 +12,12 @@ use asperity_scene::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
-/// Maps of a finished study.
+/// Maps of a finished study over two axes, or curves over one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
     study: Results,
-    /// Indices of the axes: across, up, and the others.
+    /// Indices of the axes: horizontal, vertical, and the others.
     across: usize,
     up: Option<usize>,
     others: Vec<usize>,
@@ -26,15 +26,15 @@ pub struct StudyMap {
 }
 
 impl StudyMap {
-    /// Opens the folder of a merged study.
+    /// Reads the maps from the folder of a merged study.
     ///
     /// # Errors
-    /// The folder holds no study, or a study of one cell.
+    /// The folder contains no merged study, or a study of one cell.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyError> {
         StudyMap::of(Results::open(folder)?, folder)
     }
 
-    /// The maps of a study that was read from a folder.
+    /// Makes the maps of a study that was read from `folder`.
     ///
     /// # Errors
     /// The study has one cell.
@@ -51,39 +51,39 @@ impl StudyMap {
         Ok(StudyMap { folder, across, up, others, layers: study.layers(), study })
     }
 
-    /// The folder.
+    /// Returns the folder of the study.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Name of the folder without its parents.
+    /// Returns the name of the folder without its parents.
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()
     }
 
-    /// The plan of the study.
+    /// Returns the plan of the study.
     pub fn plan(&self) -> &Plan {
         self.study.plan()
     }
 
-    /// Number of maps.
+    /// Returns the number of maps.
     pub fn slices(&self) -> u64 {
         self.others.iter().map(|&other| self.plan().axes[other].count()).product()
     }
 
-    /// For each axis of the study the index of the value at which a map is; 0 on the axes of the map itself.
+    /// Returns for each axis of the study the index of the value of a map; 0 on the axes of the map itself.
     fn places(&self, slice: u64) -> Vec<usize> {
         self.plan().places_on(self.others.iter().copied(), slice)
     }
 
-    /// The axes of the study that are not axes of the map, each with the index of the map's value on it.
+    /// Returns the axes of the study that are not axes of the map, each with the index of the map's value.
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
         self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
     }
 
-    /// Map of this number.
+    /// Returns the map of this number, counted from 0.
     pub fn grid(&self, slice: u64) -> Grid {
         self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
     }
@@ -92,7 +92,7 @@ impl StudyMap {
         [Some(self.across), self.up].into_iter().flatten().map(|axis| &self.plan().axes[axis])
     }
 
-    /// The scene of a map on the first profile of the study, with these values on the axes of the map. An axis
+    /// Returns the scene of a map on the first profile of the study, with these values on the axes of the map. An axis
     /// without a value here keeps the value of the plan's scene.
     fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
         let plan = self.plan();
@@ -118,7 +118,7 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// The scene of the study for the explorer, named by the folder of the study.
+    /// Returns the scene of the study for the explorer, named by the folder of the study.
     ///
     /// # Errors
     /// The scene is invalid.
@@ -127,7 +127,8 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` is the scene of a map, apart from values on the map's axes and the number of samples.
+    /// Returns true if `scene` is the scene of a map. Values on the axes of the map and the number of curve points may
+    /// differ.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
@@ -143,23 +144,23 @@ impl StudyMap {
         }
     }
 
-    /// The document with the scene of a map, except for values on the map's axes.
+    /// Returns the document with the values that a map has on the other axes of the study.
     ///
     /// # Errors
-    /// Values are invalid in the scene.
+    /// The scene does not allow these values.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
         let values: Vec<_> = self.at(slice).map(|(axis, place)| (axis, axis.values[place])).collect();
         moved(document, &values)
     }
 }
 
-/// κ and H of a scene, if it states them itself; for a measured profile they only follow from its file.
+/// Returns κ and H of a scene, if the scene states them. For a measured profile they follow only from its file.
 fn place(scene: &Scene) -> Option<(f64, f64)> {
     let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
     Some((governing(scene)?.kappa?, hurst))
 }
 
-/// Returns true if κ and H are equal to within rounding; unknown values are not compared.
+/// Returns true if κ and H are equal except for rounding. Unknown values are not compared.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
     one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))

@@ -1,4 +1,4 @@
-//! Tables of a merged study: the records, their statistics over the profiles, and a description of the columns.
+//! Tables of a merged study: its values, their statistics over the profiles, and a description of the columns.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -26,16 +26,16 @@ pub const RESULTS: &str = "results.csv";
 pub const SUMMARY: &str = "summary.csv";
 /// Name of the column with the reasons of records without values.
 const REASON: &str = "reason";
-/// Limit of the length of a description of the columns that is read, bytes.
+/// Largest length in bytes of a description of the columns that is read.
 const LONGEST_SIDECAR: usize = 1 << 26;
-/// Name of the file that describes the columns.
+/// Name of the file that describes the columns of the tables.
 pub const SIDECAR: &str = "results.json";
 
-/// Merges the shard files of a study and writes its tables, each completely or not at all. Of a study that is not complete
-/// the tables hold the existing records, and [`Merged`] counts the missing cells.
+/// Merges the shard files of a study and writes its tables, each completely or not at all. If the study is not complete,
+/// the tables contain the existing values, and [`Merged`] counts the missing cells.
 ///
 /// # Errors
-/// Two records of the same cell and profile differ, or a file cannot be read or written.
+/// Two results for the same cell and profile differ, or a file cannot be read or written.
 pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     let plan = results.plan();
@@ -47,7 +47,7 @@ pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     Ok(merged)
 }
 
-/// The description of the columns, with the plan and what a merge found.
+/// Returns the description of the columns, with the plan and what a merge found.
 fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> impl Serialize + 'a {
     let axis = |axis: &'a Axis| {
         object! {
@@ -102,7 +102,7 @@ fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u6
     table.real("preload", move |row| preload.map(|axis| plan.value(cell(row), axis)))
 }
 
-/// SHA-256 of the results of the last merge, if it is recorded.
+/// Returns the SHA-256 of the results of the last merge, if it is recorded.
 fn recorded_hash(folder: &Path) -> Option<String> {
     let text = read_regular_text(&folder.join(SIDECAR), LONGEST_SIDECAR).ok()?;
     let all: serde_json::Value = serde_json::from_str(&text).ok()?;
@@ -110,7 +110,8 @@ fn recorded_hash(folder: &Path) -> Option<String> {
 }
 
 impl Results {
-    /// The table with a row for each record: the values of the axes, the seed of the profile, and the recorded quantities.
+    /// Returns a table with a row for each cell and profile: values of the axes, seed of the profile, and recorded
+    /// quantities.
     pub fn table(&self) -> Table<'_> {
         let rows = || {
             let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
@@ -132,7 +133,7 @@ impl Results {
         self.with_reasons(table, |row| row.3)
     }
 
-    /// Completes the table, with a column of the reasons of records without values, if there are any.
+    /// Completes the table with a column of the reasons of records without values, if there are any.
     fn with_reasons<'a, T: 'a>(
         &'a self,
         table: TableOf<'a, T>,
@@ -145,7 +146,7 @@ impl Results {
         }
     }
 
-    /// The table of the cells with records: number of profiles and, for each quantity, mean, standard deviation and
+    /// Returns the table of the cells with records: number of profiles and, for each quantity, mean, standard deviation and
     /// confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
@@ -175,10 +176,10 @@ impl Results {
         self.with_reasons(table, |row| row.2)
     }
 
-    /// Reads the results of a merged study.
+    /// Reads the values of a study from its folder, in which [`merge`] wrote the tables.
     ///
     /// # Errors
-    /// The folder holds no study, or a table is missing, was changed or belongs to another plan.
+    /// The folder contains no study, or a table is missing, was changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(RESULTS);

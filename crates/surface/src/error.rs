@@ -1,32 +1,38 @@
 //! The error of this crate: the place, what was found there, and what is allowed.
 
+use asperity_data::text_table::TextFault;
 use asperity_data::{OutOfMemory, ReadError, shown};
 use std::fmt;
 use std::path::Path;
 use thiserror::Error;
 
-/// Place of a fault. Lines and points count from 1; bytes count from 0, after decompression.
+/// Formats that are read, for messages.
+const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
+                                  or X3P in Gwyddion";
+
+/// Place of a fault. Lines and points count from 1. Bytes count from 0, after decompression.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
     /// The file, or the argument, as a whole.
     #[default]
     File,
-    /// A line of a text.
+    /// Line of a text, by its number.
     Line(usize),
-    /// A point of a surface or of a curve.
+    /// Point of a surface or of a curve, by its number.
     Point(usize),
-    /// A byte, by its offset.
+    /// Byte of a file, by its offset.
     Byte(usize),
-    /// Named part of a container: a file of an archive, an element, a channel.
+    /// Named part of a container, such as a file of an archive, an element or a channel.
     Part(String),
-    /// A field of the scene.
+    /// Field of the scene, by its path.
     Field(&'static str),
-    /// A place in the file of the measurement with this name.
+    /// Place in the file of the measurement with this name.
     Measurement(String, Box<Place>),
-    /// A place in one of several surfaces, by its index from 0.
+    /// Place in one of several surfaces, with the index of the surface from 0.
     Surface(usize, Box<Place>),
-    /// A place in a file that a field of the scene names: the field, the path of the file, and the place in it.
+    /// Place in a file that a field of the scene names. It has the path of the field, the path of the file, and the place in the
+    /// file.
     FileOf(&'static str, String, Box<Place>),
 }
 
@@ -47,7 +53,7 @@ impl fmt::Display for Place {
 }
 
 impl Place {
-    /// This place and all places inside which it lies, from the outermost to the innermost.
+    /// Returns this place and all places inside which it lies, from the outermost to the innermost.
     fn all(&self) -> impl Iterator<Item = &Place> {
         std::iter::successors(Some(self), |place| match place {
             Place::Measurement(_, inner) | Place::Surface(_, inner) | Place::FileOf(_, _, inner) => {
@@ -58,8 +64,8 @@ impl Place {
     }
 }
 
-/// Reason why a surface, a form or a profile cannot be read, made or analysed. The caller prepends the name of the file,
-/// unless the place has it.
+/// Reason why a surface, a form or a profile cannot be read, made or analysed. The caller prepends the name of the file, unless
+/// the place has it.
 ///
 /// ```
 /// let options = asperity_surface::ReadOptions { unit: Some("m".parse()?), ..Default::default() };
@@ -83,9 +89,9 @@ pub enum SurfaceError {
     /// The system cannot read a file.
     #[error("{place}{reason}")]
     Unreadable {
-        /// The file.
+        /// File that cannot be read.
         place: Place,
-        /// The reason of the system.
+        /// Reason that the system gives.
         reason: String,
     },
     /// The Fourier transform refused its input.
@@ -94,15 +100,15 @@ pub enum SurfaceError {
     /// An array does not fit into memory.
     #[error("{place}{error}")]
     OutOfMemory {
-        /// The surface or the field of the scene that takes the memory.
+        /// Surface or field of the scene that takes the memory.
         place: Place,
-        /// The missing memory.
+        /// Number of bytes that the system cannot provide.
         error: OutOfMemory,
     },
 }
 
 impl SurfaceError {
-    /// Place of the fault.
+    /// Returns the place of the fault.
     pub fn place(&self) -> &Place {
         match self {
             SurfaceError::Refused { place, .. }
@@ -116,17 +122,17 @@ impl SurfaceError {
         self.place().all().find_map(of)
     }
 
-    /// Number of the line of the fault, from 1; `None` for a fault elsewhere.
+    /// Returns the number of the line of the fault, from 1; `None` for a fault elsewhere.
     pub fn line(&self) -> Option<usize> {
         self.find(|place| if let Place::Line(number) = place { Some(*number) } else { None })
     }
 
-    /// Index of the surface with the fault, from 0; `None` if the fault lies in all surfaces together.
+    /// Returns the index of the surface with the fault, from 0; `None` if the fault lies in all surfaces together.
     pub fn surface(&self) -> Option<usize> {
         self.find(|place| if let Place::Surface(index, _) = place { Some(*index) } else { None })
     }
 
-    /// Field of the scene with the fault, such as `roughness.file`; `None` for a surface that belongs to no scene.
+    /// Returns the field of the scene with the fault, such as `roughness.file`; `None` for a surface that belongs to no scene.
     pub fn field(&self) -> Option<&'static str> {
         self.find(|place| match place {
             Place::Field(name) | Place::FileOf(name, ..) => Some(*name),
@@ -134,12 +140,12 @@ impl SurfaceError {
         })
     }
 
-    /// Path of the file that a scene names; `None` for a fault outside of such a file.
+    /// Returns the path of the file with the fault, if a scene names this file.
     pub fn file(&self) -> Option<String> {
         self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
     }
 
-    /// The error, with a place around its place.
+    /// Returns the error with its place inside an outer place, such as a file.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
@@ -150,12 +156,12 @@ impl SurfaceError {
         self
     }
 
-    /// The error of a file with a measured surface that a scene names.
+    /// Returns the error with the path of a measured surface, which the field `roughness.file` of a scene names.
     pub fn in_measured(self, file: &Path) -> Self {
         self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
     }
 
-    /// The error of the springs of a profile that do not fit into memory.
+    /// Creates the error of a profile whose springs do not fit into memory.
     pub fn of_springs(error: OutOfMemory) -> Self {
         SurfaceError::OutOfMemory { place: Place::Field("numerics.points"), error }
     }
@@ -173,7 +179,28 @@ impl From<ReadError> for SurfaceError {
     }
 }
 
-/// Creates the error of a place: what was found there and what is allowed.
+impl From<TextFault> for SurfaceError {
+    fn from(fault: TextFault) -> Self {
+        let (place, found, allowed) = match fault {
+            TextFault::NotText { line, byte } => {
+                let found = format!("byte {byte} of the line is zero, so this is no text");
+                (Place::Line(line), found, FORMATS.to_owned())
+            }
+            TextFault::LongLine { line } => {
+                let most = format!("{} bytes", TextFault::LONGEST_LINE);
+                (Place::Line(line), format!("longer than {most}"), format!("at most {most}"))
+            }
+            TextFault::OutOfMemory(error) => return error.into(),
+            other => {
+                let allowed = "numbers with decimal points, or without separators of thousands";
+                (Place::File, other.to_string(), allowed.to_owned())
+            }
+        };
+        refused(place, found, allowed)
+    }
+}
+
+/// Creates the error [`SurfaceError::Refused`] of a place, with what was found there and what is allowed, in words.
 pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> SurfaceError {
     SurfaceError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
 }

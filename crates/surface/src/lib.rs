@@ -7,7 +7,7 @@ mod line;
 mod spectrum;
 mod topography;
 
-pub use error::{Place, SurfaceError, refused};
+pub use error::{Place, SurfaceError};
 pub use line::equivalent::{EquivalentLine, MeasuredRoughness};
 pub use line::form::{Form, power_law_factor, struve_0};
 pub use line::measured::{Face, MeasuredOptions, MeasuredProfile, read_faces};
@@ -22,11 +22,13 @@ pub use spectrum::isotropic::{End, IsotropicSpectrum, LineMoments, Moment, Node,
 pub use spectrum::periodogram::{Along, Bin, line_spectrum};
 pub use spectrum::statistics::PointStatistics;
 pub use topography::Unit;
-pub use topography::npy::columns;
-pub use topography::open::{content, parse, read, unpacked};
+pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
-pub use topography::text::each_text;
-pub use topography::text::header::TextHeader;
-pub use topography::text::layout::{Decimal, ONE_MARK, Separator, TextCell};
-pub use topography::text::names::{Role, TextColumn};
+
+/// Content of files for other readers: bytes, gzip and columns of NumPy arrays, as readers of force curves need them.
+pub mod files {
+    pub use crate::error::refused;
+    pub use crate::topography::npy::columns;
+    pub use crate::topography::open::{content, unpacked};
+}

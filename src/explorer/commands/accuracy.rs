@@ -71,7 +71,7 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     (profiles > 1).then(|| {
         Study::new(key, is_long, move |simulation, stop, report| {
             let solver = (std::mem::take(simulation), threads());
-            let found = Ensemble::of(&scene, &[], profiles, solver, stop, &mut |part| report(part.clone()));
+            let found = Ensemble::of(&scene, &[], profiles, solver, stop, &mut |_, part| report(part()));
             found.map_err(|error| error.to_string())
         })
     })

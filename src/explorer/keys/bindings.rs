@@ -174,18 +174,17 @@ impl Bindings {
         Ok(())
     }
 
-    /// The table as Markdown, for docs/keys.md: keys and functions by section, with the names for the configuration.
+    /// Lists in Markdown, for docs/keys.md: keys by section, with their functions and names for the configuration.
     pub fn markdown(&self) -> String {
-        let mut text = String::from("| key | does |\n| --- | --- |\n");
+        let mut text = String::new();
         let mut section = "";
-        for Binding { row, .. } in self.rows() {
+        for Binding { row, .. } in self.rows().filter(|one| one.row.is_rebindable()) {
             if row.section != section {
                 section = row.section;
-                text += &format!("| **{section}** | |\n");
+                text += &format!("\n**{section}**\n\n");
             }
             let keys: Vec<String> = row.keys.split(' ').map(|name| format!("`{name}`")).collect();
-            let action = if row.is_rebindable() { format!(" (`{}`)", row.name) } else { String::new() };
-            text += &format!("| {} | {}{action} |\n", keys.join(" "), row.help);
+            text += &format!("* {}: {} (`{}`)\n", keys.join(" "), row.help, row.name);
         }
         text
     }

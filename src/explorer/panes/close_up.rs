@@ -21,8 +21,7 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(
         "Patch",
-        "close-up of a whole patch; ○ marks its ends. In the title its length ℓ, its force, and the stretch of its most \
-         stretched spring",
+        "close-up of one patch; ○ marks its ends. The title has its length ℓ, its force and its largest stretch",
     )],
     ..PaneRow::EMPTY
 };

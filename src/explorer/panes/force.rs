@@ -30,8 +30,9 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| fit(app).or_else(|| outcome(app)),
     help: &[(
         "Curve",
-        "F over indentation d: dotted on loading, solid on unloading; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ now. Letters and \
-         colours are ghosts, dashes are the path of manual loading. A measured curve is dots, with its residuals below",
+        "force F over the indentation d: dotted on loading, solid on unloading; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ \
+         present state. Curves with letters are ghosts; dashes show manual loading; dots are a measured curve, with \
+         its residuals below",
     )],
     ..PaneRow::EMPTY
 };

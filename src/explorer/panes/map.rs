@@ -27,13 +27,12 @@ pub static ROW: PaneRow = PaneRow {
     help: &[
         (
             "Map",
-            "m: regime over H and κ, for most of four random profiles with few springs; █ adhesion turned at first touch (by \
-             V: at zero force), ▒ after pressing, · hardly any; ◆ is the scene",
+            "key m: regime over H and κ, of the majority of four random profiles; █ adhesion without a preload, ▒ only after \
+             pressing, · hardly any; ◆ is the scene",
         ),
         (
             "Study",
-            "map of a merged study: means over its profiles; ▓ ░ where profiles differ in their regimes. P selects the next \
-             preload, W switches to the map of the scene",
+            "map of a merged study: means over its profiles; ▓ ░ where profiles differ in their regimes",
         ),
     ],
 };

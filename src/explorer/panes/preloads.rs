@@ -40,9 +40,9 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Preloads",
-        "i: adhesion force over preload: the staircase of this profile, and mean, median, quartiles and range (bands) over \
-         random profiles; ◇ turned at first touch, ○ at zero force, ◆ the present preload. On the right the share of profiles \
-         up to each force. X changes the scale",
+        "key i: adhesion force over preload: the staircase of this profile, and mean, median, quartiles and range over \
+         random profiles; ◇ turned at first touch, ○ at zero force, ◆ the present preload. On the right the share of \
+         profiles up to each force",
     )],
 };
 

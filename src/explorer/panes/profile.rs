@@ -36,8 +36,8 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(
         "Profile",
-        "rigid profile below, elastic surface above; ■ contact, [ ] the part in the close-up. On the right the density of \
-         heights, and dotted the normal distribution",
+        "rigid profile below, elastic surface above; ■ contact, [ ] the part in the pane Patch. On the right the \
+         distribution of heights, and dotted a normal distribution",
     )],
     ..PaneRow::EMPTY
 };

@@ -34,8 +34,8 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Sensitivity",
-        "Y: change of the median F_a where one number of the scene is 10 % smaller or larger, the largest change at the top, \
-         and the range over the profiles; where there is room, the changes of F_a, F_a(d=0) and ΔW",
+        "key Y: change of the median F_a where one number of the scene is 10 % smaller or larger, and the range over the \
+         profiles",
     )],
 };
 

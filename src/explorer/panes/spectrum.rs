@@ -34,8 +34,8 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Spectrum",
-        "Q: power spectrum C over the wave number q; for a measured surface also h, ⟨∇z⟩ and κ or e_el/γ with their \
-         standard errors, and F_a over random profiles",
+        "key Q: power spectrum C over the wave number q; for a measured surface also h, ⟨∇z⟩ and κ or e_el/γ with their \
+         standard errors",
     )],
     ..PaneRow::EMPTY
 };

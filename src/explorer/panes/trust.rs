@@ -27,8 +27,8 @@ pub static ROW: PaneRow = PaneRow {
     studies: |_, computed| vec![study(computed)],
     help: &[(
         "Trust",
-        "A: relative error over the time of a run, for both rules of edges and for the stepwise solver; ◆ is the scene. Below \
-         it the cost of 1 % and 0.1 %, the errors of F_a by their sources, and what other theories say",
+        "key A: relative error of F_a over the computing time, for both rules of edges and for the stepwise solver; ◆ is \
+         the scene. Below it the errors of F_a by their sources, and what other theories say",
     )],
     ..PaneRow::EMPTY
 };

@@ -1,10 +1,11 @@
-//! Spans, neighbouring springs that one fragment holds, and their levels: length, edges and edge cells as the edges slide.
+//! Spans of neighbouring springs that one patch holds, and their levels. The level of a patch is the gap at which its edges
+//! lie. The length of the patch and its edge cells follow from the level.
 
 use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Edge model of a contact patch.
+/// Model of the edges of a contact patch: at springs, or between springs.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -21,15 +22,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
-    /// The rule of the paper: a patch of n springs is n Δx long.
+    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx.
     Grid,
-    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
-    /// patch: the error falls with Δx².
+    /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. The error
+    /// falls with Δx².
     SubCell,
 }
 
 impl Edges {
-    /// Name in scene files.
+    /// Returns the name of the edge model in scene files.
     pub fn name(self) -> &'static str {
         match self {
             Edges::Grid => "Grid",
@@ -38,10 +39,11 @@ impl Edges {
     }
 }
 
-/// Springs `first..=last` of one fragment and their largest gap, m.
+/// Springs `first..=last` of one patch, and their largest gap in m.
 ///
-/// Every fragment in equilibrium under any loading history is a span all of whose neighbours have larger gaps: a
-/// subtree of the max-Cartesian tree of the gaps, where of equal gaps the leftmost is nearest the root.
+/// In equilibrium each patch is a span whose two neighbouring springs have larger gaps than all its own springs. This holds
+/// under any loading history. Such a span is a subtree of the max-Cartesian tree of the gaps, in which the leftmost of equal
+/// gaps is nearest the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     pub gap: f64,
@@ -50,8 +52,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// The largest span around this one within the springs `lowest..=highest` whose two neighbours have gaps above `level`,
-    /// m; this span where they do already.
+    /// Extends the span over neighbouring springs with gaps up to `level` in m, but not beyond the springs `lowest..=highest`.
     #[inline]
     pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
         let Span { gap, mut first, mut last } = *self;
@@ -64,8 +65,8 @@ impl Span {
         Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
     }
 
-    /// Index of the wall, the spring beside the span with the smaller gap, which attaches next; `None` if the span fills
-    /// the line.
+    /// Returns the index of the wall. Of the two springs beside the span, it is the spring with the smaller gap, which attaches
+    /// next. `None` if the span fills the profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
@@ -76,14 +77,14 @@ impl Span {
         }
     }
 
-    /// This span extended by `wall`, the spring beside it that attaches next.
+    /// Returns this span extended by `wall`, the spring beside it that attaches next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let gap = gaps[wall];
         if wall > self.last { Span { gap, last: wall, ..*self } } else { Span { gap, first: wall, ..*self } }
     }
 
-    /// This span extended by its wall; unchanged if it fills the line.
+    /// Returns this span extended by its wall, or unchanged if it fills the profile.
     #[inline]
     pub fn grown(&self, gaps: &[f64]) -> Self {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
@@ -100,35 +101,35 @@ impl Span {
     }
 }
 
-/// The smaller of two numbers, neither of which is NaN: `f64::min` would check for NaN.
+/// Returns the smaller of two numbers that are not NaN. `f64::min` would check for NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 
-/// The larger of two numbers, neither of which is NaN.
+/// Returns the larger of two numbers that are not NaN.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Length of a span at level t: `length + growth (t − gap)` cells, from its largest gap up to `top`.
+/// Length of a patch on one span as a function of its level t in m: `length + growth (t − gap)` cells, for t from `gap` to `top`.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
-    /// Largest gap of the span, m.
+    /// Largest gap of the span in m, the lowest level.
     pub gap: f64,
-    /// Length at this level, in cells.
+    /// Length of the patch at the lowest level, in cells.
     pub length: f64,
-    /// Growth of the length with the level, cells per metre.
+    /// Growth of the length with the level in cells per metre.
     pub growth: f64,
-    /// Gap of the wall, m; infinite where the span fills the line.
+    /// Highest level in m: the gap of the wall, or infinity where the span fills the profile.
     pub top: f64,
 }
 
-/// Contribution of the two cells at the edges of a fragment, beside its full ones, at one indentation.
+/// Sums over the two cells at the edges of a patch, which are only partly in contact, at one indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCells {
-    /// Length of both cells in contact, in cells.
+    /// Length in contact within both cells, in cells.
     pub length: f64,
     /// Compression ∫ (d − c) dx over the length in contact, in cells times metres.
     pub compression: f64,
@@ -136,7 +137,7 @@ pub struct EdgeCells {
     pub squares: f64,
 }
 
-/// Compensated sum of the edge cells of many fragments.
+/// Compensated sum of the [`EdgeCells`] of many patches.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EdgeSum {
     pub length: CompensatedSum,
@@ -158,14 +159,15 @@ impl EdgeSum {
     }
 }
 
-/// Part of a cell below the level of an edge: from the last spring of a span to the first one outside.
+/// Part of an edge cell that lies below the level of the edge. The cell reaches from the last spring of a span to the first
+/// spring outside.
 #[derive(Clone, Copy)]
 pub struct EdgeCell {
-    /// Gap of the first spring outside, m; infinite beyond the end of the foundation, half a cell away.
+    /// Gap in m of the first spring outside. It is infinite at the end of the foundation, which lies half a cell away.
     outside: f64,
-    /// Share of the cell at or below the level.
+    /// Share of the cell that lies at or below the level.
     pub share: f64,
-    /// Growth of the share with the level, 1/m; zero where the share is constant or jumps.
+    /// Growth of the share with the level in 1/m; zero where the share is constant or jumps.
     growth: f64,
     /// 2 ∫ (t − c) dx over the part of the cell below the level t, in cells times metres.
     carries: f64,
@@ -174,8 +176,8 @@ pub struct EdgeCell {
 }
 
 impl EdgeCell {
-    /// Left and right edge cell of a span with its edges at `level`, m, between the largest gap of the span and the gap of
-    /// its wall.
+    /// Returns the left and the right edge cell of a span whose edges lie at `level` in m. The level is between the largest gap
+    /// of the span and the gap of its wall.
     #[inline]
     pub fn of(gaps: &[f64], &Span { first, last, .. }: &Span, level: f64) -> [Self; 2] {
         let before = if first > 0 { gaps[first - 1] } else { f64::INFINITY };
@@ -207,14 +209,14 @@ impl EdgeCell {
         EdgeCell { outside, share, growth, carries, squares: carries * above * (1.0 / 3.0) }
     }
 
-    /// ∫ (c − θ)² dx over the part of the cell below the level t = θ + `above` (m), in cells times m².
+    /// Computes ∫ (c − θ)² dx over the part of the cell below the level t = θ + `above` (m), in cells times m².
     pub fn squares_below(&self, above: f64) -> f64 {
         (above * self.share - self.carries) * above + self.squares
     }
 }
 
 impl Levels {
-    /// Levels of a span on a line that is straight between springs, and its two edge cells at the level of its largest gap.
+    /// Returns the levels of a span on a profile that is straight between springs, and its two edge cells at the lowest level.
     #[inline]
     pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
         let cells = EdgeCell::of(gaps, span, span.gap);
@@ -224,20 +226,21 @@ impl Levels {
         (Levels { gap: span.gap, length, growth, top }, cells)
     }
 
-    /// Length at the level `gap + rise` (m), in cells.
+    /// Returns the length in cells at the level `gap + rise` in m.
     #[inline]
     pub fn length_at(&self, rise: f64) -> f64 {
         self.length + self.growth * rise
     }
 
-    /// Height above the largest gap, m, at which edges under the rule of Hess with this stretch of a unit fragment (m) lie
-    /// at an indentation, m.
+    /// Returns the height in m of the edges above the largest gap, by the rule of Hess at an indentation in m. `stretch` is the
+    /// largest stretch in m of a patch one cell long.
     #[inline]
     pub fn rise(&self, stretch: f64, indentation: f64) -> f64 {
         if self.growth <= 0.0 { 0.0 } else { self.free_rise(stretch, indentation - self.gap) }
     }
 
-    /// √ℓ of a fragment with free edges, for the stretch of a unit fragment (m) and an indentation `above` the gap (m).
+    /// Returns √ℓ of a patch whose edges are free to move. `stretch` is the largest stretch in m of a patch one cell long, and
+    /// `above` the indentation minus the largest gap in m.
     ///
     /// With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic in y.
     #[inline]
@@ -248,7 +251,7 @@ impl Levels {
         half + if square > 0.0 { square.sqrt() } else { 0.0 }
     }
 
-    /// Height of free edges above the gap, m, limited to the range of the span.
+    /// Returns the height in m of free edges above the largest gap, limited to the levels of the span.
     #[inline]
     fn free_rise(&self, stretch: f64, above: f64) -> f64 {
         let rise = above + stretch * self.root(stretch, above);
@@ -257,8 +260,8 @@ impl Levels {
         if rise < most { rise } else { most }
     }
 
-    /// Indentation at which edges pinned at this rise (m) begin to move, m, and true if they then slide rather than jump.
-    /// `stretch` is the largest stretch of a unit fragment, m.
+    /// Returns the indentation in m at which edges that are pinned at the height `rise` (m) begin to move. The second value is
+    /// true if the edges then slide, and false if they jump. `stretch` is the largest stretch in m of a patch one cell long.
     #[inline]
     pub fn release(&self, stretch: f64, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -268,25 +271,25 @@ impl Levels {
     }
 }
 
-/// The edge cells of a span as they slide with the indentation, or pinned.
+/// The two edge cells of a span. Their edges slide with the indentation, or are pinned at one level.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider {
     levels: Levels,
-    /// Largest stretch of a fragment one cell long, m.
+    /// Largest stretch in m of a patch one cell long.
     stretch: f64,
     /// Number of whole cells between the springs of the span.
     cells: f64,
     /// Length of the edge cells in contact at the level of the largest gap, in cells.
     edges: f64,
-    /// Compression and squared compression of the edge cells at the level and the indentation of the largest gap, in cells
-    /// times m and cells times m².
+    /// Compression in cells times m, and squared compression in cells times m², of the edge cells. Both are taken where the
+    /// level and the indentation equal the largest gap.
     compression: f64,
     squares: f64,
 }
 
 impl Slider {
-    /// The edge cells of a span. `stretch` is the largest stretch of a fragment one cell long, m; `pin` is the height above
-    /// the gap, m, at which the edges are pinned, or `None` if they slide.
+    /// Creates the edge cells of a span. `stretch` is the largest stretch in m of a patch one cell long. `pin` is the height in
+    /// m above the largest gap at which the edges are pinned, or `None` if they slide.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, stretch: f64, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);
@@ -309,7 +312,8 @@ impl Slider {
         slider
     }
 
-    /// A cell between two springs with these gaps, m, without adhesion: it fills from the smaller gap to the larger one.
+    /// Creates the cell between two springs with these gaps in m, without adhesion. It fills from the smaller gap to the larger
+    /// one.
     #[inline]
     pub fn of_cell(one: f64, other: f64) -> Self {
         let (gap, top) = if one < other { (one, other) } else { (other, one) };
@@ -317,7 +321,7 @@ impl Slider {
         Self::without_adhesion(Levels { gap, length: 0.0, growth, top })
     }
 
-    /// Half cell at an end of the foundation, without adhesion. Its gap, m, is constant: the gap of the last spring.
+    /// Creates the half cell at an end of the foundation, without adhesion. It has the gap of the last spring, in m, everywhere.
     pub fn half_cell(gap: f64) -> Self {
         Self::without_adhesion(Levels { gap, length: 0.5, growth: 0.0, top: f64::INFINITY })
     }
@@ -327,7 +331,7 @@ impl Slider {
         Slider { levels, stretch: 0.0, cells: 0.0, edges: levels.length, compression: 0.0, squares: 0.0 }
     }
 
-    /// Contribution of the edge cells at an indentation, m.
+    /// Returns the sums over both edge cells at an indentation in m.
     #[inline]
     pub fn edge_cells(&self, indentation: f64) -> EdgeCells {
         let above = indentation - self.levels.gap;
@@ -342,17 +346,18 @@ impl Slider {
         }
     }
 
-    /// Twice the surface energy of the fragment at an indentation (m) over the stiffness of a spring, in cells times m²: ½
-    /// (stretch ℓ)², the sum of the squared stretches with which springs attached as its edges moved.
+    /// Returns ½ (stretch ℓ)² in cells times m², at an indentation in m. It is the sum of the squared stretches with which
+    /// springs attached as the edges moved. It equals twice the surface energy of the patch over the stiffness of a spring.
     pub fn surface(&self, indentation: f64) -> f64 {
         let length = self.stretch * (self.cells + self.edge_cells(indentation).length);
         0.5 * length * length
     }
 
-    /// Derivative of the compression of the edge cells with respect to the indentation (m), in cells.
+    /// Returns the derivative of the compression of the edge cells with respect to the indentation (m), in cells.
     ///
-    /// It is ℓ (2y − 3k)/(2y − k) less the whole cells, with y = √ℓ and k = stretch × growth, since the edges move with the
-    /// indentation. It only grows with the indentation: between events the force is convex.
+    /// The edges move with the indentation. The derivative is therefore ℓ (2y − 3k)/(2y − k) minus the number of whole cells,
+    /// with y = √ℓ and k = stretch × growth. The derivative only grows with the indentation, so the force is convex between
+    /// events.
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let (levels, above) = (self.levels, indentation - self.levels.gap);
         let (rise, fall) = (levels.free_rise(self.stretch, above), self.stretch * levels.growth);

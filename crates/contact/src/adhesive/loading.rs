@@ -1,4 +1,4 @@
-//! Loading: the indentation at which each node of the contact tree closes, and the fragments between these events.
+//! Loading: finds the indentation at which each node of the contact tree closes, and lists the patches between these events.
 
 use super::levels::{Levels, Span, larger, smaller};
 use super::run::{Ground, Held, Listed, Run};
@@ -7,20 +7,20 @@ use crate::error::ContactError;
 use asperity_data::{gathered, push, resized};
 use std::borrow::Cow;
 
-/// Closing thresholds of the nodes of a tree on a loading from separation.
+/// Closing thresholds of the nodes of a contact tree, for a loading from separation.
 ///
-/// A node closes, and all its subtree is one fragment, when one of its two branches attaches its spring:
-/// s_v = min over branches u of max(s_u, φ on each span from u up to v).
+/// A node closes when one of its two branches attaches the spring of the node. All springs of its subtree are then one patch.
+/// The threshold of node v is s_v = min over its branches u of max(s_u, φ on each span from u up to v).
 #[derive(Debug)]
 pub struct Closing {
-    /// Indentation at which each node closes, m.
+    /// Indentation in m at which each node closes.
     closes: Vec<f64>,
-    /// First and last spring that certainly attach with each node; the range widens while the branches above are walked.
+    /// First and last spring that certainly attach with each node. The range widens while the branches above are walked.
     known: Vec<[u32; 2]>,
     pub evaluations: u64,
 }
 
-/// A loading leg that begins with fragments in contact.
+/// A loading that begins with patches in contact.
 struct Loading<'a, const SLIDES: bool> {
     ground: &'a Ground<'a, SLIDES>,
     held: &'a [Held],
@@ -29,7 +29,7 @@ struct Loading<'a, const SLIDES: bool> {
     listed: Listed,
 }
 
-/// Beginning of a branch, from which it is followed upwards.
+/// Beginning of a branch, from which the branch is followed upwards.
 #[derive(Clone, Copy)]
 struct Start {
     closes: f64,
@@ -41,7 +41,7 @@ struct Start {
 #[derive(Clone, Copy, Debug)]
 struct Climb {
     branch: Branch,
-    /// Indentation at which the branch merges into a larger fragment, m.
+    /// Indentation in m at which the branch merges into a larger patch.
     merges: f64,
     parent: usize,
     held: [usize; 2],
@@ -95,7 +95,8 @@ impl Closing {
         Ok(closing)
     }
 
-    /// Lists the runs of a loading leg, from left to right; `held` are the fragments in contact at its beginning.
+    /// Lists the runs of a loading in the order of [`Run`], from right to left. `held` are the patches in contact at its
+    /// beginning.
     pub fn list<const SLIDES: bool>(
         &self,
         ground: &Ground<'_, SLIDES>,
@@ -114,19 +115,19 @@ impl Closing {
 }
 
 impl<const SLIDES: bool> Loading<'_, SLIDES> {
-    /// Splits the range `begin..end` of held fragments into the fragments left and right of a spring.
+    /// Splits the range `begin..end` of held patches into the patches left and right of a spring.
     fn split(&self, [begin, end]: [usize; 2], spring: usize) -> [[usize; 2]; 2] {
         let inside = &self.held[begin..end];
         let middle = begin + inside.partition_point(|held| (held.first as usize) < spring);
         [[begin, middle], [middle, end]]
     }
 
-    /// The held fragment of the range `begin..end` that lies on this very branch, not on a branch below it.
+    /// Returns the held patch of the range `begin..end` that lies on this very branch, not on a branch below it.
     fn held_on(&self, [begin, end]: [usize; 2], branch: Branch) -> Option<&Held> {
         self.held.get(begin).filter(|held| end - begin == 1 && held.branch == branch)
     }
 
-    /// Finds when the nodes around held fragments close; all other nodes close as on a loading from separation.
+    /// Finds when the nodes around held patches close. All other nodes close as on a loading from separation.
     fn close_around(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let mut waiting = vec![(tree.root(), [0, self.held.len()])];
@@ -155,7 +156,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         Ok(())
     }
 
-    /// Beginning of a branch: the fragment held on it, else the span at which the branch closes.
+    /// Returns the beginning of a branch: the patch held on the branch, or else the span at which the branch closes.
     fn start(&self, branch: Branch, held: Option<&Held>) -> Start {
         let Ground { tree, gaps, .. } = *self.ground;
         if let Some(held) = held {
@@ -173,7 +174,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         }
     }
 
-    /// Lists the runs of the leg and finds the smallest indentation of full contact, m.
+    /// Lists the runs of the loading, and finds the smallest indentation of full contact in m.
     fn list(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let held = [0, self.held.len()];
@@ -203,8 +204,8 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         Ok(())
     }
 
-    /// Lists the runs of one branch, the largest first. `pin` is the height, m, of pinned edges of a held fragment above
-    /// its largest gap.
+    /// Lists the runs of one branch, the largest first. `pin` is the height in m of the pinned edges of a held patch above its
+    /// largest gap.
     fn climb(&mut self, climb: &Climb, start: Start, mut pin: Option<f64>) -> Result<(), ContactError> {
         let (ground, Listed { runs, end: complete, evaluations }) = (self.ground, &mut self.listed);
         let gaps = ground.gaps;
@@ -260,10 +261,10 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Largest φ (m) of a branch from its beginning up to the spring `parent`, at least its own threshold; and the first
-    /// and last spring that the branch certainly holds at its smallest span.
+    /// Returns the largest φ (m) of a branch from its beginning up to the spring `parent`, but at least the threshold of the
+    /// branch. Also returns the first and the last spring that the branch certainly holds at its smallest span.
     ///
-    /// On a span with n cells known inside, φ at a gap b is at most b − s√n, so that most spans need no evaluation.
+    /// On a span with n cells known inside, φ at a gap b is at most b − s√n. Most spans therefore need no evaluation.
     #[inline(never)]
     fn climb(&self, start: Start, parent: usize, evaluations: &mut u64) -> (f64, [u32; 2]) {
         let gaps = self.gaps;
@@ -295,7 +296,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         (closes, ends)
     }
 
-    /// The smallest span of a branch, around the springs that attach at its beginning.
+    /// Returns the smallest span of a branch, around the springs that attach at its beginning.
     #[inline]
     fn lowest(&self, Start { gap, known, .. }: Start) -> Span {
         let [mut first, mut last] = known.map(|spring| spring as usize);
@@ -308,7 +309,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Span { gap, first, last }
     }
 
-    /// The largest span of a branch, which ends beside the spring `parent`.
+    /// Returns the largest span of a branch, which ends beside the spring `parent`.
     fn below(&self, span: &Span, parent: usize) -> Span {
         let (at, end) = (parent as u32, self.gaps.len() as u32 - 1);
         if parent > span.last {
@@ -319,5 +320,5 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 }
 
-/// A node fits half a cache line, so that its gap and lowest gap are read together.
+/// A node fits half a cache line, so that its gap and its lowest gap are read together.
 const _: () = assert!(size_of::<Node>() == 32);

@@ -1,8 +1,8 @@
 //! Adhesive contact: the exact force curve of a loading history with turning points.
 //!
-//! The gaps of a line give a `ContactTree` of their local maxima. A loading pass closes its nodes from below, an
-//! unloading pass opens them from above; both list the *runs* of the leg, fragments whose edges move without a jump.
-//! Curves, extremes and energies are sums over these runs. Only the edge model defines the length of a fragment.
+//! The local maxima of the gap form a `ContactTree`. A pass over the tree for a loading closes its nodes from below, and a pass
+//! for an unloading opens them from above. Both passes list *runs*: patches over ranges of indentation in which their edges move
+//! without a jump. Curves, extremes and energies are sums over the runs. Only the edge model defines the length of a patch.
 
 pub(crate) mod levels;
 pub(crate) mod loading;
@@ -25,8 +25,8 @@ pub struct Runs<'a, const SLIDES: bool> {
 }
 
 impl<const SLIDES: bool> Runs<'_, SLIDES> {
-    /// Fragments in contact at an indentation (m), from left to right, with the height of their edges if these are `pins`
-    /// on the next leg.
+    /// Returns the patches in contact at an indentation in m, from left to right. With `pins` each has the height of its edges,
+    /// which stay in place at the beginning of the next motion.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
         let ground = &self.ground;
         self.runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
@@ -37,7 +37,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         })
     }
 
-    /// Smallest indentation at which each spring along the line is in contact, m: −∞ always, +∞ never.
+    /// Returns for each spring of the profile the smallest indentation in m at which it is in contact: −∞ for always, +∞ for
+    /// never.
     pub fn thresholds(&self) -> Vec<f64> {
         let mut thresholds = vec![f64::INFINITY; self.ground.gaps.len()];
         // Larger patches come first; those inside have smaller thresholds.
@@ -77,7 +78,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         tally.finish(&ground.tree.scale)
     }
 
-    /// Adds the events and the sliding edges of the leg to the intervals in which an extreme or a crossing is searched.
+    /// Adds the events and the sliding edges of the motion to the intervals in which an extreme or a crossing is searched.
     pub fn search(&self, intervals: &mut Intervals) {
         let (ground, (low, high)) = (&self.ground, intervals.ends());
         for run in self.runs {
@@ -97,7 +98,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     }
 }
 
-/// Sum of squared stretches ∫ (c − θ)² dx, in cells times m²: whole springs or cells as exact integers, edge cells as
+/// Sum of squared stretches ∫ (c − θ)² dx in cells times m². Whole springs or cells are summed as exact integers, edge cells as
 /// floating-point numbers.
 struct SquaredStretch {
     scale: SquareScale,
@@ -106,14 +107,14 @@ struct SquaredStretch {
 }
 
 impl SquaredStretch {
-    /// Creates an empty sum for indentations θ of at most `largest` in magnitude, m.
+    /// Creates an empty sum for indentations θ between `−largest` and `largest` in m.
     fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>, largest: f64) -> Self {
         let scale = SquareScale::new(ground.tree.scale, largest);
         SquaredStretch { scale, whole: 0, edges: CompensatedSum::default() }
     }
 
-    /// Adds (`sign` 1) or subtracts (−1) the squared stretches, at the indentation `at` (m), over a span whose edges lie at
-    /// `level` (m).
+    /// Adds (`sign` 1) or subtracts (−1) the squared stretches over a span at the indentation `at` in m. The edges of the span
+    /// lie at `level` in m.
     fn add<const SLIDES: bool>(
         &mut self,
         ground: &Ground<'_, SLIDES>,
@@ -140,7 +141,7 @@ impl SquaredStretch {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Level of the edges of a span at an indentation up to the upper end of its run, m.
+    /// Returns the level in m of the edges of a span, at an indentation that is not above the end of its run.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
             return span.gap + rise;
@@ -155,12 +156,13 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
 }
 
 impl<const SLIDES: bool> Runs<'_, SLIDES> {
-    /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high`, m,
-    /// in cells times m²: the energy that springs release as they detach, and take as they attach under a stretch.
+    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach at an indentation θ above
+    /// `low` and up to `high` (m). It measures the energy that springs release as they detach, and take as they attach under a
+    /// stretch.
     ///
-    /// A patch that forms at an indentation θ attaches all springs between its edges, except springs of the patches inside,
-    /// which end at θ. When a patch splits, the same springs detach. So the energy of a leg telescopes over its runs: the squared
-    /// stretches at the beginning of each run, less the squared stretches at its end, and the squares along its sliding edges.
+    /// A patch that forms at an indentation θ attaches all springs between its edges, except the springs of the patches inside,
+    /// which end at θ. When a patch splits, the same springs detach. So most terms cancel in a sum over runs. What remains are
+    /// the squared stretches at the beginning of each run, minus those at its end, and the squares along its sliding edges.
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         let ground = &self.ground;
         if ground.stretch == 0.0 {
@@ -184,8 +186,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         sum.total()
     }
 
-    /// The smallest and the largest span of a run in the range `low..high` of indentations, m, each with the level of its
-    /// edges there, m.
+    /// Returns the smallest and the largest span of a run in the range `low..high` of indentations in m, each with the level in
+    /// m of its edges there.
     fn ends_of(&self, run: &Run, low: f64, high: f64) -> [(Span, f64); 2] {
         let ground = &self.ground;
         let top = if run.to > high { ground.span_at(run, high) } else { ground.span(run.branch, run.top) };

@@ -1,16 +1,16 @@
-//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump. Also the edge
-//! models of a fragment: its length, its next attachment and its next detachment.
+//! Runs: patches over ranges of indentation in which their edges move without a jump. Also the two edge models, which give the
+//! length of a patch, its next attachment and its next detachment.
 //!
-//! A fragment grows from span to span. On each it has levels from its own largest gap up to the gap of its wall, and on each
-//! level a length ℓ, the only input of the rule of Hess: its largest stretch is Δl_max = s √ℓ, eq. (10), with the stretch s
-//! of a fragment of unit length.
+//! A patch grows from span to span. On each span its level lies between the largest gap of the span and the gap of the wall,
+//! the spring that attaches next. The level gives the length ℓ, the only input of the rule of Hess. The largest stretch is
+//! Δl_max = s √ℓ, eq. (10), with the stretch s of a patch of unit length.
 //!
-//! * Whole springs, as the paper counts them: a fragment of n springs is n Δx long at all levels of its span.
-//! * Edges that slide between springs: the line is straight between neighbouring springs, and a fragment ends at the crossing
-//!   of the line with the level of the fragment. A fragment at level t is in equilibrium with the indentation φ(t) = t −
-//!   Δl_max(ℓ(t)): it grows while φ(t) ≤ d and recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its
-//!   wall ℓ is linear in t, so φ is convex: φ falls to its lowest value and then rises, and a fragment rests only where φ
-//!   rises.
+//! * Whole springs, as Popov and Filippov (2012) count them: a patch of n springs has the length n Δx at all levels of its
+//!   span.
+//! * Edges that slide between springs: the profile is straight between neighbouring springs, and a patch ends where the profile
+//!   crosses the level of the patch. A patch at the level t is in equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). It
+//!   grows while φ(t) ≤ d and recedes while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest
+//!   value and then rises. A patch rests only where φ rises.
 
 use super::levels::{EdgeCell, Levels, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
@@ -19,52 +19,52 @@ use crate::totals::ContactTotals;
 /// Relative margin for rounding in bounds.
 const ROUNDING: f64 = 1e-12;
 
-/// One fragment over the range of indentations in which it grows from span to span, until it jumps, merges or parts.
+/// One patch over a range of indentations in which it grows from span to span, until it jumps, merges or splits.
 ///
-/// The runs of a leg are in the order of a walk through the tree from its root, right parts first, and on each branch the
-/// larger fragment first: a run comes before the runs inside it, and of two others the right one comes first.
+/// The runs of a motion are in the order of a walk through the contact tree from its root, right parts first. On each branch
+/// the larger patch comes first. So a run comes before the runs inside it, and of two separate runs the right one comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Lower bound (inclusive) of the indentations of the run, m; −∞ for a fragment in contact when a loading leg begins.
+    /// Lower bound of the indentations of the run in m, inclusive; −∞ for a patch in contact when a loading begins.
     pub from: f64,
-    /// Upper bound (exclusive) of the indentations, m; +∞ for a fragment in contact when an unloading leg begins.
+    /// Upper bound of the indentations of the run in m, exclusive; +∞ for a patch in contact when an unloading begins.
     pub to: f64,
-    /// Height of the level of pinned edges above the largest gap, m; NaN for edges that are free to move.
+    /// Height in m of pinned edges above the largest gap; NaN for edges that are free to move.
     pub pin: f64,
-    /// First and last spring of the smallest span.
+    /// First and last spring of the smallest span of the run.
     pub bottom: [u32; 2],
-    /// First and last spring of the largest span.
+    /// First and last spring of the largest span of the run.
     pub top: [u32; 2],
     pub branch: Branch,
 }
 
-/// A fragment in contact at the end of one leg, with which the next leg begins.
+/// A patch in contact at the end of one motion, with which the next motion begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
-    /// Height of the pinned edges above the deepest point, m; `None` if the edges are free.
+    /// Height in m of the pinned edges above the largest gap of the patch; `None` if the edges are free.
     pub pin: Option<f64>,
 }
 
 #[derive(Debug)]
 pub struct Listed {
     pub runs: Vec<Run>,
-    /// On loading the smallest indentation of full contact, on unloading the smallest indentation with contact, m.
+    /// On loading the smallest indentation of full contact, on unloading the smallest indentation with contact, both in m.
     pub end: f64,
     pub evaluations: u64,
 }
 
-/// Gaps, contact tree and the rule of Hess in one direction: the input of all passes of a leg.
+/// Gaps, contact tree and rule of Hess for one direction of motion, the input of all passes over the tree.
 ///
-/// With `SLIDES` edges move between springs, so that the force is curved between two events. Without it a fragment of whole
+/// With `SLIDES`, edges move between springs, and the force is curved between two events. Without `SLIDES` a patch of whole
 /// springs has one length at all levels of a span, and no edge cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, const SLIDES: bool> {
     pub gaps: &'a [f64],
     pub tree: &'a ContactTree,
-    /// Largest stretch of a fragment of unit length, m.
+    /// Largest stretch in m of a patch of unit length.
     pub stretch: f64,
     pub unloading: bool,
 }
@@ -74,7 +74,7 @@ impl Run {
         Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
     }
 
-    /// Height of pinned edges above the largest gap, m; `None` for free edges.
+    /// Returns the height in m of pinned edges above the largest gap; `None` for free edges.
     #[inline]
     pub fn pin(&self) -> Option<f64> {
         Some(self.pin).filter(|pin| !pin.is_nan())
@@ -106,25 +106,26 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Slider::new(self.gaps, span, self.stretch, run.pin())
     }
 
-    /// Smallest indentation at which a span attaches its wall, m; `wall` is the gap of that spring, m.
+    /// Returns the smallest indentation in m at which a span attaches its wall, the next spring, whose gap is `wall` in m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
         self.attachment(&self.levels(span), wall)
     }
 
-    /// Level of the edges of a span at an indentation, m; `pin` is the height, m, of pinned edges above the largest gap.
+    /// Returns the level in m of the edges of a span at an indentation in m. `pin` is the height in m of pinned edges above the
+    /// largest gap.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
-    /// Height of the edges above the largest gap at an indentation, m; `pin` is the height of pinned edges.
+    /// Returns the height in m of the edges above the largest gap, at an indentation in m. `pin` is the height of pinned edges.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.stretch, indentation))
     }
 
-    /// Totals of the whole springs of a span, or of its whole cells with `SLIDES`, counted as one fragment.
+    /// Returns the totals of the whole springs of a span, or with `SLIDES` of its whole cells. The span counts as one patch.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!SLIDES);
@@ -134,14 +135,14 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         ContactTotals { springs: span.springs() as i64, fragments: 1, quanta, squares }
     }
 
-    /// Upper end of the indentations over which a run fills a span, m; beyond it the run fills the span `above`.
+    /// Returns the upper end, in m, of the indentations over which a run fills a span. Beyond it the run fills the span `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
         // Unloading, the span above parts where this one would go on.
         if self.unloading { self.holds_to(&self.levels(above)) } else { self.attaches_at(span, above.gap) }
     }
 
-    /// Upper end of the indentations over which a run fills one of its spans, m.
+    /// Returns the upper end, in m, of the indentations over which a run fills one of its spans.
     #[inline]
     pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
         if span.ends() == run.top {
@@ -150,22 +151,22 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Level below which every spring beside a span belongs to its fragment at this indentation (both in m) on either leg:
-    /// such a spring needs no evaluation of the rule.
+    /// Returns the level in m below which every spring beside a span certainly belongs to its patch, at an indentation in m. It
+    /// holds for loading and unloading, and saves evaluations of the rule of Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let root = (self.square() * self.least_length(span.first, span.last)).sqrt();
         (indentation + root) - ROUNDING * (indentation.abs() + root)
     }
 
-    /// Squared largest stretch of a fragment of unit length, m², rounded down.
+    /// Returns the squared largest stretch in m² of a patch of unit length, rounded down.
     #[inline]
     pub fn square(&self) -> f64 {
         self.stretch * self.stretch * (1.0 - ROUNDING)
     }
 
-    /// Calls `see` with each span of a run, from the smallest on, and the range of indentations (m) over which the run fills
-    /// the span, until `see` returns true. Ranges below `low` (m) are left out, and a range around `low` begins there.
+    /// Calls `see` with each span of a run, from the smallest on, and the range of indentations in m over which the run fills
+    /// it. It stops when `see` returns true. Ranges below `low` (m) are left out, and a range around `low` begins there.
     #[inline]
     pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
@@ -180,7 +181,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         }
     }
 
-    /// The span of a run at an indentation (m); `from` is a span that the run fills at a smaller indentation.
+    /// Returns the span of a run at an indentation in m; `from` is a span that the run fills at a smaller indentation.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let (mut span, top) = (from, run.top);
         while span.ends() != top {
@@ -198,7 +199,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         span
     }
 
-    /// The span of a run at an indentation, m.
+    /// Returns the span of a run at an indentation in m.
     #[inline]
     pub fn span_at(&self, run: &Run, indentation: f64) -> Span {
         self.filled(run, self.bottom(run), indentation)
@@ -215,22 +216,22 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Levels { gap: span.gap, length, growth: 0.0, top: f64::INFINITY }
     }
 
-    /// Length that a span has at least at its highest level, in cells.
+    /// Returns a lower bound in cells of the length of a span at its highest level.
     #[inline]
     pub fn least_length(&self, first: usize, last: usize) -> f64 {
         // One of two edge cells is full at the highest level.
         (last + usize::from(!SLIDES) - first).max(1) as f64
     }
 
-    /// Smallest indentation at which a span with these levels attaches its wall, m; `wall` is the gap of that spring, m.
+    /// Returns the smallest indentation in m at which a span with these levels attaches its wall, whose gap is `wall` in m.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
         let length = if SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
         wall - self.stretch * length.sqrt()
     }
 
-    /// Smallest indentation at which a span with these levels still holds its most stretched spring, m; at most its largest
-    /// gap.
+    /// Returns the smallest indentation in m at which a span with these levels still holds its most stretched spring. It is at
+    /// most the largest gap of the span.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let (gap, stretch) = (levels.gap, self.stretch);
@@ -263,8 +264,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         root * root < upper.length && upper.length - reached < 0.25
     }
 
-    /// ∫ (c − θ)² dx over the part of the line that the edges pass between two spans and levels, each point at the
-    /// indentation θ at which an edge passes it; in cells times ½ s².
+    /// Computes ∫ (c − θ)² dx over the part of the profile that the edges pass between two spans and levels. Here θ is the
+    /// indentation at which an edge passes the point. The unit is cells times ½ s².
     pub fn passed_squares(&self, [lower, upper]: [(Span, f64); 2]) -> f64 {
         if !SLIDES {
             let [fewer, more] = [lower, upper].map(|(span, _)| span.springs() as f64);

@@ -1,4 +1,4 @@
-//! The contact tree: the merging of the fragments of a line, over its local maxima alone.
+//! The contact tree: how the patches of a profile merge, over the local maxima of the gap alone.
 
 use super::levels::Edges;
 use crate::totals::GapScale;
@@ -13,18 +13,18 @@ const BLOCK: usize = 4;
 /// Number of springs whose gaps are compared together.
 const LANES: usize = 64;
 
-/// Merge tree of the local maxima of the gap, the turning points, and prefix sums along the line.
+/// Tree of the mergers of patches along a profile, with prefix sums of the gaps.
 ///
-/// As its level rises past the gaps, the set of springs below it changes its shape only at local minima, where a
-/// component appears, and at local maxima, where two merge. So there is one node for each inner local maximum; the
-/// springs between two turning points form chains, which are walked where they are needed. A line with band limits has
-/// few of them: 0.11 N to 0.26 N.
+/// Think of a level that rises from the smallest gap to the largest. The springs with gaps below the level form patches. A
+/// patch appears where the level passes a local minimum of the gap, and two patches merge where it passes a local maximum. So
+/// the tree has one node for each local maximum between the ends of the profile. The springs between a minimum and a maximum
+/// need no nodes. A profile of N springs with a shortest wave has 0.11 N to 0.26 N nodes.
 ///
-/// Nodes are in post-order: the subtree of node j fills the places `j + 1 − size ..= j`. The tree depends on the gaps
-/// alone, not on the work of adhesion, the modulus or the loading.
+/// Nodes are in post-order: the subtree of node j fills the places `j + 1 − size ..= j`. The tree depends on the gaps alone,
+/// not on the work of adhesion, the modulus or the loading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
-    /// Local minima and maxima in turn along the line; the first and the last are minima.
+    /// Local minima and maxima of the gap in turn along the profile; the first and the last are minima.
     pub(super) turns: Vec<u32>,
     pub(super) nodes: Vec<Node>,
     /// Sums before each `BLOCK`-th spring: of the gaps (or of the mean gaps of cells) in quanta, and of their squares.
@@ -34,26 +34,26 @@ pub struct ContactTree {
     pub(super) scale: GapScale,
 }
 
-/// A local maximum of the gap: where two components merge.
+/// A local maximum of the gap, where two patches merge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub gap: f64,
-    /// Smallest gap in its subtree, m.
+    /// Smallest gap in the subtree of the node, in m.
     pub lowest: f64,
-    /// Its number among the local maxima along the line.
+    /// Number of the node among the local maxima along the profile, from 0.
     pub rank: u32,
-    /// Number of nodes in its subtree, itself included.
+    /// Number of nodes in the subtree of the node, itself included.
     pub size: u32,
-    /// Number of nodes in the right part of its subtree.
+    /// Number of nodes in the right part of the subtree.
     pub right: u32,
 }
 
-/// A component below the rising level, from its local minimum or the merging that creates it up to its next merging.
+/// A patch below the rising level, from the local minimum or the merger at which it appears up to its next merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
 impl Branch {
-    /// The branch that begins at the local minimum with this number along the line.
+    /// Returns the branch that begins at the local minimum with this number along the profile.
     #[inline]
     pub fn leaf(rank: usize) -> Self {
         Branch((rank as u32) << 1 | 1)
@@ -64,7 +64,7 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// The node at which the branch begins, or as the error the number of its local minimum.
+    /// Returns the node at which the branch begins, or as the error the number of its local minimum.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -83,8 +83,8 @@ struct Pending {
 }
 
 impl ContactTree {
-    /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero), the largest of which is `deepest`, with the sums of
-    /// an edge model, in the memory of the former tree.
+    /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero) with the sums of an edge model, in the memory of the
+    /// former tree. `deepest` is the largest gap.
     pub(crate) fn rebuild(mut self, gaps: &[f64], deepest: f64, edges: Edges) -> Result<Self, OutOfMemory> {
         let scale = GapScale::for_gaps_up_to(deepest);
         (self.scale, self.of_cells) = (scale, edges == Edges::SubCell);
@@ -100,29 +100,29 @@ impl ContactTree {
         Ok(self)
     }
 
-    /// Number of nodes: local maxima of the gap inside the line.
+    /// Returns the number of nodes, the local maxima of the gap inside the profile.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
-    /// The branch that grows until it fills the line.
+    /// Returns the branch that grows until it fills the profile.
     pub(crate) fn root(&self) -> Branch {
         self.nodes.len().checked_sub(1).map_or(Branch::leaf(0), Branch::node)
     }
 
-    /// Index of the spring at the local minimum with this number.
+    /// Returns the index of the spring at the local minimum with this number.
     #[inline]
     pub(crate) fn minimum(&self, rank: usize) -> usize {
         self.turns[2 * rank] as usize
     }
 
-    /// Index of the spring at the local maximum of a node.
+    /// Returns the index of the spring at the local maximum of a node.
     #[inline]
     pub(crate) fn maximum(&self, node: &Node) -> usize {
         self.turns[2 * node.rank as usize + 1] as usize
     }
 
-    /// Left and right branch that merge at a node.
+    /// Returns the left and the right branch that merge at a node.
     #[inline]
     pub(crate) fn parts(&self, index: usize) -> [Branch; 2] {
         let node = &self.nodes[index];
@@ -134,7 +134,7 @@ impl ContactTree {
         ]
     }
 
-    /// Sums of the gaps and of their squares over all springs (or cells) before this spring, in the units of
+    /// Returns the sums of the gaps and of their squares over all springs (or cells) before this spring. They have the units of
     /// [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
@@ -145,7 +145,7 @@ impl ContactTree {
         [sums[0] + rest[0], sums[1] + rest[1]]
     }
 
-    /// Finds the turning points: of neighbours with equal gaps the right one counts as lower.
+    /// Finds the local minima and maxima. Of neighbours with equal gaps the right one counts as lower.
     fn find_turns(&mut self, gaps: &[f64]) -> Result<(), OutOfMemory> {
         let count = gaps.len();
         debug_assert!(u32::try_from(count).is_ok_and(|count| count < 1 << 31));
@@ -216,7 +216,7 @@ impl ContactTree {
     }
 }
 
-/// Prefix sums before each `BLOCK`-th spring, in quanta of the scale.
+/// Computes prefix sums before each `BLOCK`-th spring, in quanta of the scale.
 fn sums_along(
     mut sums: Vec<[i128; 2]>,
     gaps: &[f64],
@@ -243,7 +243,7 @@ fn sums_along(
     Ok(sums)
 }
 
-/// One bit for each spring: 1 if the gap rises from it to the next spring.
+/// Returns one bit for each spring: 1 if the gap rises from it to the next spring.
 #[inline]
 fn rises_of(gaps: &[f64; LANES + 1]) -> u64 {
     let mut rises = 0;

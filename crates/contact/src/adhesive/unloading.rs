@@ -1,4 +1,4 @@
-//! Unloading: the indentation at which each node of a contact parts, and the fragments between these events.
+//! Unloading: finds the indentation at which each node of the contact tree opens, and lists the patches between these events.
 
 use super::levels::{Levels, Span, smaller};
 use super::run::{Ground, Held, Listed, Run};
@@ -9,24 +9,24 @@ use asperity_data::push;
 /// Factor that widens bounds by a margin for rounding.
 const ABOVE: f64 = 1.0 + 1e-12;
 
-/// Part of the contact at the beginning of the leg whose runs are not listed yet.
+/// Part of the contact at the beginning of the unloading whose runs are not listed yet.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     branch: Branch,
     first: u32,
     last: u32,
-    /// Indentation at which the larger fragment around this part splits, m.
+    /// Indentation in m at which the larger patch around this part splits.
     opens: f64,
-    /// True for a whole fragment held at the beginning of the leg.
+    /// True for a whole patch held at the beginning of the unloading.
     is_whole: bool,
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Lists the runs of an unloading leg from indentation `from` (m) on; `held` are the fragments in contact there, from
-    /// left to right.
+    /// Lists the runs of an unloading from the indentation `from` (m) on. `held` are the patches in contact there, from left to
+    /// right.
     ///
-    /// A fragment splits, and its most stretched spring detaches, as soon as the larger fragment around it has split and
-    /// the rule no longer holds the spring: t_v = min(t of the fragment around v, smallest φ of v).
+    /// A patch splits when its most stretched spring detaches. This happens as soon as the larger patch around it has split and
+    /// the rule of Hess no longer holds the spring: t_v = min(t of the patch around v, smallest φ of v).
     pub fn open(&self, held: &[Held], from: f64) -> Result<Listed, ContactError> {
         let mut listed = Listed { runs: Vec::new(), end: f64::INFINITY, evaluations: 0 };
         let mut parts = Vec::new();
@@ -41,16 +41,16 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Ok(listed)
     }
 
-    /// Returns false if a fragment within `springs` springs, with `gap` (m) as its smallest or largest gap, certainly
-    /// cannot hold the spring of that gap below the indentation `opens` (m): its length is at most the length of these springs
-    /// and two edge cells.
+    /// Returns false if no patch within `springs` springs can hold the spring of this `gap` (m) below the indentation `opens`
+    /// (m). `gap` is the smallest or the largest gap of the patch. The length of the patch is at most the length of these
+    /// springs and two edge cells.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
         let need = gap - opens;
         need <= 0.0 || need * need < self.stretch * self.stretch * ABOVE * (springs + 1) as f64
     }
 
-    /// The two parts of the smallest span of a branch after `spring` detaches at an indentation (m).
+    /// Returns the two parts of the smallest span of a branch after `spring` detaches at an indentation in m.
     fn parts_of(&self, branch: Branch, span: &Span, spring: usize, opens: f64) -> [Option<Part>; 2] {
         let Ok(node) = branch.origin() else { return [None; 2] };
         let [left, right] = self.tree.parts(node);
@@ -59,8 +59,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         [part(left, first, spring - 1), part(right, spring + 1, last)]
     }
 
-    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the two parts that are left
-    /// below its node. `pin` is the height, m, of pinned edges of a held fragment above its largest gap.
+    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the two parts that remain below
+    /// its node. `pin` is the height in m of the pinned edges of a held patch above its largest gap.
     fn descend(
         &self,
         part: Part,

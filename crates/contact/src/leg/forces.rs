@@ -1,8 +1,9 @@
 //! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force is reached.
 //!
-//! Between two events the force is convex; with growing d it falls or stays at an event. The contact at two indentations
-//! bounds the force between: springs that attach there are stretched, or they just touch and are then compressed by at most
-//! the width of the interval. Only intervals whose bounds allow the sought force are searched.
+//! At an event springs attach or detach in a jump. There the force falls or remains the same as d grows; between two events it
+//! is convex. The contact at two indentations bounds the force between them. Springs that attach there are stretched, or they
+//! just touch and are then compressed by at most the width of the interval. Only intervals whose bounds allow the sought force
+//! are searched.
 
 use super::{Leg, Patches};
 use crate::adhesive::levels::Edges;
@@ -14,7 +15,7 @@ use crate::interval::{Interval, Intervals};
 use crate::thresholds::Thresholds;
 use asperity_data::CompensatedSum;
 
-/// Number of intervals of the grid on which extremes are searched; each patch is evaluated at each grid point.
+/// Number of intervals of the grid on which extremes are searched. Each patch is evaluated at each grid point.
 pub(crate) const SEARCH_INTERVALS: usize = 256;
 /// Number of intervals whose events are listed together.
 const AT_ONCE: usize = 16;
@@ -22,12 +23,12 @@ const AT_ONCE: usize = 16;
 const STRIDE: usize = 16;
 
 impl Leg {
-    /// Returns the point of the curve at an indentation, m.
+    /// Returns the point of the force curve at an indentation in m.
     pub fn point(&self, indentation: f64) -> Result<CurvePoint, ContactError> {
         Ok(self.state(indentation)?.point(self.contact.foundation))
     }
 
-    /// Returns the points of the curve at ascending indentations, m.
+    /// Returns the points of the force curve at ascending indentations in m.
     pub fn curve(&self, indentations: &[f64]) -> Result<Vec<CurvePoint>, ContactError> {
         if indentations.is_empty() {
             return Ok(Vec::new());
@@ -36,13 +37,13 @@ impl Leg {
         Ok(sampled.iter().map(|state| state.point(self.contact.foundation)).collect())
     }
 
-    /// Returns the energy, J, that springs release at indentations in the range `low..high`, m; see
+    /// Returns the energy in J that springs release at indentations above `low` and up to `high` in m; see
     /// [`LegRecord::released_energy`](crate::history::LegRecord::released_energy).
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }
 
-    /// Energy released on the leg, J, for this sum of the squared stretches of springs, m².
+    /// Returns the energy in J that this leg releases, for a sum of the squared stretches of springs in m².
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // Not −0 where nothing attaches with a stretch.
@@ -53,15 +54,15 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// The leg with the instrument as springs parallel to the contact: the force of both is k D where D = d + F/k. A rigid
-    /// instrument, whose displacement is the indentation, adds none.
+    /// Returns the leg with the instrument as springs parallel to the contact. The force of both is k D where D = d + F/k. A
+    /// rigid instrument, whose displacement is the indentation, adds none.
     fn with_instrument(&self) -> Self {
         let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
         Leg { instrument: if springs.is_infinite() { 0.0 } else { springs }, ..self.clone() }
     }
 
-    /// Finds the indentation, m, at which a motion from the indentation `from` (m) reaches its goal. The returned goal is
-    /// the separation if the contact is lost on the way.
+    /// Finds the indentation in m at which a motion from the indentation `from` (m) reaches its goal. The returned goal is the
+    /// separation if the contact is lost on the way.
     pub(crate) fn reach(&self, goal: Goal, from: f64, work: &mut Work) -> Result<(f64, Goal), ContactError> {
         let lost = self.end.min(from);
         let end = match goal {
@@ -81,7 +82,7 @@ impl Leg {
         Ok((end, goal))
     }
 
-    /// The contact of a sampled unloading at which the displacement of the instrument is smallest.
+    /// Returns the contact of a sampled unloading at which the displacement of the instrument is smallest.
     pub(crate) fn least_displaced(
         &self,
         sampled: &[ContactState],
@@ -92,9 +93,9 @@ impl Leg {
         self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
     }
 
-    /// Energy that a compliant instrument and the moving body lose in the jumps of a sampled motion, J: ∫ (k (D − d) − F)
-    /// dd over the jumps. `extreme` is the extreme compression of contact and instrument so far, `None` at the beginning of
-    /// a motion. `from_separation` and `to_separation` are true if it begins or ends separated.
+    /// Returns the energy in J that a compliant instrument and the moving body lose in the jumps of a sampled motion: ∫ (k (D −
+    /// d) − F) dd over the jumps. `extreme` is the extreme compression of contact and instrument so far, `None` at the
+    /// beginning of a motion. `from_separation` and `to_separation` are true if the motion begins or ends separated.
     pub(crate) fn jump_energy(
         &self,
         sampled: &[ContactState],
@@ -137,8 +138,8 @@ impl Leg {
         self.contact.foundation.spring_stiffness() * area.total()
     }
 
-    /// Finds the first indentation of a loading from `from` on, or the last one of an unloading up to `from`, m, at which
-    /// the force is `force`, N.
+    /// Finds the indentation in m at which the force is `force` in N: the first one of a loading from `from` on, or the last
+    /// one of an unloading up to `from`.
     fn reach_force(&self, force: f64, from: f64, work: &mut Work) -> Result<f64, ContactError> {
         let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
@@ -179,8 +180,8 @@ impl Leg {
         Ok(sampled)
     }
 
-    /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high` (m),
-    /// in cells times m².
+    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach at an indentation θ above
+    /// `low` and up to `high` (m).
     pub(crate) fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         match &self.patches {
             // No spring is stretched.
@@ -191,7 +192,7 @@ impl Leg {
         }
     }
 
-    /// Intervals between these ascending ends, with the events inside each.
+    /// Returns the intervals between these ascending ends, with the events inside each.
     fn events(&self, ends: &[[ContactState; 2]], work: &mut Work) -> Vec<Interval> {
         if ends.is_empty() {
             return Vec::new();
@@ -206,7 +207,7 @@ impl Leg {
         intervals.finish(&mut work.events_sorted)
     }
 
-    /// The contact of the extreme force between the first and the last point of a sampled leg.
+    /// Finds the contact of the extreme force between the first and the last point of a sampled leg.
     pub(crate) fn extreme(&self, extreme: Extreme, leg: &[ContactState], work: &mut Work) -> ContactState {
         let mut best = extreme.of(leg);
         // Without adhesion the force never falls.
@@ -217,8 +218,8 @@ impl Leg {
         best
     }
 
-    /// The contact of the smallest force of an unloading between the ends of a grid. Points of the grid are evaluated only
-    /// between neighbours of a coarser grid whose bounds allow a smaller force.
+    /// Finds the contact of the smallest force of an unloading between the ends of a grid. Points of the grid are evaluated
+    /// only between neighbours of a coarser grid whose bounds allow a smaller force.
     pub(crate) fn smallest(&self, grid: &Grid, work: &mut Work) -> Result<ContactState, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let best = Extreme::Smallest.of(&coarse);
@@ -226,7 +227,7 @@ impl Leg {
         Ok(self.extreme(Extreme::Smallest, &leg, work))
     }
 
-    /// Smallest indentation between the ends of a grid, m, at which the compression is at least `wanted`, m.
+    /// Finds the smallest indentation in m, between the ends of a grid, at which the compression is at least `wanted` in m.
     fn first_at_least(&self, grid: &Grid, wanted: f64, work: &mut Work) -> Result<Option<f64>, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let reached = |leg: &[ContactState]| {
@@ -246,7 +247,7 @@ impl Leg {
         Ok(self.events(&chosen, work).iter().find_map(|interval| interval.first_at_least(wanted)).or(end))
     }
 
-    /// Evaluates a finer grid where needed: adds to the sampled points `coarse` the points of `grid` between two neighbours
+    /// Evaluates a finer grid where needed. It adds to the sampled points `coarse` the points of `grid` between two neighbours
     /// for which `may_lie` is true.
     fn refined(
         &self,
@@ -267,7 +268,7 @@ impl Leg {
         Ok(coarse)
     }
 
-    /// Largest indentation between the ends of a sampled leg, m, at which the compression is at most `wanted`, m.
+    /// Finds the largest indentation in m, between the ends of a sampled leg, at which the compression is at most `wanted` in m.
     fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
         let reached = leg.iter().rfind(|state| state.compression <= wanted);
         let start = reached.map(|state| state.indentation);

@@ -1,4 +1,4 @@
-//! One leg: the contact at all indentations of a motion in one direction.
+//! A leg: the contact at all indentations of a motion in one direction.
 
 use super::adhesive::Runs;
 use super::adhesive::levels::Edges;
@@ -13,9 +13,9 @@ use super::history::{Direction, Patch, Work};
 use super::totals::ContactTotals;
 use std::sync::Arc;
 
-/// Contact at all indentations of a motion in one direction.
+/// The contact at all indentations of a motion in one direction.
 ///
-/// A leg is a value: it stays valid after the body has moved on, and its clones share their memory.
+/// A leg remains valid after the body has moved on, and its clones share their memory.
 ///
 /// ```
 /// use asperity_contact::{Contact, Leg, Modulus, Profile};
@@ -36,21 +36,21 @@ pub struct Leg {
     direction: Direction,
     patches: Patches,
     end: f64,
-    /// Instrument as a number of springs parallel to the contact, in searches; see [`ContactState::beside`].
+    /// The instrument as a number of springs parallel to the contact, in searches; see [`ContactState::beside`].
     instrument: f64,
-    /// Number of evaluations of the rule of Hess that the search of its patches took.
+    /// Number of evaluations of the rule of Hess in the search of the patches.
     pub(super) evaluations: u64,
 }
 
 #[derive(Clone, Debug)]
 enum Patches {
-    /// Indentation from which each spring is in contact, m: without adhesion its gap. Empty where nothing touches.
+    /// Indentation in m from which each spring is in contact: without adhesion its gap. Empty where nothing touches.
     Springs(Arc<Vec<f64>>),
-    /// The contact patches of an adhesive contact, as runs: each patch over the indentations in which its edges do not jump.
+    /// Patches of an adhesive contact as runs: each patch over the indentations in which its edges do not jump.
     Runs(Arc<ContactTree>, Arc<Vec<Run>>),
 }
 
-/// One contact patch at one indentation: its place, length, force and stretch.
+/// State of one contact patch at one indentation: its place, length, force and stretch.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -68,17 +68,17 @@ enum Patches {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PatchState {
-    /// Springs of the patch.
+    /// First and last spring of the patch.
     pub springs: Patch,
-    /// Positions of the left and the right edge, m, from the left end of the foundation.
+    /// Positions of the left and the right edge in m, from the left end of the foundation.
     pub edges: [f64; 2],
-    /// Length of the patch, m.
+    /// Length ℓ of the patch in m.
     pub length: f64,
-    /// Force of the patch, N; compression positive.
+    /// Force of the patch in N; compression is positive.
     pub force: f64,
-    /// Largest stretch Δl_max at this length, m, by eq. (10).
+    /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and Filippov (2012).
     pub largest_stretch: f64,
-    /// Stretch at its edges, or of its most stretched spring, m.
+    /// Largest stretch in the patch in m: at its edges, or with whole springs at its most stretched spring.
     pub most_stretched: f64,
 }
 
@@ -101,7 +101,7 @@ macro_rules! along_runs {
 pub(crate) mod forces;
 
 impl Leg {
-    /// Adds the pass over the tree for this leg and its evaluations of the rule of Hess to the work counts.
+    /// Adds to the work counts the pass over the tree for this leg, and its evaluations of the rule of Hess.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
@@ -116,7 +116,7 @@ impl Leg {
         }
     }
 
-    /// Creates the leg of a body that touches nothing.
+    /// Creates the leg of a separated body, which touches nothing.
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
         Leg {
             contact: contact.clone(),
@@ -128,8 +128,8 @@ impl Leg {
         }
     }
 
-    /// Creates a leg on which each spring touches at its threshold, m (−∞ always, +∞ never), known up to the indentation
-    /// `end`, m.
+    /// Creates a leg on which each spring touches at its threshold in m (−∞ always, +∞ never). The leg is known up to the
+    /// indentation `end` in m.
     pub(super) fn of_thresholds(
         contact: &Contact,
         direction: Direction,
@@ -146,7 +146,7 @@ impl Leg {
         Leg { patches, end, ..Leg::apart(contact, direction) }
     }
 
-    /// Starts a loading from separation.
+    /// Creates the leg of a loading that begins in separation.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if contact.hess.is_none() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
@@ -155,10 +155,10 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Starts the motion in the opposite direction at an indentation of this leg, m.
+    /// Creates the leg of the motion in the opposite direction, which begins at the indentation `at` of this leg in m.
     ///
     /// # Errors
-    /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
     pub fn turn(&self, at: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
@@ -175,7 +175,7 @@ impl Leg {
         }
     }
 
-    /// Lists the runs of this leg; `held` are the fragments in contact at the indentation `from`, m, where it begins.
+    /// Lists the runs of this leg. `held` are the patches in contact at the indentation `from` in m, where the leg begins.
     fn list(self, tree: &Arc<ContactTree>, held: &[Held], from: f64) -> Result<Self, ContactError> {
         let mut evaluations = 0;
         let listed = along_runs!(self, tree, &[], along => match self.direction {
@@ -203,23 +203,23 @@ impl Leg {
         if self.is_stepwise() { Err(ContactError::Stepwise) } else { Ok(()) }
     }
 
-    /// The contact that moves on this leg.
+    /// Returns the contact to which the leg belongs.
     pub fn contact(&self) -> &Contact {
         &self.contact
     }
 
-    /// Direction of the motion.
+    /// Returns the direction of the motion.
     pub fn direction(&self) -> Direction {
         self.direction
     }
 
-    /// On loading the smallest indentation of full contact, on unloading the smallest indentation with contact, m; for the
-    /// stepwise solver the indentation reached so far.
+    /// Returns an indentation in m. On loading it is the smallest one with full contact, on unloading the smallest one with any
+    /// contact. For the stepwise solver it is the indentation reached so far.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Bytes of memory that this leg holds itself, without its contact.
+    /// Returns the memory of this leg in bytes, without the memory of its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => size_of::<f64>() * thresholds.capacity(),
@@ -228,7 +228,7 @@ impl Leg {
         }
     }
 
-    /// Returns the patches in contact at an indentation, m, from left to right.
+    /// Returns the patches in contact at an indentation in m, from left to right.
     pub fn patches(&self, indentation: f64) -> Vec<Patch> {
         match &self.patches {
             Patches::Springs(thresholds) => {
@@ -241,8 +241,8 @@ impl Leg {
         }
     }
 
-    /// Returns the indentations between `low` and `high`, m, at which the force of an adhesive contact jumps by about
-    /// `least` (N) or more, since patches jump in size, merge or split. Ascending.
+    /// Returns the indentations above `low` and up to `high` (m) at which the force jumps by about `least` (N) or more, in
+    /// ascending order. The force of an adhesive contact jumps where patches jump in size, merge or split.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
         let Patches::Runs(_, runs) = &self.patches else { return Vec::new() };
         let springs = |[first, last]: [u32; 2]| f64::from(last - first + 1);
@@ -260,7 +260,8 @@ impl Leg {
         together.filter(|events| jump(events) >= least).map(|events| events[0].0).collect()
     }
 
-    /// Returns the smallest indentation at which each spring of the line is in contact, m: −∞ always, +∞ never.
+    /// Returns for each spring of the profile the smallest indentation in m at which it is in contact: −∞ for always, +∞ for
+    /// never.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {
@@ -271,20 +272,20 @@ impl Leg {
         }
     }
 
-    /// Evaluates one patch at an indentation, m; patches are numbered from the left, from 0. `None` if there is no such
-    /// patch.
+    /// Computes the state of one patch at an indentation in m. Patches are numbered from the left, from 0. `None` if there is
+    /// no such patch.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         self.pinned_patches(indentation).get(number).map(|patch| self.state_of(patch, indentation))
     }
 
-    /// Evaluates all patches in contact at an indentation, m, from left to right.
+    /// Computes the states of all patches in contact at an indentation in m, from left to right.
     pub fn patch_states(&self, indentation: f64) -> Vec<PatchState> {
         let patches = self.pinned_patches(indentation);
         patches.iter().map(|patch| self.state_of(patch, indentation)).collect()
     }
 
-    /// The patches in contact at an indentation, m, each with the height above its gap, m, at which its edges are pinned, if
-    /// they are.
+    /// Returns the patches in contact at an indentation in m. If the edges of a patch are pinned, it has their height in m
+    /// above its largest gap.
     fn pinned_patches(&self, indentation: f64) -> Vec<(Patch, Option<f64>)> {
         let Patches::Runs(tree, runs) = &self.patches else {
             return self.patches(indentation).into_iter().map(|patch| (patch, None)).collect();
@@ -322,8 +323,8 @@ impl Leg {
         }
     }
 
-    /// Returns true if the edges of patches keep their places at first when the direction changes, since the rules of
-    /// loading and unloading differ. Only edges between springs have a place of their own to keep.
+    /// Returns true if the edges of patches keep their places at first when the direction changes. They do where the rules of
+    /// loading and unloading differ and edges lie between springs.
     fn pins(&self) -> bool {
         self.contact.edges == Edges::SubCell && !self.contact.rule().is_one()
     }

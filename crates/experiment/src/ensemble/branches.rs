@@ -1,19 +1,19 @@
-//! Approach and retraction of a curve, over the distance from its turning point.
+//! Approach and retraction of a curve over the distance from the turning point.
 
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
 use asperity_data::{mean, standard_deviation};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Fewest points of a branch, and of its part without contact.
+/// Smallest number of points of a branch, and of its part without contact.
 const FEWEST: usize = 20;
 const FEWEST_FREE: usize = 5;
-/// Force at the end of the retraction, in standard deviations of the noise of its mean, above which contact is not lost.
+/// Mean force at the end of the retraction, in standard deviations of its noise, above which the body is still in contact.
 const LOST: f64 = 5.0;
-/// Share of the largest force up to which a force without contact may be off zero, by drift.
+/// Share of the largest force by which a force without contact may differ from zero because of drift.
 const NEAR_ZERO: f64 = 0.03;
 
-/// A displacement relative to the turning point, m, at most about 0, and the force there, N.
+/// Displacement relative to the turning point in m, at most about 0, and the force in N.
 pub(crate) type Point = (f64, f64);
 
 /// Approach and first retraction of a curve, each in the order of time.
@@ -22,15 +22,15 @@ pub(crate) struct Branches {
     pub retraction: Vec<Point>,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Number of the first points of the approach that give zero and noise.
+    /// Number of points at the beginning of the approach that give the zero and the noise of the force.
     pub free: usize,
 }
 
 impl Branches {
-    /// Takes approach and retraction out of a measured curve,.
+    /// Takes approach and retraction out of a measured curve.
     ///
     /// # Errors
-    /// The curve lacks one of them, or ends before the loss of contact.
+    /// The curve lacks an approach or a retraction, or ends before the contact is lost.
     pub fn of(curve: &MeasuredCurve) -> Result<Self, ExperimentError> {
         let turn = curve.turns[0];
         let branch = |number: usize| -> Vec<Point> {
@@ -66,12 +66,12 @@ impl Branches {
         mean.abs() > (LOST * self.noise / (FEWEST_FREE as f64).sqrt()).max(NEAR_ZERO * largest)
     }
 
-    /// Force at the turning point, N: the mean over the ends of both branches.
+    /// Returns the force at the turning point in N, as the mean over the ends of both branches.
     pub fn preload(&self) -> f64 {
         0.5 * (self.approach[self.approach.len() - 1].1 + self.retraction[0].1)
     }
 
-    /// Standard deviation of the preload due to the noise, N.
+    /// Returns the standard deviation of the preload due to the noise, in N.
     pub fn preload_error(&self) -> f64 {
         self.noise * FRAC_1_SQRT_2
     }

@@ -1,4 +1,4 @@
-//! A table with what was learned from it, and the measured curves beside it.
+//! A table of computed curves with the polynomials learned from it, and the measured curves.
 
 use super::computed::Place;
 use super::learn::{Described, Learned};
@@ -11,21 +11,22 @@ use super::table::Table;
 use crate::curve::MeasuredCurve;
 use asperity_data::mean;
 
-/// Distance of a curve from the others beyond which lies one of a thousand: quantiles of χ² for one and for two values.
+/// Squared distance of a curve from the others that one curve of a thousand exceeds: quantiles of χ² for one and for two
+/// values.
 const FOREIGN: [f64; 2] = [10.8, 13.8];
-/// Smallest pull-off force that is stated, in standard deviations of the noise.
+/// Smallest pull-off force that is reported, in standard deviations of the noise.
 const LEAST_PULL_OFF: f64 = 5.0;
 const FEWEST_FOR_SCATTER: usize = 4;
 
-/// A table with what was learned from it.
+/// Table of computed curves with the polynomials learned from it.
 pub(crate) struct Compared {
     polynomials: Learned,
     has_one_modulus: bool,
-    /// Learned values of each line at each node.
+    /// Predicted ln γ and ln E* of each random profile at each node.
     pub learned: Vec<Vec<[f64; 2]>>,
     pub scatter: Scatter,
     grid: Grid,
-    /// Learned values of each measured curve.
+    /// Predicted ln γ and ln E* of each measured curve.
     of_curves: Vec<[f64; 2]>,
 }
 
@@ -59,19 +60,19 @@ impl Compared {
         Compared { polynomials, has_one_modulus, learned, scatter, grid, of_curves }
     }
 
-    /// Learned values of a further computed curve of a line.
+    /// Predicts ln γ and ln E* of another computed curve of a random profile.
     pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measured) -> [f64; 2] {
         let described = measured.described(*curve, line);
         alone(self.polynomials.of_line(line as u64, &described), self.has_one_modulus)
     }
 
-    /// Probability of the parameters by all measured curves.
+    /// Returns the probability of the parameters given all measured curves.
     pub fn posterior(&self, measured: &Measured) -> Posterior<'_> {
         let of = |index: usize| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>());
         self.grid.posterior([of(0), of(1)], measured.summaries.len() as f64)
     }
 
-    /// Standard deviation of the curves over that of the lines.
+    /// Returns the standard deviation of the measured curves divided by the standard deviation of the random profiles.
     pub fn scatter_ratio(&self, measured: &Measured, best: Place) -> Option<f64> {
         let count = self.of_curves.len();
         let inverse = self.scatter.at(best).inverse().0;
@@ -81,7 +82,7 @@ impl Compared {
         (measured.summaries.len() >= FEWEST_FOR_SCATTER).then(|| (sum / (count as f64 - 1.0) / values).sqrt())
     }
 
-    /// Each curve by itself.
+    /// Returns the results of each curve used without the others.
     pub fn rows(
         &self,
         curves: &[(String, MeasuredCurve)],
@@ -110,7 +111,7 @@ impl Compared {
     }
 }
 
-/// Learned values, of which only the first one counts with one modulus.
+/// Returns the predicted values, with 0 for the second one if the table has one modulus.
 fn alone(values: [f64; 2], has_one_modulus: bool) -> [f64; 2] {
     if has_one_modulus { [values[0], 0.0] } else { values }
 }

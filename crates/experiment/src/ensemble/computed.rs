@@ -1,4 +1,4 @@
-//! Summaries of the curves of a random profile, measured as a measured curve was.
+//! Summaries of curves of random profiles, computed at the points of a measured curve.
 
 use super::branches::{Branches, Point};
 use super::summary::{Summaries, summaries};
@@ -9,13 +9,13 @@ use asperity_scene::{CheckedScene, DisplacementCurve, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Number of points of a computed branch, besides points at jumps.
+/// Number of points of a computed branch, without the points at jumps.
 const SAMPLES: usize = 128;
 /// Smallest jump of the force that gets points at both of its ends, in units of the noise.
 const NOTABLE: f64 = 1.0;
-/// Largest number of points by which a retraction is extended to the loss of contact, over the number of its own points.
+/// Largest number of points that extend a retraction until contact is lost, divided by the number of its own points.
 const LONGEST: usize = 8;
-/// First of the seeds of profiles and of noise. No scene that people write uses such seeds.
+/// First seed of profiles and of noise, far from the seeds that people write in scenes.
 const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
 
 /// How a curve was measured.
@@ -26,7 +26,7 @@ pub(crate) struct Protocol {
     /// Displacements relative to the turning point, m.
     pub approach: Vec<f64>,
     pub retraction: Vec<f64>,
-    /// Number of the first points of the approach from which the zero of the force is taken.
+    /// Number of points at the beginning of the approach that give the zero of the force.
     pub free: usize,
 }
 
@@ -43,7 +43,7 @@ impl Protocol {
     }
 }
 
-/// A place in the table: ln(γ/E*), with γ/E* in m, and ln E*, with E* in Pa.
+/// Place in the table: ln(γ/E*), with γ/E* in m, and ln E*, with E* in Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub range: f64,
@@ -51,29 +51,29 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// ln γ and ln E*.
+    /// Returns ln γ and ln E*.
     pub fn parameters(self) -> [f64; 2] {
         [self.range + self.modulus, self.modulus]
     }
 }
 
-/// What is common to all computed curves.
+/// Data that all computed curves share.
 #[derive(Clone, Copy)]
 pub(crate) struct Specimen<'a> {
     pub scene: &'a CheckedScene,
     pub stiffness: f64,
-    /// Work of adhesion on closing over that on opening.
+    /// Work of adhesion on closing divided by the work of adhesion on opening.
     pub closing: f64,
     pub protocols: &'a [Protocol],
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Specimen<'_> {
-    /// Summaries of the curves of one random profile: for each ln(γ/E*) of `ranges` and, inside, each ln E* of `moduli`
-    /// (ascending).
+    /// Returns the summaries of the curves of one random profile: for each ln(γ/E*) in `ranges`, for each ln E* in
+    /// `moduli`, which ascend.
     ///
-    /// The force over E* and the indentation depend on γ/E* alone, but for the turning point and the instrument, so that all
-    /// moduli share one approach.
+    /// The force divided by E* and the indentation depend on γ/E* only, except for the turning point and the instrument.
+    /// All moduli therefore share one approach.
     pub fn curves(
         &self,
         simulation: &mut Simulation,
@@ -108,7 +108,7 @@ impl Specimen<'_> {
     }
 }
 
-/// One computed curve: forces of the contact are in units of `scale`, and so is the stiffness of the instrument.
+/// One computed curve. Forces and the stiffness of the instrument are in units of `scale`.
 struct Loop<'a> {
     stiffness: f64,
     scale: f64,
@@ -116,7 +116,7 @@ struct Loop<'a> {
 }
 
 impl Loop<'_> {
-    /// Presses the body, which is on its approach, to the preload; the body stays there.
+    /// Presses the body, which is on its approach, to the preload, where it stays.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
         body.move_to(Move::ToForce(protocol.preload / self.scale))?;
@@ -157,8 +157,8 @@ impl Loop<'_> {
     }
 }
 
-/// The noise of a curve: normally distributed, the same for all places in the table, without its mean before contact, which
-/// the zero of the force takes off.
+/// Normally distributed noise of a curve, the same for all places of the table. Its mean before contact is subtracted, as
+/// the zero of the force is.
 struct Noise {
     generator: ChaCha8Rng,
     deviation: f64,

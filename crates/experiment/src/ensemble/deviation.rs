@@ -1,4 +1,4 @@
-//! Whether random profiles describe the curves: the means of all summaries against those of the table.
+//! Whether random profiles describe the curves: the mean of each summary is compared with the mean in the table.
 
 use super::computed::Place;
 use super::result::SummaryDeviation;
@@ -8,15 +8,15 @@ use super::table::Table;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Number of ensembles that are drawn from the lines of the table, and share of them that counts as described.
+/// Number of ensembles drawn from the random profiles of the table, and share of them that counts as described.
 const DRAWS: usize = 1000;
 const DESCRIBED: f64 = 0.99;
-/// Difference of a logarithm over which means are differentiated.
+/// Step of a logarithm for the derivatives of the means.
 const STEP: f64 = 0.05;
 
 /// How learned values and parameters change together at a place.
 pub(crate) struct Response {
-    /// Derivatives of both learned values with respect to ln γ, and to ln E*.
+    /// Derivatives of both predicted values with respect to ln γ and to ln E*.
     slopes: [[f64; 2]; 2],
     inverse: [f64; 3],
     is_modulus_free: bool,
@@ -45,7 +45,7 @@ impl Response {
         Response { slopes: slopes(scatter, place), inverse, is_modulus_free }
     }
 
-    /// Changes of ln γ and ln E* that explain a change of the learned values.
+    /// Returns the changes of ln γ and ln E* that explain a change of the predicted values.
     pub fn explain(&self, change: [f64; 2]) -> [f64; 2] {
         let [work, modulus] = self.slopes;
         if self.is_modulus_free {
@@ -63,14 +63,15 @@ impl Response {
     }
 }
 
-/// The curves that are compared: the mean of their summaries, and their number.
+/// Mean of the summaries of the measured curves, and the number of curves.
 pub(crate) struct Mean {
     pub summaries: Summaries,
     pub curves: usize,
 }
 
-/// Compares the means of all summaries with those of the table at the most probable place; `learned` has the learned values
-/// of each line at each node. What counts as a deviation is drawn from the lines of the table itself.
+/// Compares the means of all summaries with the means of the table at the most probable place. `learned` returns the
+/// predicted values of each random profile at each node. Ensembles drawn from the table show how large a deviation must be
+/// to count.
 pub(crate) fn deviations(
     table: &Table,
     learned: &dyn Fn(usize, usize) -> [f64; 2],

@@ -1,4 +1,4 @@
-//! The comparison of measured curves with random profiles, step by step.
+//! The steps of a comparison of measured curves with random profiles.
 
 use super::compared::Compared;
 use super::computed::Specimen;
@@ -19,30 +19,32 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::{Builder, scope};
 
-/// Fewest random profiles: the covariance of fewer is too uncertain.
+/// Smallest number of random profiles. With fewer the covariance is too uncertain.
 const FEWEST_LINES: u64 = 16;
-/// Steps and numbers of nodes of the table over ln(γ/E*) and ln E*.
+/// Steps of the table in ln(γ/E*) and ln E*, and numbers of nodes.
 const STEPS: [f64; 2] = [0.2, 0.462];
 const NODES: [usize; 2] = [16, 4];
-/// Number of nodes by which a table that is too short grows, and number of times.
+/// Numbers of nodes by which a table that is too short grows in ln(γ/E*) and ln E*, and largest number of times.
 const MORE_NODES: [usize; 2] = [4, 1];
 const MOST_GROWTH: usize = 6;
-/// Difference of the logarithms of two stiffnesses that count as one.
+/// Relative difference up to which two stiffnesses count as equal.
 const SAME_STIFFNESS: f64 = 0.01;
 const NORMAL: f64 = 1.96;
-/// Largest standard error of the roughness: beyond it, changes of the results are not in proportion to it.
+/// Largest standard error of the roughness for which the results change in proportion to the error.
 const MOST_ERROR: f64 = 0.5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
-/// Finds the work of adhesion, and on request the effective modulus, of a rough body from curves of different places,
-/// each with its name, by comparison with random profiles of the roughness of the scene. The scene gives the
-/// stiffness of the instrument, the form and the ratio of the works of adhesion. Each computed curve has the preload,
-/// the points and the noise of one of the measured curves. The progress is the number of curves computed so far.
+/// Finds the work of adhesion of a rough body from curves measured at different places, each with its name. On request it
+/// finds the effective modulus too.
+///
+/// The curves are compared with curves computed for random profiles of the roughness of the scene. The scene also gives the
+/// stiffness of the instrument, the form and the ratio of both works of adhesion. Each computed curve has the preload, the
+/// points and the noise of one of the measured curves. The reported progress is the number of curves computed so far.
 ///
 /// # Errors
-/// The profile of the scene is not random, a curve lacks an approach or a retraction to the loss of contact, a computation
-/// fails, or `stop` returned true.
+/// The profile of the scene is not random. A curve lacks an approach, or its retraction ends before the contact is lost. A
+/// computation fails or is stopped.
 pub fn fit_ensemble(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
@@ -173,7 +175,7 @@ fn compare(
     })
 }
 
-/// The scene with the stiffness of the instrument that the files state, and what they change, in words.
+/// Returns the scene with the stiffness of the instrument that the files state, and this change in words.
 fn of_instrument(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
@@ -194,7 +196,7 @@ fn of_instrument(
     Ok(first)
 }
 
-/// Returns an error for a scene or options with which curves cannot be compared.
+/// Returns an error for a scene or options that allow no comparison.
 fn check(
     curves: &[(String, MeasuredCurve)],
     scene: &Scene,

@@ -1,11 +1,11 @@
-//! The combinations of summaries that predict the parameters, by least squares over computed curves.
+//! Polynomials of the summaries that predict the parameters, by least squares over computed curves.
 
 use super::summary::{SUMMARIES, Summaries};
 use asperity_data::{Cholesky, mean, standard_deviation};
 
-/// Largest deviation of a summary from its mean that counts, in standard deviations.
+/// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are cut off.
 const LARGEST: f64 = 4.0;
-/// Weight of the size of the coefficients, over the mean weight of the curves.
+/// Penalty of the size of the coefficients, divided by the mean weight of the curves.
 const RIDGE: f64 = 1e-5;
 
 /// Summaries of a curve, and the logarithm of its preload if the preloads differ.
@@ -21,8 +21,8 @@ impl Described {
     }
 }
 
-/// Two polynomials of second degree in the summaries, each learned from one half of the lines of the table, so that a line is
-/// never judged by a polynomial that was fitted to it.
+/// Two polynomials of second degree in the summaries. Each is learned from one half of the random profiles, and predicts
+/// the parameters of the other half.
 pub(crate) struct Learned {
     /// Mean and standard deviation of each summary.
     standard: Vec<(f64, f64)>,
@@ -31,7 +31,7 @@ pub(crate) struct Learned {
 }
 
 impl Learned {
-    /// Learns from curves, each with the number of its line and its parameters ln γ and ln E*.
+    /// Learns from computed curves, each with the number of its random profile, ln γ and ln E*.
     pub fn from(curves: &[(u64, Described, [f64; 2])]) -> Self {
         let standard = (0..SUMMARIES + 1)
             .map_while(|index| {
@@ -70,7 +70,7 @@ impl Learned {
         work.into_iter().zip(modulus).map(<[f64; 2]>::from).collect()
     }
 
-    /// 1, the standardised summaries and all their products.
+    /// Returns 1, the standardised summaries and all their products.
     fn terms(&self, described: &Described) -> Vec<f64> {
         let standardised = described.values().zip(&self.standard);
         let all: Vec<f64> = std::iter::once(1.0)
@@ -92,12 +92,12 @@ impl Learned {
         [self.centre[0] + sum(0), self.centre[1] + sum(1)]
     }
 
-    /// Predicted ln γ and ln E* of a curve of a line of the table, by the polynomial of the other lines.
+    /// Predicts ln γ and ln E* of a curve of a random profile, by the polynomial learned from the other half.
     pub fn of_line(&self, line: u64, described: &Described) -> [f64; 2] {
         self.by_half(&self.terms(described), 1 - (line % 2) as usize)
     }
 
-    /// Predicted ln γ and ln E* of another curve, the mean over both polynomials.
+    /// Predicts ln γ and ln E* of another curve, as the mean of both polynomials.
     pub fn of_curve(&self, described: &Described) -> [f64; 2] {
         let terms = self.terms(described);
         let [one, other] = [0, 1].map(|half| self.by_half(&terms, half));

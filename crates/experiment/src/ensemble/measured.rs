@@ -1,4 +1,4 @@
-//! Measured curves as far as they are compared: their summaries, preloads and noise.
+//! Summaries, preloads and noise of the measured curves.
 
 use super::branches::Branches;
 use super::computed::Protocol;
@@ -9,17 +9,17 @@ use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
 use asperity_data::{mean, median, standard_deviation};
 
-/// Scatter of the preloads, in units of that by noise, above which they differ.
+/// Scatter of the preloads divided by the scatter due to noise, above which the preloads differ.
 const DIFFERENT: f64 = 2.0;
-/// Factor within which estimates of the noise of all curves are estimates of one noise, their median.
+/// Factor within which the noise of all curves must agree to be replaced by the median.
 const ONE_NOISE: f64 = 1.5;
 
-/// The measured curves as far as they are compared.
+/// Measured curves as their summaries.
 pub(crate) struct Measured {
     pub protocols: Vec<Protocol>,
     /// Largest force of each curve, N.
     pub preloads: Vec<f64>,
-    /// Scatter of the preloads over their mean, if they differ.
+    /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise only.
     pub preload_scatter: Option<f64>,
     pub summaries: Vec<Summaries>,
 }
@@ -65,7 +65,7 @@ impl Measured {
         Mean { summaries: std::array::from_fn(of), curves: self.summaries.len() }
     }
 
-    /// Summaries with the preload, if the preloads differ.
+    /// Returns the summaries of a curve, with its preload if the preloads differ.
     pub fn described(&self, summaries: Summaries, curve: usize) -> Described {
         let preload = self.preload_scatter.map(|_| self.protocols[curve % self.protocols.len()].preload.ln());
         Described { summaries, preload }

@@ -1,4 +1,4 @@
-//! The place around which a table is computed, by a coarse table of few profiles.
+//! The place around which the table is computed, found by a coarse table of few profiles.
 
 use super::computed::Place;
 use super::measured::Measured;
@@ -8,19 +8,19 @@ use super::table::{Table, Workers, nodes};
 use crate::error::ExperimentError;
 use asperity_scene::Governing;
 
-/// Number of lines, steps and numbers of nodes over ln(γ/E*) and ln E*.
+/// Number of random profiles of the coarse table, its steps in ln(γ/E*) and ln E*, and numbers of nodes.
 const LINES: u64 = 8;
 const STEPS: [f64; 2] = [0.8, 0.7];
 const NODES: [usize; 2] = [13, 7];
 /// Number of places between two nodes, and number of coarse tables.
 const FINE_STEPS: usize = 6;
 const MOST_MOVES: usize = 4;
-/// Largest κ = √(h⟨∇z⟩E*/γ) of the first table, which extends to about 1.
+/// Largest κ = √(h⟨∇z⟩E*/γ) of the first table. The smallest is about 1.
 const HIGHEST_KAPPA: f64 = 80.0;
-/// Least scatter of a summary.
+/// Smallest standard deviation of a summary.
 const LEAST_SCATTER: f64 = 0.1;
 
-/// Finds the place whose computed curves have the mean summaries of the measured ones, to about a step of the grid.
+/// Finds the place, to about a step of the table, where the computed curves have the mean summaries of the measured curves.
 pub(crate) fn placed(
     workers: &Workers<'_>,
     measured: &Measured,

@@ -1,22 +1,22 @@
-//! The probability of the parameters, from the mean of learned values over measured curves.
+//! The probability of the parameters from the mean prediction over the measured curves.
 
 use super::computed::Place;
 use super::scatter::{Moments, Scatter, distance};
 use super::table::{End, Table};
 
-/// Steps of the grid over ln(γ/E*) and ln E*, and over ln(γ/E*) alone.
+/// Steps of the fine grid in ln(γ/E*) and ln E*, and in ln(γ/E*) alone.
 const STEPS: [f64; 2] = [0.01, 0.0125];
 const STEP_ALONE: f64 = 0.002;
-/// Share of the probability within `EDGE` of an end of the table above which the table is too short.
+/// Share of the probability within `EDGE` of an end of the table, above which the table is too short.
 const MOST_AT_END: f64 = 2e-3;
 const EDGE: f64 = 0.1;
 /// Quantiles of the result and of its 95 % interval.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// A parameter with its 95 % interval.
+/// Parameter with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct IntervalEstimate {
-    /// Median.
+    /// Median of the probability of the parameter.
     pub value: f64,
     /// Lower end of the 95 % interval.
     pub low: f64,
@@ -25,7 +25,7 @@ pub struct IntervalEstimate {
 }
 
 impl IntervalEstimate {
-    /// Half the width of the interval, of the natural logarithm.
+    /// Returns half the width of the 95 % interval of the natural logarithm of the parameter.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high / self.low).ln()
     }
@@ -38,7 +38,7 @@ impl IntervalEstimate {
         IntervalEstimate { value: of(self.value), low: of(self.low), high: of(self.high) }
     }
 
-    /// With further errors of the natural logarithm, as half-widths of 95 % intervals, added in quadrature.
+    /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural logarithm.
     pub(crate) fn widened(self, half_width: f64) -> Self {
         let factor = |end: f64| (end / self.value).ln().hypot(half_width).exp();
         IntervalEstimate {
@@ -49,22 +49,22 @@ impl IntervalEstimate {
     }
 }
 
-/// The moments of the table at the places of a fine grid.
+/// Moments of the table at the places of a fine grid.
 pub(crate) struct Grid {
     places: Vec<(Place, Moments, [f64; 3], f64)>,
     ends: [f64; 4],
-    /// Number of lines of the table.
+    /// Number of random profiles of the table.
     lines: f64,
 }
 
-/// Probabilities of the places of a grid.
+/// Probability of each place of a grid.
 pub(crate) struct Posterior<'g> {
     grid: &'g Grid,
     weights: Vec<f64>,
 }
 
 impl Grid {
-    /// A grid over the table; for a known ln E* along it alone.
+    /// Makes a grid over the table, or along a known ln E*.
     pub fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
         let ends = |axis: &[f64]| [axis[0], axis[axis.len() - 1]];
         let ([low, high], [soft, hard]) = (ends(&table.ranges), ends(&table.moduli));
@@ -87,9 +87,9 @@ impl Grid {
         Grid { places, ends: [low, high, soft, hard], lines: table.lines.len() as f64 }
     }
 
-    /// Posterior for the mean `at` of learned values over a number of curves: a flat prior over ln γ and ln E*, and errors
-    /// of the mean by the curves and, common to all of them, by the lines of the table. The covariance of few lines is
-    /// itself uncertain, which the power in place of an exponential allows for.
+    /// Returns the probability of the parameters if the mean prediction over `curves` curves is `at`. The prior is flat
+    /// over ln γ and ln E*. The error of the mean comes from the number of curves and from the number of random profiles. A
+    /// power in place of an exponential allows for the uncertain covariance of few profiles (Student's t-distribution).
     pub fn posterior(&self, at: [f64; 2], curves: f64) -> Posterior<'_> {
         let variance = 1.0 / curves + 1.0 / self.lines;
         let logarithm = |(_, moments, inverse, determinant): &(Place, Moments, [f64; 3], f64)| {
@@ -106,13 +106,13 @@ impl Grid {
 }
 
 impl Posterior<'_> {
-    /// The most probable place.
+    /// Returns the most probable place.
     pub fn best(&self) -> Place {
         let most = self.weights.iter().zip(&self.grid.places).max_by(|one, other| one.0.total_cmp(other.0));
         most.map_or(Place { range: 0.0, modulus: 0.0 }, |(_, (place, ..))| *place)
     }
 
-    /// γ, J/m², or for the parameter 1 E*, Pa.
+    /// Returns γ in J/m² for the parameter 0, and E* in Pa for the parameter 1.
     pub fn estimate(&self, parameter: usize) -> IntervalEstimate {
         let places = self.weights.iter().zip(&self.grid.places);
         let mut values: Vec<(f64, f64)> =
@@ -135,7 +135,7 @@ impl Posterior<'_> {
         IntervalEstimate { value, low, high }.map(f64::exp)
     }
 
-    /// Correlation of ln γ and ln E*; 0 for a known E*.
+    /// Returns the correlation of ln γ and ln E*; 0 for a known E*.
     pub fn correlation(&self) -> f64 {
         let all = || self.weights.iter().zip(self.grid.places.iter().map(|(place, ..)| place.parameters()));
         let mean = [0, 1].map(|index| all().map(|(weight, of)| weight * of[index]).sum::<f64>());
@@ -146,7 +146,7 @@ impl Posterior<'_> {
         if both > 1e-20 { product(0, 1) / both.sqrt() } else { 0.0 }
     }
 
-    /// Ends of the table that the parameters may lie beyond.
+    /// Returns the ends of the table beyond which the parameters may lie.
     pub fn beyond(&self) -> Vec<End> {
         let [low, high, soft, hard] = self.grid.ends;
         let is_near = |place: &Place, end: End| match end {

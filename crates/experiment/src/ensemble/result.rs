@@ -2,41 +2,40 @@
 
 use super::posterior::IntervalEstimate;
 
-/// What is compared, and how.
+/// Options of a comparison of measured curves with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnsembleOptions {
     /// Number of random profiles with which the curves are compared.
     pub lines: u64,
-    /// True if the effective modulus is unknown; else it is the one of the scene.
+    /// True if the effective modulus is to be found; false if the scene gives it.
     pub is_modulus_free: bool,
-    /// Standard error of the rms height of the roughness, as a share of it; `None` if it is not stated.
+    /// Relative standard error of the rms height of the roughness; `None` if it is not stated.
     pub height_error: Option<f64>,
     /// Standard error of the Hurst exponent; `None` if it is not stated.
     pub hurst_error: Option<f64>,
 }
 
-/// Work of adhesion, and effective modulus, of a rough body, from the curves of many places of it.
+/// Work of adhesion, and effective modulus, of a rough body from curves measured at many of its places.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct EnsembleFit {
     /// Work of adhesion γ, J/m².
     pub work: IntervalEstimate,
-    /// Effective modulus E*, Pa; a given one has no interval.
+    /// Effective modulus E*, Pa. A given modulus has an interval of zero width.
     pub modulus: IntervalEstimate,
-    /// True if the effective modulus is the one of the scene.
+    /// True if the scene gives the effective modulus.
     pub modulus_is_given: bool,
-    /// Work of adhesion on closing over that on opening, as in the scene.
+    /// Work of adhesion on closing divided by the work of adhesion on opening, as the scene states it.
     pub closing_over_opening: f64,
     /// Correlation of ln γ and ln E*; 0 for a given E*.
     pub correlation: f64,
-    /// What the interval of the work of adhesion comes from.
+    /// Sources of the uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// Relative half-width of the interval of the work of adhesion with other numbers of curves.
+    /// Precision of the work of adhesion that more curves would give.
     pub prospects: Vec<Prospect>,
-    /// Changes of the results if the roughness differs from the roughness of the scene; `None` for a measured
-    /// roughness.
+    /// Derivatives of the results with respect to the roughness of the scene; `None` for a measured roughness.
     pub roughness: Option<RoughnessShifts>,
-    /// Changes of the scene by the files of the curves, in words.
+    /// Changes that the files of the curves make to the scene, in words; `None` if there are none.
     #[serde(skip)]
     pub instrument: Option<String>,
     /// Number of random profiles.
@@ -45,35 +44,35 @@ pub struct EnsembleFit {
     pub computed: usize,
     /// Mean of the largest forces of the curves, N.
     pub preload: f64,
-    /// Standard deviation of the largest forces over their mean, if the preloads of the curves differ by more than noise;
-    /// each profile is then loaded by one of them.
+    /// Standard deviation of the largest forces divided by their mean; `None` if they differ by noise only. With a value,
+    /// each random profile is loaded by the preload of one of the curves.
     pub preload_scatter: Option<f64>,
-    /// Each curve by itself.
+    /// Results that each single curve gives.
     pub curves: Vec<CurveOfEnsemble>,
-    /// Scatter of the curves over the scatter of the random profiles, expected between about 0.8 and 1.2; `None` for
-    /// fewer than 4 curves.
+    /// Scatter of the single curves divided by the scatter of the random profiles, expected between about 0.8 and 1.2. It
+    /// is `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
-    /// True if random profiles of this spectrum describe the means of all summaries.
+    /// True if random profiles describe the mean of each summary, a number such as the pull-off force or the loop area.
     pub described: bool,
-    /// Difference between the mean of each summary and the mean of the random profiles.
+    /// Difference between the curves and the random profiles in the mean of each summary.
     pub deviations: Vec<SummaryDeviation>,
-    /// True if the interval reaches an end of the table of computed curves: its ends are then too close.
+    /// True if the interval reaches an end of the table of computed curves. The true interval is then wider.
     pub at_end_of_table: bool,
 }
 
-/// Shares of the squared half-width of an interval.
+/// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of its interval. Their sum is 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Shares {
-    /// By the number of curves.
+    /// Share due to the limited number of curves.
     pub places: f64,
-    /// By the number of random profiles.
+    /// Share due to the limited number of random profiles.
     pub profiles: f64,
-    /// By the stated errors of the roughness.
+    /// Share due to the stated errors of the roughness.
     pub roughness: f64,
 }
 
-/// Precision that other numbers of curves would give.
+/// Precision that a larger number of curves would give.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Prospect {
@@ -83,52 +82,52 @@ pub struct Prospect {
     pub half_width: f64,
 }
 
-/// Derivatives of the results with respect to the roughness of the scene.
+/// Derivatives of ln γ and ln E* with respect to the roughness of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RoughnessShifts {
-    /// Of ln γ with respect to the logarithm of the rms height.
+    /// Derivative of ln γ with respect to the logarithm of the rms height.
     pub work_by_height: f64,
-    /// Of ln γ with respect to the Hurst exponent.
+    /// Derivative of ln γ with respect to the Hurst exponent.
     pub work_by_hurst: f64,
-    /// Of ln E* with respect to the logarithm of the rms height.
+    /// Derivative of ln E* with respect to the logarithm of the rms height.
     pub modulus_by_height: f64,
-    /// Of ln E* with respect to the Hurst exponent.
+    /// Derivative of ln E* with respect to the Hurst exponent.
     pub modulus_by_hurst: f64,
 }
 
-/// One curve of an ensemble.
+/// Results that one of the compared curves gives by itself.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct CurveOfEnsemble {
     /// Name of the curve.
     pub name: String,
-    /// Largest force, N.
+    /// Largest force of the curve, N.
     pub preload: f64,
-    /// Largest tension, N; `None` if it does not exceed the noise.
+    /// Largest tension of the curve, N; `None` if it is at most 5 times the noise.
     pub pull_off_force: Option<f64>,
-    /// Area of the loop, J.
+    /// Area between approach and retraction, J.
     pub loop_area: f64,
-    /// Half of the preload over the way back to it, N/m.
+    /// Mean stiffness of the retraction from the preload down to half the preload, N/m.
     pub stiffness: f64,
-    /// Work of adhesion by only this curve, J/m².
+    /// Work of adhesion found from this single curve, J/m².
     pub work: IntervalEstimate,
-    /// True if the interval of only this curve reaches an end of the table.
+    /// True if the interval from this single curve reaches an end of the table of computed curves.
     pub at_end_of_table: bool,
-    /// True if one in a thousand curves of random profiles lies so far from the others.
+    /// True if at most one of a thousand curves of random profiles lies as far from the mean as this curve.
     pub foreign: bool,
 }
 
-/// Mean of a summary over the curves, compared with random profiles.
+/// Mean of a summary, a number such as the pull-off force, over the measured curves, compared with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SummaryDeviation {
-    /// Name of the summary.
+    /// Name of the summary, such as `pull-off force`.
     pub summary: &'static str,
-    /// Natural logarithm of the mean over the curves, divided by the mean over random profiles.
+    /// Natural logarithm of the ratio of the mean over the curves to the mean over the random profiles.
     pub logarithm: f64,
-    /// The same in units of its standard error.
+    /// This logarithm divided by its standard error.
     pub deviation: f64,
-    /// True if it is beyond what 99 % of ensembles of random profiles have.
+    /// True if the deviation is larger than the largest deviation in 99 % of ensembles of random profiles.
     pub deviates: bool,
 }

@@ -1,9 +1,9 @@
-//! Mean and covariance over the lines of a table, at its nodes and between them.
+//! Mean and covariance over the random profiles of a table, at its nodes and between them.
 
 use super::computed::Place;
 use super::table::Table;
 
-/// Mean and covariance of two values over the lines at a place.
+/// Mean and covariance of two values over the random profiles at a place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moments {
     pub mean: [f64; 2],
@@ -22,8 +22,8 @@ impl Moments {
         Moments { mean, covariance: [product(0, 0), product(0, 1), product(1, 1)] }
     }
 
-    /// Inverse of the covariance, in the order of the field `covariance`, and the logarithm of its determinant. A second value that does not
-    /// vary does not count.
+    /// Returns the inverse of the covariance, in the order of the field `covariance`, and the logarithm of its determinant.
+    /// A second value that does not vary is ignored.
     pub fn inverse(&self) -> ([f64; 3], f64) {
         let [one, both, other] = self.covariance;
         if other == 0.0 {
@@ -35,13 +35,13 @@ impl Moments {
     }
 }
 
-/// (x − mean)ᵀ Σ⁻¹ (x − mean).
+/// Returns (x − mean)ᵀ Σ⁻¹ (x − mean).
 pub(crate) fn distance(mean: [f64; 2], inverse: [f64; 3], at: [f64; 2]) -> f64 {
     let [one, other] = [at[0] - mean[0], at[1] - mean[1]];
     inverse[0] * one * one + 2.0 * inverse[1] * one * other + inverse[2] * other * other
 }
 
-/// Mean and covariance over the lines at all nodes.
+/// Mean and covariance over the random profiles at all nodes.
 pub(crate) struct Scatter {
     ranges: Vec<f64>,
     moduli: Vec<f64>,
@@ -54,7 +54,8 @@ struct Weights<const COUNT: usize> {
     of: [f64; COUNT],
 }
 
-/// Weights of the polynomial through the nearest nodes of an axis; of fewer nodes than COUNT, through all.
+/// Returns the weights of the polynomial through the `COUNT` nearest nodes of an axis, or through all nodes of a shorter
+/// axis.
 fn weights<const COUNT: usize>(axis: &[f64], at: f64) -> Weights<COUNT> {
     let count = COUNT.min(axis.len());
     let next = axis.partition_point(|node| *node < at);
@@ -69,7 +70,7 @@ fn weights<const COUNT: usize>(axis: &[f64], at: f64) -> Weights<COUNT> {
 }
 
 impl Scatter {
-    /// Moments of two values of each curve, computed from the number of its line and its node.
+    /// Computes the moments of two values, which `value` returns for the number of a random profile and of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
         let node = |node: usize| {
             Moments::of(&(0..table.lines.len()).map(|line| value(line, node)).collect::<Vec<_>>())
@@ -78,7 +79,7 @@ impl Scatter {
         Scatter { ranges: table.ranges.clone(), moduli: table.moduli.clone(), nodes }
     }
 
-    /// Moments at a place: the mean cubic, the covariance linear between nodes.
+    /// Returns the moments at a place: the mean by cubic interpolation, the covariance by linear interpolation.
     pub fn at(&self, place: Place) -> Moments {
         let of = |one: usize, other: usize| &self.nodes[one * self.moduli.len() + other];
         let mut moments = Moments { mean: [0.0; 2], covariance: [0.0; 3] };

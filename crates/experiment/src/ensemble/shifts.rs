@@ -1,4 +1,4 @@
-//! Changes of the result of an ensemble by errors of the roughness of the scene.
+//! Effect of errors of the roughness of the scene on the result of an ensemble.
 
 use super::compared::Compared;
 use super::computed::{Place, Specimen};
@@ -10,7 +10,7 @@ use crate::error::ExperimentError;
 use asperity_data::mean;
 use asperity_scene::{Roughness, RunError};
 
-/// Changes of the logarithm of the rms height and of the Hurst exponent.
+/// Steps of the logarithm of the rms height and of the Hurst exponent.
 const HEIGHT_STEP: f64 = 0.05;
 const HURST_STEP: f64 = 0.05;
 
@@ -23,7 +23,7 @@ pub(crate) struct Shifts<'a> {
 }
 
 impl Shifts<'_> {
-    /// Derivatives at a place, by as many profiles as the table has; `None` for a measured roughness.
+    /// Returns the derivatives at a place, from `lines` random profiles; `None` for a measured roughness.
     pub fn at(&self, place: Place, lines: u64) -> Result<Option<RoughnessShifts>, ExperimentError> {
         let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness else {
             return Ok(None);
@@ -43,7 +43,7 @@ impl Shifts<'_> {
         Ok(Some(RoughnessShifts { work_by_height, work_by_hurst, modulus_by_height, modulus_by_hurst }))
     }
 
-    /// Derivatives of ln γ and ln E* with respect to a change of the roughness.
+    /// Computes the derivatives of ln γ and ln E* with respect to a change of the roughness.
     fn between(
         &self,
         place: Place,

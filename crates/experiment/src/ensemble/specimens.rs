@@ -10,7 +10,7 @@ use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
 const POINTS: usize = 400;
 const FINE: u64 = 1 << 14;
 
-/// The scene of specimens, by its name: its preload, N, and the stiffness of its instrument.
+/// Returns the scene of specimens by its name, with preload and stiffness of the instrument.
 pub(super) fn scene(name: &str) -> Scene {
     let mut scene = Scene::clone(open(name).unwrap().scene());
     let (stiffness, preload) = if name == "rough-sphere" { (Some(200.0), 2e-4) } else { (None, 1e-5) };
@@ -28,7 +28,8 @@ pub(super) fn document(scene: &Scene) -> Document {
     Document::from_scene(scene, "specimen").unwrap()
 }
 
-/// The curve of one place of a specimen: a profile of its own, noise of a share of the preload, an offset and a zero.
+/// Makes the curve of one place of a specimen: with a profile of its own, noise as a share of the preload, an offset and a
+/// zero.
 pub(super) fn curve(simulation: &mut Simulation, scene: &Scene, seed: u64, share: f64) -> MeasuredCurve {
     let Some(Move::ToForce(preload)) = scene.loading.first().copied() else { panic!("no preload") };
     let mut fine = scene.clone();

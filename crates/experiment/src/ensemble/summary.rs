@@ -1,4 +1,4 @@
-//! A curve as a few logarithms, by the same code for measured and computed curves.
+//! A curve as a few logarithms. The same code serves measured and computed curves.
 
 use super::branches::{Branches, Point};
 
@@ -18,22 +18,23 @@ pub(crate) const NAMES: [&str; SUMMARIES] = [
     "largest tension on approach",
     "work of the tension on approach",
 ];
-/// Indices of summaries that the result states in their units.
+/// Indices of the summaries that the result gives in their units.
 pub(crate) const PULL_OFF: usize = 0;
 pub(crate) const LOOP_AREA: usize = 1;
 pub(crate) const WAY_TO_HALF: usize = 3;
 
-/// Smallest force, smallest tension that does work, and force up to which contact is not lost, in units of the noise.
+/// Smallest pull-off force, smallest tension that does work, and largest force after loss of contact, in units of the
+/// noise.
 const FLOOR: f64 = 3.0;
 const TENSION: f64 = 2.0;
 const LOST: f64 = 5.0;
 
-/// Natural logarithms of forces, N, distances, m, and energies, J.
+/// Natural logarithms of forces in N, distances in m and energies in J.
 pub(crate) type Summaries = [f64; SUMMARIES];
 
-/// Summaries of a curve whose preload, N, is known. Distances are counted from the turning point, so that the displacement
-/// at first touch does not matter. A place between two points is interpolated, since a summary that counts points would be a
-/// staircase over the parameters.
+/// Computes the summaries of a curve whose preload in N is known. Distances are counted from the turning point, so that the
+/// displacement at first touch has no effect. Places between points are interpolated, because summaries that count points
+/// would change in steps with the parameters.
 pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
     let Branches { approach, retraction, noise, .. } = branches;
     let backwards: Vec<Point> = approach.iter().rev().copied().collect();
@@ -62,18 +63,18 @@ pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
     .map(f64::ln)
 }
 
-/// Integral of a function of the force over the displacement, J.
+/// Integrates a function of the force over the displacement, J.
 fn work(branch: &[Point], of: impl Fn(f64) -> f64) -> f64 {
     branch.windows(2).map(|pair| 0.5 * (of(pair[0].1) + of(pair[1].1)) * (pair[1].0 - pair[0].0)).sum()
 }
 
-/// Displacement at which the force first falls below a level, m; that of the last point if it never does.
+/// Returns the displacement in m at which the force first falls below a level; the last displacement if it never does.
 fn below(branch: &[Point], level: f64) -> f64 {
     let next = branch.iter().position(|point| point.1 < level).unwrap_or(branch.len() - 1);
     crossing(branch[next.saturating_sub(1)], branch[next], level)
 }
 
-/// Displacement at which the size of the force is above a level for the last time, m.
+/// Returns the displacement in m at which the magnitude of the force is above a level for the last time.
 fn loss(branch: &[Point], level: f64) -> f64 {
     let last = branch.iter().rposition(|point| point.1.abs() > level).unwrap_or(0);
     let next = (last + 1).min(branch.len() - 1);
@@ -81,14 +82,14 @@ fn loss(branch: &[Point], level: f64) -> f64 {
     crossing(size(branch[last]), size(branch[next]), level)
 }
 
-/// Displacement between two points at which the force has a value.
+/// Returns the displacement between two points at which the force has a value.
 fn crossing(from: Point, to: Point, level: f64) -> f64 {
     let change = to.1 - from.1;
     let share = if change == 0.0 { 1.0 } else { ((level - from.1) / change).clamp(0.0, 1.0) };
     from.0 + share * (to.0 - from.0)
 }
 
-/// Largest tension, N, and its displacement, m, between points by the parabola through the neighbours.
+/// Returns the largest tension in N and its displacement in m, from the parabola through neighbouring points.
 fn largest_tension(branch: &[Point]) -> (f64, f64) {
     let smallest = branch.iter().enumerate().min_by(|one, other| one.1.1.total_cmp(&other.1.1));
     let index = smallest.map_or(0, |(index, _)| index);

@@ -1,4 +1,4 @@
-//! Summaries of computed curves of the same random profiles at all nodes of a grid over ln(γ/E*) and ln E*.
+//! Summaries of computed curves of the same random profiles, at all nodes of a grid over ln(γ/E*) and ln E*.
 
 use super::computed::{Place, Specimen};
 use super::summary::Summaries;
@@ -8,20 +8,20 @@ use asperity_scene::Simulation;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Who computes the curves of a table.
+/// Threads that compute the curves of a table.
 #[derive(Clone, Copy)]
 pub(crate) struct Workers<'a> {
     pub specimen: Specimen<'a>,
     /// Folder of the files of the scene.
     pub folder: &'a Path,
     pub jobs: usize,
-    /// Number of curves so far, and who is notified of it.
+    /// Number of curves computed so far, and the function that is notified of it.
     pub computed: &'a AtomicUsize,
     pub report: &'a (dyn Fn(usize) + Sync),
 }
 
 impl Workers<'_> {
-    /// Summaries of the curves of each line at all nodes: moduli inside ranges inside lines.
+    /// Returns the summaries of the curves of each random profile at all nodes, with all moduli of one range together.
     pub fn curves(
         &self,
         lines: u64,
@@ -46,13 +46,13 @@ pub(crate) fn nodes(first: f64, step: f64, count: usize) -> Vec<f64> {
     (0..count).map(|index| first + step * index as f64).collect()
 }
 
-/// A grid of nodes, each with the summaries of the curves of all lines.
+/// Grid of nodes, each with the summaries of the curves of all random profiles.
 pub(crate) struct Table {
     /// ln(γ/E*), ascending and evenly spaced.
     pub ranges: Vec<f64>,
     /// ln E*, ascending and evenly spaced.
     pub moduli: Vec<f64>,
-    /// Of each line, moduli inside ranges.
+    /// Summaries of each random profile at all nodes, with all moduli of one range together.
     pub lines: Vec<Vec<Summaries>>,
 }
 

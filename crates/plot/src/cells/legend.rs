@@ -29,7 +29,7 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Entries of the legend of charts, each a sample and a name.
+/// Returns the entries of the legend of charts. Each entry is a sample of the line, sign or area, followed by the name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
     let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);

@@ -10,12 +10,12 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use std::ops::Range;
 
-/// Characters for shades from low to high on a terminal without colours; a cell without a value is blank.
+/// Characters for shades from low to high, for a terminal without colours. A cell without a value is blank.
 pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
-/// Number of columns from which on a cell shows the letter of its class.
+/// Smallest number of columns with which a cell shows the letter of its class.
 const WITH_LETTER: usize = 3;
 
-/// Index of the value shown by each screen cell along an axis, from its lower end on.
+/// Returns the index of the value that each screen cell along an axis shows, from the lower end of the axis.
 pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec<usize> {
     let borders = HeatMap::borders(axis.scale, values);
     let value = |cell: u16| {
@@ -26,7 +26,7 @@ pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec
     (0..cells).map(value).collect()
 }
 
-/// Range of the screen cells that show the same value as this one.
+/// Returns the range of the screen cells that show the same value as this cell.
 fn run(values: &[usize], cell: usize) -> Range<usize> {
     let first = |value: usize| values.partition_point(|one| *one < value);
     first(values[cell])..first(values[cell] + 1)
@@ -84,7 +84,8 @@ fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
     below(cell).zip(below(other)).is_some_and(|(here, there)| here != there)
 }
 
-/// Colour scale of a map: samples of the shades with numbers between them.
+/// Returns the colour scale of a map: samples of the shades with the numbers between them, each with its style. `columns`
+/// is the available width.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

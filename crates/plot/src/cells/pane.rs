@@ -1,4 +1,4 @@
-//! A chart in a pane of the screen: with the names of its curves beside the curves, and with further charts at its sides.
+//! A chart in a pane of the screen. The names of the curves are beside the curves, and further charts can be at the sides.
 
 use super::legend::legend;
 use super::plot::{CellPlot, Name};
@@ -11,13 +11,13 @@ use ratatui::layout::Rect;
 use ratatui::text::Span as Text;
 use std::ops::RangeInclusive;
 
-/// An entry of the legend: samples and a name.
+/// Entry of the legend: samples and a name.
 type Entry = Vec<Text<'static>>;
 
-/// Width of a chart beside another one, columns, with the line between them, and the smallest width of both.
+/// Width in columns of a chart beside another chart, including the line between them, and the smallest width of both.
 const BESIDE: u16 = 14;
 const WITH_BESIDE: u16 = 54;
-/// Largest number of rows for which the scales beside a chart are laid out; the plot has the rows of the chart.
+/// Largest number of rows for which the scales beside a chart are laid out. The plot has the rows of the chart.
 const MOST_BESIDE: u16 = 15;
 /// Smallest number of rows of an area with a chart below its chart, and the numbers of rows of the chart below.
 const WITH_BELOW: u16 = 11;
@@ -25,30 +25,31 @@ const BELOW: RangeInclusive<u16> = 3..=7;
 /// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
-/// A chart in a pane, with texts that a figure has in its legend, and with further charts at its sides.
+/// Chart in a pane of the terminal, with texts beside its curves and with further charts at its sides.
 pub struct PaneChart {
-    /// The chart.
+    /// Main chart.
     pub chart: Chart,
-    /// Texts beside points of the chart. The names of the layers follow.
+    /// Texts beside points of the chart, in addition to the names of its layers.
     pub names: Vec<Name>,
-    /// A second chart on the right, with the same vertical axis.
+    /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
-    /// A low chart below, with the same horizontal axis and its own vertical axis; shown where there is room.
+    /// Low chart below the main chart, with the same horizontal axis. It is shown if there is room.
     pub below: Option<Chart>,
-    /// Signs in place of the line below the plot, one for each spring in contact; empty without signs.
+    /// Signs of springs in contact, which replace the line below the plot; empty for no signs.
     pub contact: ContactRow,
 }
 
-/// Contact along the horizontal axis.
+/// Springs in contact along the horizontal axis of a chart.
 #[derive(Default)]
 pub struct ContactRow {
-    /// True for each spring in contact.
+    /// Whether each spring is in contact, from left to right.
     pub springs: Vec<bool>,
-    /// Ends of a part that is marked by brackets, as shares of the axis.
+    /// Ends of a part of the axis that is marked by brackets, as shares of the axis from 0 to 1.
     pub marked: Option<(f64, f64)>,
 }
 
-/// Divides an area into the area of a chart and the area of a chart beside it, for which there may be no room.
+/// Divides an area into the area of a chart and the area of a second chart on its right. The second area is `None` if there
+/// is no room.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);
@@ -66,7 +67,7 @@ fn shares() -> impl Iterator<Item = f64> {
     (0..NAMED_AT).map(move |place| 0.5 + if place % 2 == 0 { -1.0 } else { 1.0 } * step * place as f64)
 }
 
-/// The name of the layers of an entry of the legend, beside one of their points, and the entry.
+/// Returns the name of each entry of the legend with the points where it may be written, and the entry.
 fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<(Name, Entry)> {
     let named = legend(std::slice::from_ref(chart), style).into_iter().filter_map(|entry| {
         let text = entry.last()?.content.trim().to_owned();
@@ -86,14 +87,14 @@ impl PaneChart {
         PaneChart { chart, names: Vec::new(), beside: None, below: None, contact: ContactRow::default() }
     }
 
-    /// Division of an area into the chart and the area of the chart beside it.
+    /// Divides an area into the main chart and the area of the chart on its right, if there is one.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() { split(area) } else { (area, None) };
         let left = Rect { height: left.height - self.rows_below(area), ..left };
         (self.scaled(left, &self.chart), right)
     }
 
-    /// Division of an area between a plot and its scales, with a row for the signs of contact if there are any.
+    /// Divides an area between a plot and its scales, with a row for the signs of contact if there are any.
     fn scaled(&self, area: Rect, chart: &Chart) -> CellPlot {
         if self.has_signs(area) { CellPlot::above(area, chart, 1) } else { CellPlot::within(area, chart) }
     }
@@ -102,14 +103,14 @@ impl PaneChart {
         !self.contact.springs.is_empty() && area.height >= WITH_CONTACT
     }
 
-    /// Number of rows of the chart below.
+    /// Returns the number of rows of the chart below.
     fn rows_below(&self, area: Rect) -> u16 {
         let has_room = self.below.is_some() && area.height >= WITH_BELOW;
         if has_room { (area.height / 4).clamp(*BELOW.start(), *BELOW.end()) } else { 0 }
     }
 
-    /// Draws the chart below under the columns of the plot, with the ends of its vertical axis on the left, and its
-    /// name where there is room.
+    /// Draws the chart below under the columns of the plot. The ends of its vertical axis are on the left, and its name is
+    /// shown if there is room.
     fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let height = self.rows_below(area);
         let Some(below) = self.below.as_ref().filter(|_| height > 0) else { return };
@@ -144,7 +145,7 @@ impl PaneChart {
         }
     }
 
-    /// Draws the chart; returns the entries of the legend for which there is no room beside their curves.
+    /// Draws the chart. Returns the entries of the legend that have no room beside their curves.
     pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;
@@ -190,7 +191,7 @@ impl PaneChart {
         left_out
     }
 
-    /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of the mark, so that it is
+    /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of the mark. The mark is then
     /// visible without colours.
     fn point_at_mark(&self, place: &CellPlot, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let marked = self.chart.layers.iter().rev().find(|layer| layer.ink == Ink::Cursor);
@@ -220,7 +221,7 @@ impl PaneChart {
 }
 
 impl ContactRow {
-    /// A sign for each cell of a row: `■` if all springs are in contact, `▪` if some are, `·` if none is.
+    /// Returns a sign for each cell of a row: `■` if all springs are in contact, `▪` if some are, `·` if none is.
     fn signs(&self, cells: usize) -> String {
         let springs = &self.springs;
         let sign = |cell: usize| {

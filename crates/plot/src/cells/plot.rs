@@ -14,35 +14,35 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::Canvas;
 use std::ops::RangeInclusive;
 
-/// Smallest area, columns and rows, whose plot has a scale on the left.
+/// Smallest area in columns and rows whose plot has a scale on the left.
 pub(super) const WITH_LEFT_SCALE: (u16, u16) = (26, 6);
-/// Smallest number of rows of an area with a scale below the plot, and of an area that also has a line between the two.
+/// Smallest number of rows of an area with a scale below the plot, and of an area that also has a line between both.
 const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
-/// Number of rows of an area from which on the label of the horizontal axis has a row of its own if it would cover a number.
+/// Smallest number of rows of an area whose label of the horizontal axis gets its own row if it would cover a number.
 const WITH_LABEL_BELOW: u16 = 16;
 /// Columns and rows of Braille dots in a cell.
 const DOTS: (u16, u16) = (2, 4);
 
-/// A text beside a point of a chart.
+/// Text beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Points of the chart, in numbers on the axes. The text is drawn beside the first point that has room.
+    /// Points of the chart, as numbers on its axes. The text is drawn beside the first point that has room.
     pub at: Vec<(f64, f64)>,
-    /// The text, followed by shorter ones for less room.
+    /// The text, followed by shorter texts for less room.
     pub texts: Vec<String>,
     /// Ink of the text.
     pub ink: Ink,
 }
 
-/// Division of an area of the screen into the plot and the scales of a chart.
+/// Area of the screen, divided into the plot and the scales of a chart.
 pub struct CellPlot {
-    /// Area of the plot.
+    /// Area of the plot without the scales.
     pub plot: Rect,
     left: u16,
     /// Number of rows between the plot and the numbers below it.
     between: u16,
-    /// True for a line in the first of these rows.
+    /// True if the first of these rows has a line.
     line: bool,
     below: bool,
     label: bool,
@@ -55,8 +55,8 @@ impl CellPlot {
         CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
     }
 
-    /// Divides an area as [`CellPlot::within`] does. Rows of the caller take the place of the line between the plot
-    /// and the numbers below it.
+    /// Divides an area of the screen between the plot and the scales of a chart. The caller draws `between` rows between
+    /// the plot and the numbers below it.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
@@ -73,8 +73,8 @@ impl CellPlot {
         CellPlot { plot, left, between, line: false, below, label }
     }
 
-    /// Numbers on both axes at a cell of the screen: for a map the numbers of the value that the cell shows, if any;
-    /// otherwise the numbers at the middle of the nearest cell of the plot.
+    /// Returns the numbers on both axes at a cell of the screen. On a map they belong to the map cell behind the screen
+    /// cell; `None` outside the map. Otherwise they are the numbers at the middle of the nearest cell of the plot.
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {
@@ -95,7 +95,8 @@ impl CellPlot {
         Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
 
-    /// Screen cell of a point; for a point outside the chart `None`, or on a map the nearest cell at its edge.
+    /// Returns the screen cell of a point, given as numbers on both axes. Outside the chart the cell is `None`, or on a map
+    /// the nearest cell at the edge.
     pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
@@ -140,8 +141,7 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes the first text of a name for which the plot is blank beside one of its points. Returns false if there is no
-    /// such place.
+    /// Writes the first text of a name that fits on blank cells beside one of its points. Returns false if no text fits.
     pub fn draw_name(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>, name: &Name) -> bool {
         let pairs = name.texts.iter().flat_map(|text| name.at.iter().map(move |at| (text, *at)));
         for (text, at) in pairs {
@@ -153,7 +153,7 @@ impl CellPlot {
         false
     }
 
-    /// Cell from which on a text is beside a point on blank cells of the plot.
+    /// Returns the first cell of a text that fits on blank cells beside a point.
     fn free_place(
         &self,
         buffer: &Buffer,
@@ -245,21 +245,22 @@ impl CellPlot {
     }
 }
 
-/// Cell at a share of `cells` cells, rounded to one of the `dots` dots of each, as the canvas does, so that signs and ticks
-/// fit their curves.
+/// Returns the cell at a share of `cells` cells. The share is rounded to one of the `dots` dots of a cell, as the canvas
+/// does, so that signs and ticks fit their curves.
 fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
     let last = f64::from(cells) * f64::from(dots) - 1.0;
     (share * last).round().max(0.0) as u16 / dots
 }
 
-/// Rows of a plot of this height that have a number of the vertical axis, with these numbers.
+/// Returns the rows of a plot of this height that have a number of the vertical axis, with these numbers.
 fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
     let place = |at: f64| cell_at((chart.y.span.high - at) / chart.y.span.width(), height, DOTS.1);
     let fewest = usize::from(height / 3).clamp(2, 6);
     numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| true)
 }
 
-/// Numbers of an axis, each with its place: with the fewest ticks of which two are visible, or else with the fewest of all.
+/// Returns the numbers of an axis with their places. The fewest ticks of which two are visible are used, or the fewest
+/// possible.
 fn numbers_at(
     axis: &ChartAxis,
     ticks: RangeInclusive<usize>,
@@ -277,8 +278,9 @@ fn numbers_at(
     ticks.map(numbers).find(two).unwrap_or_else(|| numbers(fewest))
 }
 
-/// Columns of a plot of this width with the numbers of the horizontal axis, and the label of the axis: complete if it has a
-/// row of its own; otherwise only the symbol, if the name would take more than half of the columns.
+/// Returns the columns of a plot of this width that have a number of the horizontal axis, with these numbers, and the label
+/// of the axis. The label is complete if it has its own row. Otherwise it is only the symbol, if the name would take more
+/// than half of the columns.
 fn scale_below(chart: &Chart, width: u16, own_row: bool) -> (Vec<(u16, String)>, String) {
     let mut label = chart.x.label_with_unit().to_string();
     let room = if own_row { width } else { width / 2 };
@@ -293,7 +295,7 @@ fn scale_below(chart: &Chart, width: u16, own_row: bool) -> (Vec<(u16, String)>,
     (numbers, label)
 }
 
-/// Returns true for a number that a label at the right end of the same row would cover.
+/// Returns true if a label at the right end of the same row would cover this number.
 fn is_covered((column, text): &(u16, String), width: u16, label: &str) -> bool {
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     usize::from(*column) + text.chars().count().div_ceil(2) > end

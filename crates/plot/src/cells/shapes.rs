@@ -40,7 +40,7 @@ impl LayerShape<'_> {
         }
     }
 
-    /// One dot for each point.
+    /// Paints one dot for each point.
     fn points(&self, painter: &mut Painter<'_, '_>, points: &[(f64, f64)]) {
         for (x, y) in points.iter().filter_map(|point| self.axes().place(*point)) {
             if let Some(dot) = painter.get_point(x, y) {
@@ -49,8 +49,8 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Dots of the area inside a closed line: every other one, or in the quiet ink one of eight. A dot is inside if the line
-    /// crosses the column below it an odd number of times.
+    /// Returns the dots of the area inside a closed line: every other dot, or one of eight in the quiet ink. A dot is
+    /// inside if the line crosses the column below it an odd number of times.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
         let is_shaded = |column: usize, row: usize| match self.ink {
             Ink::Quiet => column.is_multiple_of(2) && (column / 2 + row).is_multiple_of(4),
@@ -124,7 +124,7 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
     }
 }
 
-/// The dots on the straight line from one dot to another, without the first, unless both are the same.
+/// Returns the dots on the straight line from one dot to another without the first, unless both are the same.
 fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
     let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
     let steps = dx.abs().max(dy.abs()).max(1.0) as usize;

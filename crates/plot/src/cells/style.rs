@@ -4,7 +4,7 @@ use crate::chart::Sign;
 use crate::colour::{Ink, Rgb};
 use ratatui::style::{Color, Style};
 
-/// Styles of the inks, and the colours that the terminal has.
+/// Appearance of a chart in terminal cells: the style of each ink, and the colours of the terminal.
 pub struct CellStyle<'a> {
     /// Style of each ink.
     pub ink: &'a dyn Fn(Ink) -> Style,
@@ -15,7 +15,7 @@ pub struct CellStyle<'a> {
 /// Colours that a terminal has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// No colours: shades are characters.
+    /// No colours. Shades are characters.
     None,
     /// 256 fixed colours of a palette.
     Palette,
@@ -24,7 +24,7 @@ pub enum Colours {
 }
 
 impl Colours {
-    /// The nearest colour that the terminal has.
+    /// Returns the colour that the terminal has and that is nearest to `Rgb`.
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;

@@ -13,17 +13,17 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
-/// Smallest and largest width of the text, columns.
+/// Smallest and largest width of the text in columns.
 const COLUMNS: (usize, usize) = (40, 160);
-/// Largest width of a plot of curves, columns; and its height, rows, with the scale below.
+/// Largest width of a plot of curves in columns, and its height in rows, with the scale below.
 const WIDEST_PLOT: u16 = 110;
 const ROWS: u16 = 20;
-/// Largest width of a cell of a map, columns; and the smallest and the largest height of a map, rows.
+/// Largest width of a cell of a map in columns, and smallest and largest height of a map in rows.
 const WIDEST_CELL: usize = 5;
 const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
-/// A figure as text of at most `columns` columns, one chart below the other.
+/// Returns a figure as text of at most `columns` columns, between 40 and 160, with the charts below each other.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
     let ink = |ink: Ink| match (ink, colours) {

@@ -4,9 +4,9 @@ use super::{Glyph, dots, glyphs};
 use ratatui::buffer::Buffer;
 use std::sync::LazyLock;
 
-/// ASCII characters and their patterns of dots: one letter for each of four rows, from above: `L` left, `R` right, `B`
-/// both, `0` none. Of two equally near characters the first is taken: characters that draw lines precede characters that fill.
-/// The signs on curves, `^`, `v`, `*`, `o` and `@`, are left out.
+/// ASCII characters and their patterns of dots, with one letter for each of four rows from above: `L` left, `R` right, `B`
+/// both, `0` none. Of two equally near characters the first is taken. Characters that draw lines precede characters that
+/// fill. The signs on curves, `^`, `v`, `*`, `o` and `@`, are left out.
 const SHAPES: [(char, &[&str]); 15] = [
     ('-', &["0B00", "00B0", "0RL0", "0LR0"]),
     ('|', &["LLLL", "RRRR"]),
@@ -25,7 +25,7 @@ const SHAPES: [(char, &[&str]); 15] = [
     ('#', &["BBBB", "BBB0", "0BBB"]),
 ];
 
-/// For each pattern of dots the character with the fewest different dots.
+/// Character with the fewest different dots, for each pattern of dots.
 static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
     let shapes: Vec<(char, u8)> = SHAPES
         .iter()
@@ -47,15 +47,15 @@ fn bits(shape: &str) -> u8 {
     rows.rev().fold(0, |bits, row| bits << 2 | row)
 }
 
-/// Replacements of characters: each word is an ASCII character, followed by the characters that become it. Greek letters
-/// become letters that look or sound similar; a letter with an accent loses it.
+/// Replacements of characters: each word is an ASCII character, followed by the characters that it replaces. Greek letters
+/// become letters that look or sound similar. A letter with an accent loses the accent.
 const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉≥⇒ <◂◀◄‹«←⟨〈≤⇐ *◆★☆•∗⋆ o○◌◦°οθ @●◉◎ #■█▉▊ &▓ +▪▫□±┌┐└┘├┤┬┴┼ _▁▄ .·⋅∙ :░¦ %▒ \
     -─−–—‐‑‒―⁻₋ ~…∓≈≃∼∝≅ =≡≠₌⁼ /╱÷⁄∕ \\╲ x◇×╳✕✗ξχ '′‘’ʹ \"▀″“” (⁽₍ )⁾₎ |│┊▋▌▍▎▏▕∣‖ 0⁰₀ 1¹₁ 2²₂ 3³₃ 4⁴₄ 5⁵₅ 6⁶₆ 7⁷₇ \
     8⁸₈∞ 9⁹₉ V∇√ DΔ dδ∂ GΓ gγ SΣ∑∫ sσς PΠΨ pπψ OΩΘ wω LΛ lλℓ FΦ fφϕ aα bβ eεϵ hηℎ iι Kκϰ nⁿₙ rρ tτ uµμ zζ XΞ \
     AÀÁÂÃÄÅ CÇ EÈÉÊË IÌÍÎÏ NÑ OÒÓÔÕÖØ UÙÚÛÜ YÝ aàáâãäå cç eèéêë iìíîï nñ oòóôõöø uùúûü yýÿ";
 
 /// Replaces all symbols on a screen by printable ASCII, each in its place. Curves of dots become the characters with the
-/// nearest shapes. `±` before a blank becomes `+-`, `10⁵` becomes `1e5`; a symbol without a substitute becomes `?`.
+/// nearest shapes. `±` before a blank becomes `+-`, and `10⁵` becomes `1e5`. A symbol without a substitute becomes `?`.
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {
@@ -87,7 +87,7 @@ pub fn to_ascii(buffer: &mut Buffer) {
     }
 }
 
-/// ASCII substitute of a symbol; combining marks are dropped.
+/// Returns the ASCII substitute of a symbol. Combining marks are dropped.
 fn of_glyph(glyph: &Glyph<'_>) -> char {
     match glyph.symbol().chars().next() {
         // A narrow substitute would not fill the cells of a wide character.

@@ -16,19 +16,19 @@ struct Glyph<'a> {
 }
 
 impl<'a> Glyph<'a> {
-    /// The symbol in the cell; a blank for a symbol without a width.
+    /// Returns the symbol in the cell; a blank for a symbol without a width.
     fn symbol(&self) -> &'a str {
         if self.cell.symbol().cell_width() == 0 { " " } else { self.cell.symbol() }
     }
 
-    /// The character in the cell; `None` if the symbol consists of several.
+    /// Returns the character in the cell; `None` if the symbol consists of several characters.
     fn character(&self) -> Option<char> {
         let mut characters = self.symbol().chars();
         characters.next().filter(|_| characters.next().is_none())
     }
 }
 
-/// The symbols of a screen, row by row, without the cells covered by wide characters.
+/// Returns the symbols of a screen, row by row, without the cells covered by wide characters.
 fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
     let Rect { x, y, width, height } = buffer.area;
     (0..height).flat_map(move |row| {
@@ -43,7 +43,8 @@ fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
     })
 }
 
-/// The dots of a Braille character, two across and four down, as bits row by row from the upper left; `None` for others.
+/// Returns the dots of a Braille character, two across and four down, as bits row by row from the upper left; `None` for
+/// another character.
 fn dots(character: char) -> Option<u8> {
     /// Braille numbers three dots down each side; the lowest row came later.
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
@@ -52,7 +53,7 @@ fn dots(character: char) -> Option<u8> {
     Some(dots.fold(0, |bits, (_, place)| bits | 1 << place))
 }
 
-/// The rows of a screen without the blanks at their ends, each with a line feed.
+/// Returns the rows of a screen as plain text, without the blanks at their ends and each with a line feed.
 pub fn screen_text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {

@@ -1,7 +1,7 @@
 //! The screen as an SVG document, for slides and for pages on the web.
 //!
-//! Each word is placed in its first cell and is as long as its cells. Dots, blocks and the lines of frames are drawn as shapes,
-//! so that they meet from cell to cell with any font.
+//! Each word begins in its first cell and is as long as its cells. Dots, blocks and the lines of frames are drawn as
+//! shapes, so that they meet from cell to cell with any font.
 
 use super::{Glyph, dots, glyphs};
 use crate::colour::{Palette, Rgb, hex};
@@ -10,7 +10,7 @@ use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
 
-/// Width and height of a cell, height of the baseline in a cell, and margin around the screen, px.
+/// Width and height of a cell, height of the baseline in a cell, and margin around the screen, in px.
 const WIDTH: u32 = 8;
 const HEIGHT: u32 = 16;
 const BASE: u32 = 12;
@@ -31,7 +31,7 @@ enum Kind {
     Dots,
 }
 
-/// The screen as a self-contained SVG document; equal screens give equal bytes.
+/// Draws the screen as an SVG document without references to other files. Equal screens give equal bytes.
 pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
@@ -66,7 +66,7 @@ pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     svg.finish()
 }
 
-/// Backgrounds and drawn characters as path data, for each kind and colour.
+/// Returns the backgrounds and drawn characters as path data, for each kind and colour.
 fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
@@ -82,7 +82,7 @@ fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     paths
 }
 
-/// Path around the left `width` (px) of the cells of a symbol.
+/// Returns the path around the left `width` px of the cells of a symbol.
 fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
     let (x, y) = (u32::from(glyph.column) * WIDTH, u32::from(glyph.row) * HEIGHT);
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
@@ -98,7 +98,7 @@ struct Word {
     letters: String,
 }
 
-/// The words on each row. A list of places for the letters of a text is read by few viewers.
+/// Returns the words on each row. Few viewers read a list of places for the letters of a text.
 fn words(buffer: &Buffer, palette: &Palette) -> Vec<Word> {
     let mut words: Vec<Word> = Vec::new();
     for glyph in glyphs(buffer).filter(|glyph| glyph.symbol() != " " && shape(glyph).is_none()) {
@@ -128,7 +128,8 @@ fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
     (ink, ground)
 }
 
-/// RGB of a terminal colour in a palette; `reset` for the default colour. The explorer uses the sixteen ANSI colours.
+/// Returns the RGB of a terminal colour in a palette, and `reset` for the default colour. The explorer uses the sixteen
+/// ANSI colours.
 fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen LightYellow \
                         LightBlue LightMagenta LightCyan White";
@@ -136,7 +137,7 @@ fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     ANSI.split(' ').position(|one| one == name).map_or(reset, |index| palette.ansi[index])
 }
 
-/// A mixture of two colours; `percent` is the share of the first.
+/// Mixes two colours. `percent` is the share of the first colour.
 fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
     std::array::from_fn(|channel| {
         let part = |colour: Rgb, percent: u8| u32::from(colour[channel]) * u32::from(percent);
@@ -144,9 +145,9 @@ fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
     })
 }
 
-/// Kind and path of a character that is drawn as a shape; `None` for a letter.
+/// Returns kind and path of a character that is drawn as a shape; `None` for a letter.
 fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
-    /// Lines from the middle of the cell to the left, right, upper and lower edge, and the characters with each.
+    /// Lines from the middle of the cell to the left, right, upper and lower edge, with the characters that have each line.
     const ENDS: [(&str, &str); 4] =
         [("─┐┘┤┬┴", "h-4"), ("─┌└├┬┴", "h4"), ("│└┘├┤┴", "v-8"), ("│┌┐├┤┬", "v8")];
     let character = glyph.character().filter(|_| glyph.width == 1)?;

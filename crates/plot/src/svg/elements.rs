@@ -1,4 +1,4 @@
-//! Elements of an SVG document, with lengths to a hundredth of a pixel.
+//! Elements of an SVG document, with lengths to a hundredth of a px.
 
 use crate::chart::Stroke;
 use crate::colour::{Palette, Rgb, hex};
@@ -14,7 +14,7 @@ pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
 /// A position in a picture, px from the upper left corner.
 pub(super) type Place = (f64, f64);
 
-/// Point of a label that is placed at a position; vertically it is always the middle.
+/// Point of a label that is placed at a position, always in the middle of the height.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
@@ -147,7 +147,7 @@ impl Svg {
         self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"));
     }
 
-    /// Writes labels below each other, the first at this position, and returns the height at which the next would be.
+    /// Writes labels below each other, the first at this position. Returns the height at which the next one would be.
     pub(super) fn lines(&mut self, lines: &[Label], (x, y): Place, size: f64, anchor: Anchor) -> f64 {
         lines.iter().fold(y, |y, line| {
             self.label(line, (x, y), size, anchor);
@@ -182,7 +182,7 @@ fn with_minus(text: &str) -> String {
     (0..characters.len()).map(|at| if is_minus(at) { '−' } else { characters[at] }).collect()
 }
 
-/// The parts of a label as elements within a text of this font size, px.
+/// Returns the parts of a label as elements within a text of this font size in px.
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
@@ -225,7 +225,7 @@ fn points(places: &[Place]) -> String {
     texts.join(" ")
 }
 
-/// A length in px, to a hundredth.
+/// Writes a length in px, to a hundredth.
 fn px(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

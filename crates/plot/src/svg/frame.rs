@@ -1,4 +1,4 @@
-//! Frame of a chart: the conversion of numbers to positions, and the axes.
+//! Frame of a chart, which converts numbers to positions, and its axes.
 
 use super::elements::{Anchor, Pen, Place, Svg, TEXT};
 use crate::axis::{Axes, ChartAxis, Share};
@@ -39,7 +39,7 @@ impl Frame<'_> {
         self.to.1 - self.from.1
     }
 
-    /// Position in the picture of a position in shares of the axes.
+    /// Returns the position in the picture of a position in shares of the axes.
     pub(super) fn at(&self, (x, y): Share) -> Place {
         (self.from.0 + x * self.width(), self.to.1 - y * self.height())
     }
@@ -89,14 +89,14 @@ impl Frame<'_> {
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
     }
 
-    /// Width that a vertical axis takes beside the frame, px.
+    /// Returns the width in px that a vertical axis takes beside the frame.
     pub(super) fn room(&self, side: Side) -> f64 {
         let ticks = self.axes.y.ticks(self.ticks(side));
         beside(&ticks) + 0.7 * LABEL
     }
 }
 
-/// Distance from a vertical axis to the middle of its label, beyond its widest number, px.
+/// Returns the distance in px from a vertical axis to the middle of its label, beyond its widest number.
 fn beside(ticks: &[Tick]) -> f64 {
     let widest = ticks.iter().filter_map(|tick| tick.label.as_ref()).map(Label::width).fold(0.0, f64::max);
     (widest + 1.9) * NUMBER

@@ -56,7 +56,7 @@ pub(super) fn guide(ink: Ink) -> Pen {
     Pen { colour, width: 1.0, stroke: Stroke::Dashed }
 }
 
-/// Half the size of the signs of a curve, px; smaller for many points, so that neighbours do not touch.
+/// Returns half the size in px of the signs of a curve. Many points have smaller signs, so that neighbours do not touch.
 fn radius(frame: &Frame<'_>, points: usize) -> f64 {
     SIGN.min(0.3 * frame.width() / points.max(1) as f64).max(0.9)
 }

@@ -12,10 +12,10 @@ const BETWEEN: f64 = 20.0;
 /// Height of a row, px.
 const ROW: f64 = 20.0;
 
-/// An entry with its width, px, and the lines of its name.
+/// Entry with its width in px and the lines of its name.
 type Named<'a> = (f64, &'a Entry, Vec<Label>);
 
-/// Draws the entries in rows centred on `middle`, no wider than `most` (px), and returns the height of their lower end.
+/// Draws the entries in rows centred on `middle` and no wider than `most` px. Returns the height of their lower end.
 pub(super) fn draw(svg: &mut Svg, entries: &[Entry], (middle, top): Place, most: f64) -> f64 {
     let mut rows: Vec<(f64, Vec<Named<'_>>)> = Vec::new();
     for entry in entries {
@@ -43,7 +43,7 @@ pub(super) fn draw(svg: &mut Svg, entries: &[Entry], (middle, top): Place, most:
     y
 }
 
-/// Width of the samples of an entry, px.
+/// Returns the width of the samples of an entry in px.
 fn room(entry: &Entry) -> f64 {
     match entry.samples[..] {
         [(_, Sample::Guide)] => 16.0,

@@ -26,15 +26,15 @@ const MARGIN: f64 = 6.0;
 /// Font sizes of the title and of the text below title and legend, px.
 const TITLE: f64 = 14.5;
 const TEXT_SIZE: f64 = LABEL - 1.0;
-/// Smallest width of frames side by side in a figure with a given width, and largest width of any other figure with several
-/// charts, px.
+/// Smallest width in px of frames side by side in a figure with a given width, and largest width of any other figure with
+/// several charts.
 const LEAST: f64 = 110.0;
 const WIDEST: f64 = 1400.0;
-/// Width up to which a frame is at least as high as it is wide, px.
+/// Width in px up to which a frame is at least as high as it is wide.
 const SQUARE: f64 = 150.0;
-/// Largest ratio of height to width of frames below each other.
+/// Largest ratio of height to width for frames below each other.
 const LOW: f64 = 0.62;
-/// Largest height of a figure with a given width: 240 mm, px; and lowest height of a frame, px.
+/// Largest height in px of a figure with a given width, which is 240 mm, and smallest height of a frame.
 const PAGE: f64 = 907.0;
 const LOWEST: f64 = 60.0;
 /// Height of a name on an axis, px.
@@ -51,7 +51,7 @@ struct Layout {
 }
 
 impl Figure {
-    /// Draws the figure and returns the SVG document.
+    /// Draws the figure and returns the SVG document. Equal figures give equal bytes.
     pub fn svg(&self) -> String {
         let mut layout = self.columns();
         let (mut svg, mut height) = self.drawn(&layout);
@@ -73,7 +73,7 @@ impl Figure {
         document.finish()
     }
 
-    /// Draws all elements; returns them with the height of the picture.
+    /// Draws all elements. Returns them with the height of the picture.
     fn drawn(&self, Layout { width, size, rooms }: &Layout) -> (Svg, f64) {
         let mut svg = Svg::default();
         let middle = width / 2.0;
@@ -99,7 +99,7 @@ impl Figure {
         (svg, y)
     }
 
-    /// Layout of the charts in the fewest rows that fit the width.
+    /// Returns the layout of the charts in the fewest rows that fit the width.
     fn columns(&self) -> Layout {
         let count = self.charts.len().max(1);
         let rooms = |columns: usize, size| -> Vec<(f64, f64)> {
@@ -131,8 +131,8 @@ impl Figure {
         layouts.find(fits).unwrap_or_else(|| within(1))
     }
 
-    /// Draws charts side by side, from the height `y` down, with the index `first` of the first chart; returns the height
-    /// below them.
+    /// Draws charts side by side from the height `y` down. The first chart has the index `first`. Returns the height below
+    /// the charts.
     fn draw_row(
         &self,
         svg: &mut Svg,
@@ -157,7 +157,7 @@ impl Figure {
     }
 }
 
-/// Width of charts of one size side by side, px.
+/// Returns the width in px of charts of one size side by side.
 fn width_of(rooms: &[(f64, f64)], size: (f64, f64)) -> f64 {
     rooms.iter().map(|(before, beside)| before + size.0 + beside).sum()
 }
@@ -166,7 +166,7 @@ fn frame_of(chart: &Chart, from: Place, size: (f64, f64)) -> Frame<'_> {
     Frame { from, to: (from.0 + size.0, from.1 + size.1), axes: Axes { x: &chart.x, y: &chart.y } }
 }
 
-/// The frame of the colour scale, on the right of its map.
+/// Returns the frame of the colour scale on the right of its map.
 fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
     let left = chart.to.0 + FROM_MAP;
     let axes = Axes { y: &map.key, ..chart.axes };

@@ -1,4 +1,4 @@
-//! The fewest springs, with either edge model, that reach a tolerance.
+//! The smallest number of springs that reaches a tolerance, with either edge model.
 
 use super::estimate::{Estimate, Evidence, own_errors};
 use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
@@ -13,12 +13,12 @@ use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
 
-/// Edge models in the order of preference at the same number of springs.
+/// Edge models. At the same number of springs the first one is preferred.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
-/// Largest number of springs tried; four times as many if the modes of the scene need more than this number.
+/// Largest number of springs that is tried, or four times the number that the modes of the scene need, if that is larger.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance: `1e-3` or `0.1 %`; the error is the allowed range.
+/// Parses a tolerance, a relative error: `1e-3` or `0.1 %`. The error states the allowed range, above 0 and below 1.
 ///
 /// ```
 /// use asperity_scene::parse_tolerance;
@@ -35,40 +35,40 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
 /// Number of springs and edge model that reach a tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
-    /// Allowed relative error.
+    /// Largest allowed relative error.
     pub tolerance: f64,
-    /// Quantity to which the tolerance applies.
+    /// Quantity whose error is bounded.
     pub target: Target,
     /// Number of springs N.
     pub points: u64,
-    /// Edge model.
+    /// Edge model: edges between springs, or whole springs.
     pub edges: Edges,
-    /// Relative error that is reached: with a closed form the error itself, otherwise an estimate that includes the
-    /// estimated error of the finest solution.
+    /// Relative error of the quantity. The error is exact if there is a closed form. Otherwise it is an estimate, which
+    /// includes the estimated error of the finest solution.
     pub error: f64,
-    /// True if the error is relative to a closed form.
+    /// True if the error is relative to an exact formula.
     pub closed_form: bool,
-    /// Number of springs of the finest solution tried.
+    /// Number of springs of the finest solution that was tried.
     pub finest: u64,
 }
 
 impl Choice {
-    /// The scene with this number of springs and this edge model.
+    /// Returns the scene with this number of springs and this edge model.
     ///
     /// # Errors
-    /// For another scene than the choice was made for, if it does not allow these values.
+    /// Returns an error if another scene is given that does not allow these values.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
 
-    /// Estimated error of the scene with this number of springs and this edge model.
+    /// Returns the estimated error of the scene with this number of springs and this edge model.
     pub fn estimate(&self) -> Estimate {
         let evidence =
             if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
         Estimate { target: self.target, error: self.error, near_step: false, evidence }
     }
 
-    /// The choice and its reason in one sentence.
+    /// Returns the choice and its reason as a sentence.
     pub fn sentence(&self) -> String {
         let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
         let (points, target, edges) = (grouped(points), target.name(), edges.name());
@@ -91,20 +91,20 @@ pub enum ChoiceError {
     /// The tolerance is out of its range.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The scene uses the stepwise solver, whose error also depends on its step.
+    /// The scene has the stepwise solver, whose error also depends on its step.
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
     Stepwise,
-    /// The search was stopped.
+    /// The caller stopped the search.
     #[error("the search for springs was stopped")]
     Stopped,
-    /// The largest number of tried springs does not reach the tolerance.
+    /// Not even the largest number of springs that was tried reaches the tolerance.
     #[error("{}", unreached(.tolerance, .best))]
     Unreached {
-        /// Requested relative error.
+        /// Requested tolerance, a relative error.
         tolerance: f64,
-        /// The best choice, with the tolerance that it reaches; `None` if no error is known.
+        /// Best number of springs that was found, with its error; `None` if no error is known.
         best: Option<Box<Choice>>,
     },
 }
@@ -122,15 +122,18 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     )
 }
 
-/// Finds springs and edge model with which a checked scene, with files in `folder`, reaches a relative error of at most
-/// `tolerance` in its adhesion force, or in its force curve if there is no tensile force.
+/// Finds the number of springs and the edge model with which a checked scene has a relative error of at most `tolerance`. The
+/// error concerns the adhesion force, or the force curve if there is no tensile force. The measured files of the scene are in
+/// `folder`.
 ///
-/// Doubles the number of springs, and chooses the smallest from which on the error, including that of the finest solution,
-/// stays within the tolerance over at least two refinements. The error counts under the loads of the scene, half of them
-/// and twice of them (its target forces and indentations above zero), unless a closed form gives it. With equal springs
-/// both edge models take about the same time; edges between springs are preferred, since their error falls faster if the
-/// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is asked between solutions;
-/// `trying` receives the next number of springs.
+/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Unless
+/// there is a closed form, the error is the largest under three loads: the loads of the scene, half of them, and twice of
+/// them. The error includes the estimated error of the finest solution. At the same number of springs edges between springs
+/// are preferred, because their error falls faster. The choice does not depend on the speed of the machine. `stop` is asked
+/// between solutions; true ends the search. `trying` receives the next number of springs.
+///
+/// # Errors
+/// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, or if the scene cannot be computed.
 ///
 /// ```
 /// use asperity_scene::{choose, open};
@@ -191,7 +194,7 @@ pub fn choose(
 }
 
 /// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and around
-/// them; 0 for a scene with a closed form, `None` if the error is unknown.
+/// them. The error is 0 if the scene has a closed form, and `None` if it is unknown.
 fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution; 2]]) -> Option<f64> {
     let [finest, _] = tried.last()?;
     if finest.closed_form.is_some() {
@@ -200,8 +203,8 @@ fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution
     own_errors(scene, finest, runs)?[Target::of(finest) as usize]
 }
 
-/// Returns the choice among solutions with both edge models, given the error of the finest one; if none reaches the
-/// tolerance, the best whose error is confirmed. `None` for too few solutions.
+/// Returns the choice among solutions with both edge models, given the error of the finest one. If none reaches the
+/// tolerance, it is the best whose error is confirmed. Returns `None` for too few solutions.
 fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choice> {
     let [finest, _] = tried.last()?;
     let (target, reference, closed_form) =

@@ -1,4 +1,4 @@
-//! Estimated error of one outcome, by comparison with two more solutions.
+//! Estimated error of one outcome, by comparison with two further solutions.
 
 use super::solution::{Errors, FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
 use crate::scene::checked::CheckedScene;
@@ -9,54 +9,54 @@ use serde::Serialize;
 use std::array;
 use std::path::Path;
 
-/// Largest number of springs of a solution that serves an estimate only.
+/// Largest number of springs of a solution that is only needed for an estimate.
 const MOST_SPRINGS: u64 = 1 << 23;
 /// Number of springs above which the Fourier transform takes most of the time of a solution.
 const MANY_SPRINGS: u64 = 1 << 16;
-/// Numbers of springs of the two other solutions, as fractions of the number of springs of the scene: fewer springs, or
-/// more where the waves need more.
+/// Numbers of springs of the two further solutions, as fractions of the number of springs of the scene. The second pair is
+/// for scenes whose waves need more springs than the first pair gives.
 const OTHERS: [[(u64, u64); 2]; 2] = [[(7, 8), (2, 3)], [(3, 2), (2, 1)]];
-/// Estimated error over the larger of the two differences from the other solutions.
+/// Ratio of the estimated error to the larger of the two differences from the further solutions.
 ///
-/// The other solutions have edges between springs. Whole springs differ from them by their whole error, which is of first
-/// order in the spacing, and do not agree with them by chance as whole springs on several grids do. An error that falls
-/// with the square of the spacing differs by more than itself on 2/3 of the springs. On rough profiles errors change sign
-/// by chance. On random scenes at least 95 of 100 true errors are within the estimate, and the median of estimate over true
-/// error is at most ten (`tests/program/estimates.rs`).
+/// The further solutions have edges between springs. A solution with whole springs differs from them by its whole error,
+/// which is of first order in the spacing. Solutions with whole springs on several grids may agree by chance. An error that
+/// falls with the square of the spacing is smaller than its difference from the solution with 2/3 of the springs. On rough
+/// profiles errors change sign by chance. On random scenes at least 95 of 100 true errors are within the estimate, and the
+/// median of estimate over true error is at most ten (`tests/program/estimates.rs`).
 const FACTOR: f64 = 4.0;
 /// Relative difference of adhesion forces above which F_a(F_n) may have a step.
 const STEP: f64 = 0.05;
-/// Factors that give loads near the loads of a scene.
+/// Factors between the loads of a scene and loads near them.
 const NEAR: [f64; 2] = [0.95, 1.05];
 
-/// The estimated relative error of an outcome.
+/// Estimated relative error of an outcome that results from its finite number of springs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Quantity whose error is estimated.
     pub target: Target,
-    /// The relative error.
+    /// Relative error of this quantity.
     pub error: f64,
-    /// True if F_n lies near a step of F_a(F_n): another number of springs gives another adhesion force, and under slightly
-    /// different loads nearly the same one. The error then includes the step.
+    /// True if the preload F_n lies near a step of the adhesion force F_a(F_n). Another number of springs then moves the step
+    /// and gives another adhesion force. The error includes the step.
     pub near_step: bool,
-    /// What the estimate is based on.
+    /// Basis of the estimate: a formula or further solutions.
     pub evidence: Evidence,
 }
 
 impl Estimate {
-    /// Absolute error of the adhesion force of an outcome, N; `None` for an estimate for the force curve.
+    /// Returns the absolute error of the adhesion force of an outcome in N; `None` if the estimate is for the force curve.
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// Error of the force curve as a share of the largest force; `None` for an estimate for the adhesion force.
+    /// Returns the error of the force curve over the largest force; `None` if the estimate is for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }
 
-    /// The error in words, to follow the adhesion force. It is in per cent, with one significant digit, or two if the first
-    /// digit is 1.
+    /// Returns the error as text to follow the adhesion force, such as `grid ± 0.1 %`. The error has one significant digit,
+    /// or two if the first digit is 1.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -66,25 +66,25 @@ impl Estimate {
     }
 }
 
-/// What an estimate is based on.
+/// Basis of an estimated error.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
-    /// A closed form: the estimate is the error itself.
+    /// An exact formula: the estimate is the error itself.
     ClosedForm,
-    /// Solutions of the same profile with these numbers of springs and edges between springs.
+    /// Solutions of the same profile with these numbers of springs, with edges between springs.
     Solutions(Vec<u64>),
 }
 
 /// Estimates the error of the adhesion force of an outcome, or of its force curve if there is no tensile force.
 ///
-/// A closed form yields the error itself. Otherwise the same profile is solved exactly with about 7/8 and 2/3 of the
-/// springs and edges between springs, and the error is four times the larger difference. A profile whose modes need more
-/// springs is solved with about 3/2 and twice as many instead. Differences are relative to the smaller of two values.
+/// If there is a closed form, the estimate is the error itself. Otherwise the same profile is solved with about 7/8 and 2/3
+/// of the springs, with edges between springs. The estimate is four times the larger difference. A profile whose modes need
+/// more springs is solved with about 3/2 and twice as many instead. Differences are relative to the smaller of two values.
 ///
-/// Returns `None` if the scene has neither figure, if the foundation allows no other number of springs or would need more
-/// than the limit, if a solution with another number of springs cannot reach a target of the loading, or if `stop` ends the
-/// computation.
+/// Returns `None` if there is neither an adhesion force nor a force curve, or if the two further solutions are impossible. A
+/// further solution may need a number of springs that is not allowed, or may not reach the end of a loading stage. Also
+/// returns `None` if `stop` returns true.
 ///
 /// ```
 /// use asperity_contact::{Modulus, Move};
@@ -137,8 +137,8 @@ pub(super) fn own_errors(scene: &CheckedScene, finest: &Solution, runs: &mut Run
     Some(array::from_fn(|index| Some(FACTOR * one[index]?.max(other[index]?))))
 }
 
-/// Solves a scene with two other numbers of springs and edges between springs; `None` if they are not allowed or have no
-/// solution.
+/// Solves a scene with two other numbers of springs and edges between springs. Returns `None` if they are not allowed or have
+/// no solution.
 fn others(
     scene: &CheckedScene,
     solved: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
@@ -155,11 +155,12 @@ fn others(
     Some([(one, of_one), (other, of_other)])
 }
 
-/// The smallest number of springs, at least `least`, that suits a Fourier transform, with no prime factor above 13: an odd
-/// number, or twice an odd number where the transform takes most of the time and would double it for an odd one.
+/// Returns the smallest number of springs, at least `least`, that suits a Fourier transform: it has no prime factor above 13.
+/// The number is odd. Where the transform takes most of the time, it is twice an odd number, because an odd one would double
+/// that time.
 ///
-/// The positions of an even and an odd number of springs never coincide, wherever the axis of a form is; a power of two and
-/// twice an odd number have two positions in common. So the arrangement of the springs does not make heights equal.
+/// The springs of an even and of an odd number never have the same positions, wherever the axis of a form is. A power of two
+/// and twice an odd number have two positions in common. So equal heights never result from the positions alone.
 fn apart_from(least: u64) -> u64 {
     let without = |mut number: u64, prime: &u64| {
         while number.is_multiple_of(*prime) {

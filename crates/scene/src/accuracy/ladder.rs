@@ -1,5 +1,5 @@
-//! The cost of accuracy of one scene: solutions from coarse to fine within a budget of time. Each rung of this ladder has
-//! twice the springs of the rung before, with both edge models, and half the step of the stepwise solver.
+//! Cost of accuracy of one scene: solutions from coarse to fine within a budget of time. Each step of this ladder has twice
+//! the springs of the step before, with both edge models, and half the step of the stepwise solver.
 
 use super::estimate::own_errors;
 use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
@@ -16,30 +16,30 @@ use asperity_fourier::plan_real_forward;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Smallest time left for another rung over the time of the last one: the next rung takes about twice as long, the error of
-/// the finest solution as long as the last rung, and a busy machine longer.
+/// Least ratio of the time that is left to the time of the last rung before another rung begins. The next rung takes about
+/// twice as long, the error of the finest solution as long as the last rung. A busy machine takes longer.
 const LATER: f64 = 4.0;
-/// Number of points of a compared curve, over all loading stages: so many that sampling hides no error of the springs.
+/// Number of points of a compared curve, over all loading stages. With so many points sampling hides no error of the springs.
 const COMPARED_POINTS: u64 = 1 << 16;
-/// Limit of the samples of a compared loading stage.
+/// Largest number of points of a compared loading stage.
 const MOST_COMPARED: u64 = 4096;
-/// Relative errors below this are indistinguishable from rounding.
+/// Relative error below which errors cannot be distinguished from rounding.
 const ROUNDING: f64 = 1e-14;
-/// Number of springs of the stepwise solver, unless the scene needs more.
+/// Number of springs for the stepwise solver, unless the scene needs more.
 const STEPWISE_SPRINGS: u64 = 256;
 /// Number of steps of the coarsest run over its range of indentations.
 const FEWEST_STEPS: f64 = 16.0;
-/// Limit of the runs that time one setting, and the time after which no further run begins, s.
+/// Largest number of runs that time one setting, and the time in s after which no further run begins.
 const MOST_RUNS: usize = 9;
 const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform whose time is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// Progress of a measurement.
+/// Progress of [`measure()`](crate::measure).
 pub enum Progress<'a> {
-    /// The setting of a knob that is tried next.
+    /// The setting that is tried next, with its value as text.
     Trying(Knob, &'a str),
-    /// The table so far, with errors relative to the finest solution so far.
+    /// The table so far. Its errors are relative to the finest solution so far.
     Rows(&'a CostTable),
 }
 
@@ -48,17 +48,18 @@ struct Ladder<'a> {
     scene: &'a CheckedScene,
     folder: &'a Path,
     is_over: &'a dyn Fn() -> bool,
-    /// Rows without errors yet (setting and times), each with its solution.
+    /// Rows without errors yet, which have setting and times, each with its solution.
     rungs: Vec<(Row, Solution)>,
     table: CostTable,
 }
 
-/// Measures the cost table of a checked scene with files in `folder`, within a budget of time. `stop` is asked between
-/// solutions; `watch` receives each setting and its result.
+/// Measures errors and times of a checked scene for ever more springs and ever smaller steps, within a budget of time. The
+/// measured files of the scene are in `folder`. `stop` is asked between solutions; true ends the measurement. `watch`
+/// receives each setting and the table so far.
 ///
 /// # Errors
-/// The reason in a sentence: the scene cannot be computed, the budget allows fewer than two solutions, or `stop` returned
-/// true.
+/// Returns the reason as a sentence: the scene cannot be computed, the budget is too small for two solutions, or `stop`
+/// returned true.
 pub fn measure(
     scene: &CheckedScene,
     folder: &Path,
@@ -89,7 +90,7 @@ pub fn measure(
     }
 }
 
-/// Returns the scene with as many samples as a comparison of curves needs.
+/// Returns the scene with as many curve points as a comparison of curves needs.
 fn compared(scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
     scene.with(|scene| scene.numerics.samples = compared_samples(scene))
 }
@@ -100,7 +101,7 @@ fn compared_samples(scene: &Scene) -> u64 {
 }
 
 impl Ladder<'_> {
-    /// Adds rungs while there is time; returns the error with which too few springs were refused, if any were.
+    /// Adds rungs while there is time. Returns the error with which too few springs were refused, if there was one.
     fn climb(
         &mut self,
         left: &dyn Fn() -> f64,
@@ -168,8 +169,8 @@ impl Ladder<'_> {
         Ok((Row { knob, setting, springs, seconds, transforms, errors }, solution))
     }
 
-    /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused; `None` if no time is
-    /// left.
+    /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused. Returns `None` if no time
+    /// is left.
     fn time(&self, scene: &CheckedScene) -> Option<Timing> {
         let (began, mut seconds) = (Instant::now(), Vec::new());
         while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
@@ -197,8 +198,8 @@ impl Ladder<'_> {
         Some([finer.next()?, finer.next()?])
     }
 
-    /// Computes the errors of all rows: relative to the finest solution or the closed form, and for steps relative to the
-    /// exact solution. The error of the reference itself is `own`, or twice the last differences. Returns false for fewer
+    /// Computes the errors of all rows, relative to the finest solution or the closed form. Errors of steps are relative to
+    /// the exact solution. The error of the reference itself is `own`, or twice the last differences. Returns false for fewer
     /// than two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
         let Some([finest, last]) = self.finest() else { return false };
@@ -244,14 +245,14 @@ fn resolved(errors: Errors, floors: Errors, setting: f64, before: Option<&Row>) 
     })
 }
 
-/// Observed order of convergence between two errors, the second of a solution that is `ratio` times as fine:
-/// ln(coarse/fine)/ln(ratio). `None` if the order is meaningless.
+/// Returns the observed order of convergence ln(coarse/fine)/ln(ratio) between two errors; the second solution is `ratio`
+/// times as fine. Returns `None` if the order has no meaning.
 fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> {
     let order = (coarse / fine).ln() / ratio.ln();
     (coarse > 0.0 && fine > 0.0 && order.is_finite()).then_some(order)
 }
 
-/// Measures the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
+/// Measures the shortest time in s of one real Fourier transform of 2^20 points, which is planned before.
 fn time_of_transform() -> Option<f64> {
     let transform = plan_real_forward(TRANSFORM_POINTS);
     let mut points = transform.make_input_vec();

@@ -1,4 +1,4 @@
-//! Solutions of a scene and of its variants, and their relative differences.
+//! Solutions of a scene with several settings, and their relative differences.
 
 use crate::reference::{closed_form, smooth_adhesion_force};
 use crate::scene::checked::CheckedScene;
@@ -16,20 +16,20 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 pub(super) const FEWEST: u64 = 16;
-/// Factors that give the loads around the loads of a scene.
+/// Factors between the loads of a scene and the loads around them.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
 /// Relative errors or differences of [`crate::accuracy::table::QUANTITIES`], in that order; `None` for a missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
-/// Figures and force curve of one solution. A figure of zero has no relative error and is left out.
+/// Forces, energy, contact length and force curve of one solution. A value of zero has no relative error and is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solution {
     pub points: u64,
     pub adhesion_force: Option<f64>,
-    /// The adhesion force in closed form, N, if the scene has one.
+    /// Adhesion force in closed form in N, if the scene has one.
     pub closed_form: Option<f64>,
-    /// Adhesion forces under half and twice the loads, N, where they were computed.
+    /// Adhesion forces under half and twice the loads in N, where they were computed.
     pub around: Vec<Option<f64>>,
     pub dissipated_energy: Option<f64>,
     pub contact_length: Option<f64>,
@@ -51,7 +51,7 @@ impl Solution {
         }
     }
 
-    /// Returns this solution as a reference; an adhesion force in closed form replaces the computed one.
+    /// Returns this solution as a reference. An adhesion force in closed form replaces the computed one.
     pub(super) fn reference(&self) -> Solution {
         match self.closed_form {
             Some(_) => Solution { adhesion_force: self.closed_form, around: Vec::new(), ..self.clone() },
@@ -59,8 +59,8 @@ impl Solution {
         }
     }
 
-    /// Returns the relative differences from a reference. The difference of the adhesion force is the largest over all
-    /// loads that both have: an error that changes sign from load to load is not small at all of them by chance.
+    /// Returns the relative differences from a reference. The difference of the adhesion force is the largest over all loads
+    /// that both have. An error that changes sign from load to load is then not small by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
@@ -79,19 +79,19 @@ impl Solution {
     }
 }
 
-/// Quantity to which a tolerance applies: one of the first two of [`crate::accuracy::table::QUANTITIES`].
+/// Quantity whose error is estimated or bounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
     /// The adhesion force.
     AdhesionForce,
-    /// The force curve, where there is no tensile force: the mean difference of forces at equal indentations over the
-    /// largest force.
+    /// The force curve, if there is no tensile force. Its error is the mean difference of forces at equal indentations over
+    /// the largest force.
     Curve,
 }
 
 impl Target {
-    /// Name in words.
+    /// Returns the name of the quantity in words.
     pub fn name(self) -> &'static str {
         match self {
             Target::AdhesionForce => "adhesion force",
@@ -132,8 +132,8 @@ pub(super) fn refined(scene: &CheckedScene, points: u64, edges: Edges) -> Result
     })
 }
 
-/// Returns the scene with all target forces and indentations above zero multiplied by a factor; `None` if there are none,
-/// or if a product is out of range.
+/// Returns the scene with all positive target forces and indentations multiplied by a factor. Returns `None` if there are
+/// none, or if a product is out of range.
 pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> {
     let loaded = |other: &mut Scene| {
         for leg in &mut other.loading {
@@ -190,7 +190,7 @@ pub(super) fn is_spent(error: &RunError) -> bool {
     is_short || matches!(error, Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted))
 }
 
-/// Returns true if too few springs are the reason: none is under the body, or their contact does not reach a target.
+/// Returns true if there are too few springs: none is under the body, or their contact does not reach the end of a stage.
 pub(super) fn is_too_coarse(error: &RunError) -> bool {
     match error {
         RunError::Contact(error) => error.is_out_of_reach(),
@@ -204,8 +204,8 @@ fn longest_contact(outcome: &Outcome) -> f64 {
     points.map(|point| point.contact_length).fold(0.0, f64::max)
 }
 
-/// Returns the adhesion force of a scene in closed form, N; `None` unless a smooth body is pulled beyond the indentation of
-/// its smallest force, on a profile longer than its contact. `outcome` is the solution of the scene.
+/// Returns the adhesion force of a scene in closed form in N. `outcome` is the solution of the scene. Returns `None` unless a
+/// smooth body is pulled beyond the indentation of its smallest force, on a profile longer than its contact.
 fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
     if scene.roughness.is_some() {
@@ -250,9 +250,9 @@ pub(super) fn force_curve(history: &History) -> ForceCurve {
     history.legs.iter().map(points).collect()
 }
 
-/// Mean difference of the forces of a loading stage from a reference at equal indentations, over the largest force of the
-/// reference; the largest of all stages. A jump that is late by a hundredth of the range of indentations counts a hundredth
-/// of its height. `None` if the reference has no forces or another number of stages.
+/// Returns the mean difference of the forces of a loading stage from a reference at equal indentations, over the largest
+/// force of the reference. The largest of all stages counts. A jump that is late by a hundredth of the range of indentations
+/// counts a hundredth of its height. Returns `None` if the reference has no forces or another number of stages.
 pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f64> {
     let largest = reference.iter().flatten().map(|point| point[1].abs()).fold(0.0, f64::max);
     if curve.len() != reference.len() || largest == 0.0 || largest.is_nan() {
@@ -268,7 +268,7 @@ pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f
     curve.iter().zip(reference).map(mean).try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
 }
 
-/// Force of a curve at an indentation; beyond the ends of the curve the force at the end. `None` without points.
+/// Returns the force of a curve at an indentation, and beyond the ends the force at the end. Returns `None` without points.
 fn force(curve: &[[f64; 2]], at: f64) -> Option<f64> {
     let above = curve.partition_point(|point| point[0] < at).min(curve.len().checked_sub(1)?);
     let ([low, before], [high, after]) = (curve[above.saturating_sub(1)], curve[above]);

@@ -1,4 +1,4 @@
-//! The table of the cost of accuracy.
+//! Table of the errors and times of a scene from coarse to fine.
 
 use crate::scene::model::{Numerics, Solver};
 use asperity_contact::Edges;
@@ -10,31 +10,31 @@ use strum::IntoStaticStr;
 
 /// Number of finer solutions that must confirm an error.
 pub(super) const REFINEMENTS: usize = 2;
-/// Quantities whose errors are measured: the adhesion force F_a, the force curve (the mean difference of forces at equal
-/// indentations over the largest force), the dissipated energy, and the largest contact length.
+/// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest contact
+/// length. The error of the curve is the mean difference of forces at equal indentations over the largest force.
 pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
-/// Relative errors for which the answer states springs and times.
+/// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
-/// A setting that affects the accuracy.
+/// A setting on which the accuracy depends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
     /// Number of springs N, with edges between springs.
     SubCellSprings,
-    /// Number of springs N, with edges at springs, as in the paper.
+    /// Number of springs N, with edges at whole springs as in the paper.
     GridSprings,
-    /// Step Δd of the stepwise solver, m.
+    /// Step Δd of the stepwise solver in m.
     Step,
 }
 
 impl Knob {
-    /// All knobs, in the order of the table.
+    /// All settings, in the order of the table.
     pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
 
-    /// Name of the knob in words.
+    /// Returns the name of the setting in words.
     pub fn name(self) -> &'static str {
         match self {
             Knob::SubCellSprings => "springs N, edges between springs",
@@ -44,19 +44,19 @@ impl Knob {
     }
 }
 
-/// Times of repeated runs after a first run that does not count, s.
+/// Times of repeated runs with the same setting in s.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Timing {
-    /// The shortest time, s.
+    /// Shortest time in s.
     pub minimum: f64,
-    /// The median time, s.
+    /// Median time in s.
     pub median: f64,
     /// Number of timed runs.
     pub runs: usize,
 }
 
 impl Timing {
-    /// Timing from the times of some runs, s; `None` without runs.
+    /// Computes shortest and median time from the times of some runs in s; `None` without runs.
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         seconds.sort_by(f64::total_cmp);
         let runs = seconds.len();
@@ -66,45 +66,45 @@ impl Timing {
     }
 }
 
-/// A relative error.
+/// A relative error, and how it compares with the error of the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigure {
-    /// The error; if it is not resolved, the error of the reference itself.
+    /// Relative error. If it is not resolved, it is the error of the reference itself.
     pub error: f64,
-    /// True if the error is larger than the error of the reference.
+    /// True if the error is resolved, which means larger than the error of the reference.
     pub resolved: bool,
-    /// Observed order of convergence from the previous row to this one; `None` unless both errors are resolved.
+    /// Observed order of convergence from the previous row to this row; `None` unless the errors of both rows are resolved.
     pub order: Option<f64>,
 }
 
-/// One setting: its cost and its errors.
+/// One setting with its times and its errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// Which setting is varied.
+    /// Setting that is varied.
     pub knob: Knob,
     /// Value of the setting: a number of springs, or a step in m.
     pub setting: f64,
     /// Number of springs N.
     pub springs: u64,
-    /// Time of a whole run in which nothing is reused; `None` if there was no time for one.
+    /// Times of whole runs that reuse no earlier result; `None` if no run was timed.
     pub seconds: Option<Timing>,
-    /// The shortest time in units of a Fourier transform; see [`CostTable::transform_seconds`].
+    /// Shortest time over the time of one Fourier transform, [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
-    /// Relative errors of the [`QUANTITIES`].
+    /// Relative errors of the [`QUANTITIES`], in their order.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// What the errors are relative to.
+/// Reference of the errors: the finest solution, whose adhesion force a formula may replace.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution with edges between springs.
     pub springs: u64,
-    /// Adhesion force of the reference, N; `None` without a tensile force.
+    /// Adhesion force of the reference in N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// True if `adhesion_force` is from a closed form; everything else is always from the finest solution.
+    /// True if a formula gives `adhesion_force`. The other quantities are always from the finest solution.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself in the [`QUANTITIES`].
+    /// Estimated relative errors of the reference itself, for the [`QUANTITIES`] in their order.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<f64>; 4],
 }
@@ -113,50 +113,53 @@ fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Resul
     serializer.collect_map(QUANTITIES.iter().zip(values))
 }
 
-/// Cost of accuracy for one scene.
+/// Errors and times of one scene with settings from coarse to fine.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
-    /// Budget of time, s.
+    /// Allowed time in s.
     pub budget: f64,
-    /// Time used, s.
+    /// Time that was used in s.
     pub spent: f64,
-    /// The unit of time: the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
+    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. This time serves as the unit of
+    /// time.
     pub transform_seconds: f64,
     /// Reference of the errors.
     pub reference: CostReference,
-    /// The settings, grouped by knob, each group from coarse to fine.
+    /// Rows of the settings, one [`Knob`] after the other, each from coarse to fine.
     pub rows: Vec<Row>,
-    /// Settings that were not tried or did not work, with reasons.
+    /// Settings in words that were not tried, or for which time or memory did not suffice.
     pub left_out: Vec<String>,
 }
 
 impl CostTable {
-    /// The rows of one knob.
+    /// Returns the rows of one setting, from coarse to fine.
     pub fn rows_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
 
-    /// The main error of a row: the error of the adhesion force, or of the force curve if there is no tensile force.
+    /// Returns the error of the adhesion force of a row, or of the force curve if there is no tensile force.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
     }
 
-    /// Shortest time, s, and main error of a row; `None` unless both can be on a logarithmic axis.
+    /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns `None` unless a logarithmic
+    /// axis can show both.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }
 
-    /// The first row of a knob from which on the main error stays within a bound; at least two finer rows must confirm it.
+    /// Returns the coarsest row of a setting from which on the main errors of all rows are within `bound`. At least two finer
+    /// rows must follow.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// Time, s, and main error of a scene with these numerics: of the row with its setting, or between neighbouring rows.
-    /// `None` for a setting that was not tried, and for steps that were tried with other numbers of springs only.
+    /// Returns the time in s and the main error of a scene with these numerics. Between two rows both are interpolated.
+    /// Returns `None` outside the range of the rows, and for a step that was only tried with another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -180,8 +183,8 @@ impl CostTable {
         Some((between(before.0, there.0), between(before.1, there.1)))
     }
 
-    /// Order of convergence of a knob by least squares over all rows with resolved errors; `None` for fewer than three such
-    /// rows.
+    /// Returns the order of convergence of a setting by least squares over all rows with resolved errors; `None` for fewer
+    /// than three such rows.
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;
@@ -192,8 +195,8 @@ impl CostTable {
         slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
     }
 
-    /// Returns in sentences the numbers of springs and the times for 1 % and 0.1 % error of the adhesion force, or of the
-    /// force curve if there is no tensile force.
+    /// Returns sentences that state the numbers of springs and the times for errors of 1 % and 0.1 %. The errors concern the
+    /// adhesion force, or the force curve if there is no tensile force.
     pub fn answer(&self) -> Vec<String> {
         let of_force = self.reference.adhesion_force.is_some();
         let what = if of_force { "the adhesion force" } else { "the force curve" };
@@ -215,8 +218,8 @@ impl CostTable {
     }
 }
 
-/// Index of the first of these errors, from coarse to fine, from which on all are within a bound. At least two finer errors
-/// must confirm it, since an error that changes sign may be small by chance.
+/// Returns the index of the first error, from coarse to fine, from which on all are within a bound. At least two finer errors
+/// must confirm it, because an error that changes sign may be small by chance.
 pub(super) fn first_within(
     errors: impl DoubleEndedIterator<Item = Option<f64>>,
     bound: f64,

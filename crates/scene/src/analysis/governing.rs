@@ -1,8 +1,7 @@
-//! Governing parameters of a scene, κ of eq. (11) and e_el/γ, which compare roughness with adhesion; and the limits of the
-//! rule of Hess, which holds for short-ranged attraction and for profiles that rise everywhere.
+//! Parameters that compare roughness and adhesion, κ of eq. (11) and e_el/γ, and limits of the rule of Hess.
 //!
-//! Attraction of finite range dissipates less energy: in three dimensions the hysteresis vanishes at a Tabor number near 1.
-//! Adhesion forces of smooth bodies are in [`crate::reference`].
+//! The rule holds for short-ranged attraction, which the Tabor number measures, and for profiles that rise everywhere.
+//! Attraction of finite range dissipates less energy. In three dimensions the hysteresis vanishes at a Tabor number near 1.
 
 use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
 use crate::scene::model::{Roughness, Scene};
@@ -12,7 +11,8 @@ use asperity_surface::Form;
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// The governing parameters of a scene, given or derived from each other.
+/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. Each parameter is
+/// either given or derived.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -27,25 +27,26 @@ use std::f64::consts::PI;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Governing {
-    /// Effective modulus E*, Pa.
+    /// Effective modulus E* in Pa.
     pub effective_modulus: f64,
-    /// Work of adhesion γ, J/m²; `None` without adhesion.
+    /// Work of adhesion γ in J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Work of adhesion γ₁ on closing, J/m²; `None` if it equals `work_of_adhesion`.
+    /// Work of adhesion γ₁ on closing in J/m²; `None` if it is not given and thus equals γ.
     pub closing_work: Option<f64>,
-    /// Amplitude of the roughness; `None` for a smooth profile.
+    /// Rms height, rms gradient and curvature of the roughness; `None` for a smooth profile.
     pub amplitude: Option<Amplitude>,
-    /// κ = √(h⟨∇z⟩E*/γ), eq. (11); `None` without roughness or adhesion.
+    /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) of eq. (11); `None` without roughness or adhesion.
     pub kappa: Option<f64>,
-    /// Elastic energy of conformity over work of adhesion, e_el/γ; `None` without roughness or adhesion.
+    /// Elastic energy that flattens the roughness over the work of adhesion, e_el/γ; `None` without roughness or adhesion.
     pub elastic_energy_ratio: Option<f64>,
 }
 
 impl Governing {
-    /// Derives the parameters of a checked scene. `unit` is the amplitude of its self-affine profile scaled to rms height 1
-    /// m, `measured` the amplitude of its measured profile.
+    /// Derives the parameters of a checked scene. `unit` is the amplitude of its self-affine profile for an rms height of 1
+    /// m, `measured` the amplitude of its measured surface.
     ///
-    /// If κ is given, γ = h⟨∇z⟩E*/κ². If e_el/γ is given, γ follows from e_el = E* h² q̄/4 with the mean wave number q̄.
+    /// A given κ yields the work of adhesion γ = h⟨∇z⟩E*/κ². A given e_el/γ yields γ by e_el = E* h² q̄/4, with the mean wave
+    /// number q̄.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
@@ -60,7 +61,7 @@ impl Governing {
         Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
     }
 
-    /// The parameters of the same profile with another adhesion.
+    /// Returns the parameters of the same profile with another adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let given = adhesion.and_then(|adhesion| adhesion.parameter());
         let work_of_adhesion = adhesion.and_then(|adhesion| self.work_of(adhesion));
@@ -77,7 +78,8 @@ impl Governing {
         }
     }
 
-    /// Work of adhesion of `adhesion` on this profile, J/m²; `None` if it is given by a parameter and there is no roughness.
+    /// Returns the work of adhesion of `adhesion` on this profile in J/m²; `None` if a parameter gives it and there is no
+    /// roughness.
     fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
         match adhesion.strength {
             Strength::Work { opening, .. } => Some(opening),
@@ -85,12 +87,12 @@ impl Governing {
         }
     }
 
-    /// Work of adhesion at which a parameter has this value, J/m²; `None` without roughness.
+    /// Returns the work of adhesion in J/m² at which `parameter` has this value; `None` without roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// Value of a parameter; `None` without roughness or adhesion.
+    /// Returns the value of κ or e_el/γ; `None` without roughness or adhesion.
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,
@@ -98,37 +100,39 @@ impl Governing {
         }
     }
 
-    /// Elastic energy of conformity e_el per area, J/m²; `None` without roughness.
+    /// Returns the elastic energy e_el per area that flattens the roughness, in J/m²; `None` without roughness.
     pub fn elastic_energy(&self) -> Option<f64> {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
 
-    /// Energy per area that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el; `None` without roughness.
+    /// Returns the energy per area that a parameter compares with the work of adhesion, in J/m²: h⟨∇z⟩E* for κ, e_el for
+    /// e_el/γ. Returns `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Unit of force E* h L, N, for a profile of this length, m; `None` without roughness. Pohrt, Popov and Filippov (2012).
+    /// Returns the unit of force E* h L in N of Pohrt, Popov and Filippov (2012). `length` is the length L of the profile in
+    /// m. Returns `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// Begins a contact of a profile with this modulus and these works of adhesion.
+    /// Returns a builder of a contact of this profile, with this modulus and these works of adhesion.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for an effective modulus out of its range.
+    /// Returns [`ContactError::Value`] if the effective modulus is out of its range.
     pub fn contact(&self, profile: &Profile) -> Result<ContactBuilder, ContactError> {
         let contact = Contact::builder(profile, Modulus::effective(self.effective_modulus)?);
         Ok(contact.works_of_adhesion(self.adhesive_works().unwrap_or_default()))
     }
 
-    /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
+    /// Returns the works of adhesion on closing and on opening in J/m², in this order; `None` without adhesion.
     pub fn adhesive_works(&self) -> Option<[f64; 2]> {
         let work = self.adhesive_work()?;
         Some([self.closing_work.unwrap_or(work), work])
     }
 
-    /// Work of adhesion above zero, J/m²; `None` without adhesion.
+    /// Returns the work of adhesion in J/m² if it is above zero; otherwise `None`.
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
@@ -141,30 +145,30 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
     }
 }
 
-/// Value of a parameter from its energy and the work of adhesion per area, both J/m². `None` if adhesion is so small that
-/// the value overflows.
+/// Returns the value of a parameter from its energy and the work of adhesion, both in J/m². Returns `None` if adhesion is so
+/// small that the value overflows.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
     Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
 }
 
-/// Range of attraction z₀, m, of a scene that states none: an interatomic distance.
+/// Range of attraction z₀ in m of a scene that states none, which is an interatomic distance.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
 
-/// Tabor number below which the model overestimates dissipated energies.
+/// Tabor number below which the model overestimates the dissipated energy.
 pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
-/// Tabor number μ of a scene, (ργ²/(E*²z₀³))^(1/3); `None` without adhesion or a radius of curvature. Of two works of
-/// adhesion, the one on opening counts.
+/// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the work of adhesion on opening γ. Returns `None`
+/// without adhesion or without a radius of curvature ρ, as for cones.
 pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
     let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
     let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
     Some(tabor_number(radius, work, governing.effective_modulus, range)).filter(|number| number.is_finite())
 }
 
-/// Radius of curvature ρ of the summits of a form with roughness, m; `None` for flat faces, cones and power laws.
+/// Returns the radius of curvature ρ of the summits in m; `None` for smooth flat bodies, cones and power laws.
 ///
-/// ρ = 2/z″ with the rms curvature z″ of the profile, which is the rms Laplacian of the surface, twice its mean curvature.
-/// A paraboloid of radius R has the profile x²/R and thus ρ = R; a crest of a sphere with waves has the curvature 1/R +
+/// ρ = 2/z″ with the rms curvature z″ of the profile. z″ is the rms Laplacian of the surface, twice its mean curvature. A
+/// paraboloid of radius R has the profile x²/R and thus ρ = R. A crest of a sphere with waves has the curvature 1/R +
 /// 4π²A/λ². On a rough form the squares of both curvatures add.
 fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     // A flat face has the curvature of the flat end of a punch.
@@ -173,28 +177,28 @@ fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
 }
 
-/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a summit of curvature radius ρ (m) with work of adhesion γ (J/m²), effective
-/// modulus E* (Pa) and attraction of range z₀ (m). Tabor (1977).
+/// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) (Tabor 1977) of a summit with the curvature radius ρ in m. The other
+/// arguments are the work of adhesion γ in J/m², the effective modulus E* in Pa and the range z₀ of the attraction in m.
 fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus: f64, range: f64) -> f64 {
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a sphere so steep that its equivalent profile does not rise everywhere. By the rule of Hess the most stretched
-/// spring, here an inner one, detaches first, while in JKR theory the contact recedes at its edge.
+/// Waves of a wavy sphere that are so steep that its equivalent profile also falls. By the rule of Hess an inner spring then
+/// detaches first. In the theory of Johnson, Kendall and Roberts (JKR) the contact recedes at its edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
-    /// λ²/(AR), below [`SteepWaves::LEAST_RATIO`].
+    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R; below [`SteepWaves::LEAST_RATIO`].
     pub ratio: f64,
-    /// Pull-off force over the JKR pull-off force of the sphere without waves, (1 + A√(πE*/2λγ))², for waves short against
-    /// the contact radius (Kesari and Lew 2011).
+    /// Factor (1 + A√(πE*/2λγ))² by which waves raise the pull-off force in JKR theory. The formula holds for waves much
+    /// shorter than the contact radius (Kesari and Lew 2011).
     pub jkr_factor: f64,
 }
 
 impl SteepWaves {
-    /// Smallest λ²/(AR) at which the equivalent profile rises everywhere.
+    /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere.
     pub const LEAST_RATIO: f64 = 12.391;
 
-    /// Finds the waves of an adhesive scene if they are too steep; `None` for any other scene.
+    /// Returns the waves of a scene with adhesion if its equivalent profile does not rise everywhere; otherwise `None`.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
             return None;

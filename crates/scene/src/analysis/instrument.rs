@@ -1,24 +1,24 @@
 //! Force over the displacement D = d + F/k of a compliant instrument, from the force curve of a loading stage.
 //!
-//! On one stage the contact depends on d alone. While D grows, d(D) is the smallest d at which the running maximum of d +
-//! F(d)/k reaches D; while D falls, the largest d at which the running minimum reaches D. Where d + F(d)/k turns back,
-//! dF/dd < −k, and the body jumps at fixed D to the next d at which the instrument can hold it.
+//! On one stage the contact depends on the indentation d alone. While D grows, d(D) is the smallest d at which the running
+//! maximum of d + F(d)/k reaches D. While D falls, it is the largest d at which the running minimum reaches D. Where dF/dd <
+//! −k, d + F(d)/k turns back, and the body jumps at constant D to the next d at which the instrument can hold it.
 
 use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord, pull_off_point};
 
 /// A point of a force curve over the displacement of the instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplacementPoint {
-    /// Displacement D of the instrument, m; 0 at first touch.
+    /// Displacement D of the instrument in m, with D = 0 at first touch.
     pub displacement: f64,
-    /// Indentation d, m.
+    /// Indentation d in m.
     pub indentation: f64,
-    /// Force F = k (D − d), N; compression positive.
+    /// Force F = k (D − d) in N, positive in compression.
     pub force: f64,
 }
 
-/// Force curve of one loading stage over the displacement of the instrument, linear between its points. It is exact at the
-/// points of the stage; computing it takes a time proportional to their number.
+/// Force curve of one loading stage over the displacement of the instrument. The curve is exact at the points of the stage
+/// and linear between them. The time of the computation is proportional to the number of points.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -34,17 +34,17 @@ pub struct DisplacementCurve {
     /// Points in the order of the stage, along which D never turns back. Two neighbours with the same D are the ends of a
     /// jump.
     points: Vec<DisplacementPoint>,
-    /// 1 if D grows along the stage, −1 if it falls.
+    /// 1 if D grows along the stage, −1 if D falls.
     sign: f64,
-    /// True if the body is separated before the first point; true if it is separated after the last one.
+    /// Whether the body is separated before the first point, and whether it is separated after the last one.
     free: [bool; 2],
 }
 
 impl DisplacementCurve {
-    /// Computes the curve of a stage from at least one point in the order of its `direction`, for an instrument of this
-    /// stiffness k, N/m (infinite: rigid).
+    /// Computes the curve of a stage for an instrument of stiffness k in N/m, which is infinite for a rigid one. The points
+    /// of the stage, at least one, are in the order of its `direction`.
     ///
-    /// If the stage ends where the instrument would jump on, the curve ends at the beginning of that jump.
+    /// If the stage ends during a jump of the instrument, the curve ends at the beginning of that jump.
     pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
         let sign = sign_of(direction);
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
@@ -71,23 +71,23 @@ impl DisplacementCurve {
         DisplacementCurve { points, sign, free }
     }
 
-    /// Points in the order of the stage, along which the displacement never turns back.
+    /// Returns the points in the order of the stage. Along them the displacement never turns back.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }
 
-    /// Parts of the curve between its jumps.
+    /// Returns the parts of the curve between its jumps.
     pub fn steady_parts(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.chunk_by(|one, next| one.displacement != next.displacement)
     }
 
-    /// First and last point of each jump.
+    /// Returns the first and the last point of each jump.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// The point at a displacement, m; at a jump, the point before it. `None` beyond the ends of the stage, unless the body
-    /// is separated there.
+    /// Returns the point at a displacement in m; at a jump, the point before the jump. Beyond the ends of the stage the
+    /// function returns a point of the separated body, or `None` if the body is in contact there.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -108,7 +108,7 @@ impl DisplacementCurve {
 }
 
 impl DisplacementPoint {
-    /// Linear interpolation to another point: this one at share 0, the other one at share 1.
+    /// Interpolates linearly between this point at share 0 and another point at share 1.
     fn towards(&self, to: &DisplacementPoint, share: f64) -> Self {
         let between = |from: f64, to: f64| from + share * (to - from);
         DisplacementPoint {
@@ -119,8 +119,8 @@ impl DisplacementPoint {
     }
 }
 
-/// Displacement, m, of an instrument of this stiffness (N/m) when the body is at each point of a stage, or passes it in a
-/// jump: the running extremum of d + F/k.
+/// Returns the displacement of the instrument in m for each point of a stage: the running maximum (on unloading minimum) of d
+/// + F/k. The stiffness k is in N/m. A point that the body passes in a jump has the displacement of the jump.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {
@@ -133,22 +133,22 @@ fn sign_of(direction: Direction) -> f64 {
     if direction == Direction::Loading { 1.0 } else { -1.0 }
 }
 
-/// Figures of a loading history under a compliant instrument.
+/// Results of a loading by a compliant instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct InstrumentFigures {
-    /// Loading stiffness k, N/m.
+    /// Stiffness k of the instrument in N/m.
     pub stiffness: f64,
-    /// Smallest displacement of the instrument in contact, m, on the unloading with the pull-off, where the body jumps off.
+    /// Displacement of the instrument in m at which the body jumps off in the last unloading; `None` without a pull-off.
     pub pull_off_displacement: Option<f64>,
-    /// Area of the loop of force over displacement, J, of a history that ends separated: the energy dissipated in the
-    /// contact and the energy lost in jumps of the instrument.
+    /// Area of the loop of force over displacement in J: the energy dissipated in the contact and in jumps of the instrument.
+    /// `None` if the loading does not end separated.
     pub loop_area: Option<f64>,
 }
 
 impl InstrumentFigures {
-    /// Computes the figures of a history under an instrument of this stiffness, N/m; `figures` are the headline figures of
-    /// the history.
+    /// Computes the results of a loading by an instrument of this stiffness in N/m. `figures` are the forces and energies of
+    /// the loading.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

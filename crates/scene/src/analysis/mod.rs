@@ -1,4 +1,4 @@
-//! Figures derived from a scene and its loading history: governing parameters, adhesion, regime and energy.
+//! Results derived from a scene and its loading: κ and e_el/γ, regimes, force over displacement.
 
 pub(crate) mod governing;
 pub(crate) mod instrument;

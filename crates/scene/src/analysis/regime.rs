@@ -1,22 +1,22 @@
-//! The regime of adhesion (Fig. 4) of one loading.
+//! Regimes of adhesion (Fig. 4) of a loading.
 
 use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Share of the adhesion force after the preload from which on adhesion without a preload counts as pressure-insensitive:
-/// half of the adhesion needs no pressing.
+/// A contact is pressure-insensitive if its adhesion force without a preload is at least this share of its adhesion force
+/// after the preload.
 pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-/// Share of the adhesion force of the smooth body below which adhesion without a preload has vanished. The transition from
-/// above one half to below one twentieth spans a factor of about three in κ, so the choice has little effect on the boundary.
+/// Adhesion without a preload counts as vanished below this share of the adhesion force of the smooth body. The transition
+/// from one half to one twentieth takes a factor of about three in κ. The exact share therefore hardly moves the boundary.
 pub const VANISHING_SHARE: f64 = 0.05;
 
-/// Adhesion coefficient F_a/F_n below which adhesion is negligible: the bodies adhere with less than a
-/// hundredth of the force that pressed them together.
+/// A contact is non-adhesive if its adhesion coefficient F_a/F_n is at most this number. The bodies then adhere with at most
+/// a hundredth of the force that pressed them together.
 pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
-/// Regime of adhesion: how adhesion depends on the load, Fig. 4.
+/// Regime of adhesion of a loading (Fig. 4): how the adhesion depends on the preload.
 ///
 /// ```
 /// use asperity_contact::Figures;
@@ -31,27 +31,28 @@ pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Regime {
-    /// (a) Adhesion exists at first contact and hardly depends on the preload.
+    /// The bodies adhere at first touch, and the preload changes the adhesion little (Fig. 4a).
     PressureInsensitive,
-    /// (b) Adhesion appears, or grows considerably, only under a preload.
+    /// Adhesion appears, or grows considerably, only under a preload (Fig. 4b).
     PressureSensitive,
-    /// (c) Almost no adhesion under any preload.
+    /// There is almost no adhesion under any preload (Fig. 4c).
     NonAdhesive,
 }
 
 impl Regime {
-    /// All regimes in the order of decreasing adhesion.
+    /// All regimes, in the order of decreasing adhesion.
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 
-    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force. `turned` is
-    /// F_a(d=0) or F_a(F=0), and `smooth` the adhesion force of the same body without roughness, both in N and `None` without
-    /// adhesion. F_a(F=0) is at least F_a(d=0). Where both give different regimes, F_a(F=0) gives the pressure-insensitive one.
+    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force.
     ///
-    /// Pressure-insensitive: `turned` is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
-    /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
-    /// [`NEGLIGIBLE_COEFFICIENT`] or, without a preload, if the adhesion force is below [`VANISHING_SHARE`] of the smooth
-    /// body's; pressure-sensitive in all other cases.
+    /// `turned` is F_a(d=0) for the regime turned at first touch, or F_a(F=0) for the regime turned at zero force. `smooth`
+    /// is the adhesion force of the same body without roughness. Both forces are in N, and `None` without adhesion.
+    ///
+    /// F_a is the adhesion force after the preload F_n. The regime is pressure-insensitive if `turned` is at least
+    /// [`INSENSITIVE_SHARE`] of F_a and at least [`VANISHING_SHARE`] of `smooth`. Otherwise the regime is non-adhesive if
+    /// F_a/F_n is at most [`NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive if F_a is below
+    /// [`VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
@@ -79,12 +80,13 @@ impl Regime {
     /// Number of characters of the longest name of a regime.
     pub const LONGEST_NAME: usize = "pressure-insensitive".len();
 
-    /// Name of the regime in words.
+    /// Returns the name of the regime, such as `pressure-sensitive`.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// Name of the regime with the protocols for F_a(d=0) that give it; also the regime turned at zero force, if that differs.
+    /// Returns the names of both regimes as text: `pressure-sensitive (d=0), insensitive (F=0)`. This regime is the one
+    /// turned at first touch.
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

@@ -1,36 +1,38 @@
-//! Maps of first-order reversal curves and their Everett function.
+//! Unloading curves from many turning points of one loading, and their Everett function.
 
 use asperity_contact::Reversal;
 
-/// First-order reversal curves of one loading, on a uniform grid of indentations.
+/// Unloading curves from many turning points of one loading (first-order reversal curves), on a uniform grid of indentations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Indentations of the grid, m, equally spaced and ascending; the last ones are the turning points.
+    /// Indentations of the grid in m, equally spaced and ascending. The last ones are the turning points.
     pub points: Vec<f64>,
     /// Number of grid points below the first turning point.
     pub below: usize,
-    /// Reversal from each turning point, with its forces at the grid points up to the turning point.
+    /// Unloading from each turning point, with its forces at the grid points up to the turning point.
     pub reversals: Vec<Reversal>,
 }
 
 impl ReversalMap {
-    /// Indentations of the turning points, m.
+    /// Returns the indentations of the turning points in m.
     pub fn turns(&self) -> &[f64] {
         &self.points[self.below..]
     }
 
-    /// Distance between grid points, m.
+    /// Returns the distance between grid points in m.
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
-    /// Force, N, at a grid point on the reversal from a turning point, both given by index; `None` above the turning point.
+    /// Returns the force in N at grid point `point` on the unloading from turning point `turn`; `None` above the turning
+    /// point.
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
-    /// Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)), N: half of the fall of the force from the turning point.
+    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. This function is half of the fall of the force
+    /// from the turning point d_r to the indentation d. Returns `None` above the turning point.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))

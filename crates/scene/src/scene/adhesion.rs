@@ -1,11 +1,11 @@
-//! Adhesion, given by the work of adhesion or by a dimensionless parameter that compares roughness with adhesion.
+//! Adhesion, given by the work of adhesion or by a dimensionless parameter that compares roughness and adhesion.
 
 use serde::{Deserialize, Serialize};
 
 use super::fields::field;
 use super::text::ron_float;
 
-/// Dimensionless roughness-adhesion parameter, which may be given in place of the work of adhesion.
+/// Dimensionless parameter that compares roughness and adhesion. A scene may state it in place of the work of adhesion γ.
 ///
 /// ```
 /// use asperity_scene::RoughnessParameter;
@@ -17,19 +17,19 @@ use super::text::ron_float;
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
-    /// κ = √(h⟨∇z⟩E*/γ), eq. (11).
+    /// κ = √(h⟨∇z⟩E*/γ) of eq. (11), with rms height h and rms gradient ⟨∇z⟩.
     #[default]
     Kappa,
-    /// e_el/γ, with the elastic energy of conformity e_el per area.
+    /// e_el/γ, with the elastic energy e_el per area that flattens the roughness.
     ElasticEnergyRatio,
 }
 
 impl RoughnessParameter {
-    /// All parameters.
+    /// Both parameters, κ and e_el/γ.
     pub const ALL: [RoughnessParameter; 2] =
         [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
 
-    /// Path of the field in a scene.
+    /// Returns the path of the parameter in a scene: `adhesion.kappa`.
     pub const fn path(self) -> &'static str {
         match self {
             RoughnessParameter::Kappa => "adhesion.kappa",
@@ -37,22 +37,23 @@ impl RoughnessParameter {
         }
     }
 
-    /// Name of the parameter: of its field within `adhesion`, and in axes and columns.
+    /// Returns the name of the parameter in scenes, studies and tables: `kappa`.
     pub fn name(self) -> &'static str {
         self.path().trim_start_matches("adhesion.")
     }
 
-    /// Symbol of the parameter in the equations.
+    /// Returns the symbol of the parameter in the equations: `κ`.
     pub fn symbol(self) -> &'static str {
         field(self.path(), None).map_or("", |field| field.symbol)
     }
 
-    /// The parameter with this name, or with this path of its field.
+    /// Returns the parameter with this name or this path; `None` if there is none.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Energy per area over the work of adhesion at this value of the parameter: h⟨∇z⟩E*/γ = κ², or e_el/γ.
+    /// Returns the ratio of the elastic energy to the work of adhesion at this value: h⟨∇z⟩E*/γ = κ² for κ, the value itself
+    /// for e_el/γ.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -60,7 +61,7 @@ impl RoughnessParameter {
         }
     }
 
-    /// Value of the parameter for this ratio of energy per area to work of adhesion.
+    /// Returns the value of the parameter for this ratio; the inverse of [`energy_over_work`](Self::energy_over_work).
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -69,33 +70,33 @@ impl RoughnessParameter {
     }
 }
 
-/// Adhesion between the bodies: its strength, given in one of several ways, and the range of the attraction. In a file
-/// `(work: 0.05, range: 3.0e-10)`.
+/// Adhesion between the bodies: its strength and the range of the attraction. A scene file states it as `(work: 0.05)` or
+/// `(kappa: 2.0, range: 3.0e-10)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
-    /// Strength of the adhesion.
+    /// Strength of the adhesion, as a work or as a parameter.
     pub strength: Strength,
-    /// Range z₀ of the attraction, m, which only enters the Tabor number; `None`: 0.3 nm.
+    /// Range z₀ of the attraction in m; `None` for 0.3 nm. Only the Tabor number depends on it.
     pub range: Option<f64>,
 }
 
-/// Strength of the adhesion, as it is given.
+/// Strength of the adhesion, given in one of two ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
-    /// Given by works of adhesion.
+    /// Work of adhesion, which may be smaller where the interface closes.
     Work {
-        /// Work of adhesion γ, J/m².
+        /// Work of adhesion γ in J/m²: energy per area that opens the interface.
         opening: f64,
-        /// Work of adhesion γ₁ on closing, J/m², at most `opening`; `None`: equal to `opening`.
+        /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None` if both are equal.
         closing: Option<f64>,
     },
-    /// Given by a parameter and its value, which determine the work of adhesion for the roughness of the scene.
+    /// A parameter and its value. With the roughness of the scene they give the work of adhesion.
     Parameter(RoughnessParameter, f64),
 }
 
 impl Adhesion {
-    /// Adhesion given by the work of adhesion, J/m².
+    /// Returns an adhesion with this work of adhesion in J/m².
     ///
     /// ```
     /// use asperity_scene::Adhesion;
@@ -107,7 +108,7 @@ impl Adhesion {
         Adhesion { strength: Strength::Work { opening: work, closing: None }, range: None }
     }
 
-    /// Adhesion given by a parameter and its value.
+    /// Returns an adhesion with this value of a parameter.
     ///
     /// ```
     /// use asperity_scene::{Adhesion, RoughnessParameter};
@@ -119,22 +120,22 @@ impl Adhesion {
         Adhesion { strength: Strength::Parameter(parameter, value), range: None }
     }
 
-    /// The given work of adhesion γ, J/m²; `None` for adhesion by a parameter.
+    /// Returns the given work of adhesion γ in J/m²; `None` if a parameter is given instead.
     pub fn work(&self) -> Option<f64> {
         if let Strength::Work { opening, .. } = self.strength { Some(opening) } else { None }
     }
 
-    /// The given work of adhesion γ₁ on closing, J/m²; `None` where it equals γ.
+    /// Returns the given work of adhesion γ₁ on closing in J/m²; `None` if none is given.
     pub fn closing_work(&self) -> Option<f64> {
         if let Strength::Work { closing, .. } = self.strength { closing } else { None }
     }
 
-    /// Returns true if a separate work of adhesion on closing is given.
+    /// Returns true if a work of adhesion on closing is given.
     pub fn has_two_works(&self) -> bool {
         self.closing_work().is_some()
     }
 
-    /// The given parameter and its value; `None` for adhesion by work.
+    /// Returns the given parameter and its value; `None` if a work of adhesion is given instead.
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         if let Strength::Parameter(parameter, value) = self.strength {
             Some((parameter, value))
@@ -143,18 +144,19 @@ impl Adhesion {
         }
     }
 
-    /// The adhesion with this work of adhesion on opening, J/m²; range and work on closing stay.
+    /// Returns this adhesion with another work of adhesion on opening in J/m². The range of the attraction and the work of
+    /// adhesion on closing stay.
     pub fn with_work(self, work: f64) -> Self {
         Adhesion { strength: Strength::Work { opening: work, closing: self.closing_work() }, ..self }
     }
 
-    /// The adhesion given by this value of a parameter; the range stays.
+    /// Returns this adhesion with a value of a parameter in place of its strength. The range of the attraction stays.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion { strength: Strength::Parameter(parameter, value), ..self }
     }
 }
 
-/// Adhesion as written in a file, where contradictory fields may be given.
+/// Adhesion as written in a file, whose fields may contradict each other.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Adhesion")]
 struct AdhesionText {

@@ -13,11 +13,11 @@ use std::fmt;
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// Symbol of the field, or its name if it has no symbol.
+    /// Symbol of the field, or its name in words if it has no symbol.
     pub name: String,
-    /// Value in the first scene, with its unit.
+    /// Value in the first scene as text, with its unit.
     pub from: String,
-    /// Value in the second scene, with its unit.
+    /// Value in the second scene as text, with its unit.
     pub to: String,
 }
 
@@ -31,7 +31,7 @@ fn symbol_or_name(field: &Field) -> &'static str {
     if field.symbol.is_empty() { field.name } else { field.symbol }
 }
 
-/// The value of a field without fields inside, with its unit, and choices in words: `50 mJ/m²`, `sub-cell`, `none`.
+/// Returns the value of a single field with its unit, and a choice in words: `50 mJ/m²`, `sub-cell`, `none`.
 fn value_in_words(field: &Field, value: &str) -> String {
     let words = || value.split_whitespace().collect::<Vec<_>>().join(" ");
     match field.range {
@@ -42,7 +42,8 @@ fn value_in_words(field: &Field, value: &str) -> String {
     }
 }
 
-/// A field by its value, a group by its choice and the values given in it: `self-affine (H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
+/// Returns a field as its value, and a group as its choice and its given values: `self-affine (H 0.7, h 200 nm)`, `γ 50
+/// mJ/m²`.
 fn in_words(tree: &Tree, field: &Field) -> String {
     let value = tree.written(field).unwrap_or_default();
     let inside = tree.inside(field);
@@ -61,8 +62,9 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 }
 
 impl Document {
-    /// The fields that differ from another scene, except texts: each field by itself where both scenes make the same choices,
-    /// otherwise the whole group. Loading stages are compared one by one if both scenes have the same number of stages.
+    /// Lists the fields whose values differ in another scene. Title, notes and version do not count. A group, such as the
+    /// form, is one entry if its variants differ. The loading is one entry, or one for each changed stage where that is
+    /// shorter.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;
@@ -88,7 +90,7 @@ impl Document {
     }
 }
 
-/// The changed stages of two histories, or the whole histories where that is shorter.
+/// Returns the changed stages of two loadings, or both loadings where they are shorter.
 fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
     let [one, other] = scenes.map(|scene| &scene.loading);
     let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);

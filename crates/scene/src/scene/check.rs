@@ -1,8 +1,8 @@
-//! Invalid values of a scene: each field against its range, then fields against each other, where values over- or
-//! under-determine a scene or exclude each other.
+//! Invalid values of a scene. Each field is checked against its range. Then fields are checked against each other: values may
+//! contradict each other, exclude each other, or be too few.
 //!
-//! No allocation here is proportional to a value of the scene, so that a scene of excessive size is refused before anything
-//! is built.
+//! No check allocates memory in proportion to a value of the scene. A scene of excessive size is therefore refused before
+//! anything is built.
 
 use serde_json::Value;
 
@@ -22,10 +22,10 @@ use asperity_data::{is_control, round_to};
 use asperity_surface::Form;
 use asperity_surface::Unit;
 
-/// Limit of the samples of all loading stages together; a curve of this size still fits the memory of a small machine.
+/// Largest number of curve points of all loading stages together. Such a curve still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// All errors of a scene in the order of its fields; empty for a scene that can be computed.
+/// Returns all errors of a scene in the order of its fields; none for a scene that can be computed.
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found { scene, tree: Tree::of(scene), errors: Vec::new() };
     for field in FIELDS {
@@ -42,7 +42,7 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     found.errors
 }
 
-/// The invalid part of a text, and what is allowed; `None` for a valid text.
+/// Returns the invalid part of a text and what is allowed; `None` for a valid text.
 fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     let range = if let Range::Text { .. } = field.range { field.range } else { FILE_NAME };
     let Range::Text { least, most, lines } = range else { return None };
@@ -59,22 +59,22 @@ fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     }
 }
 
-/// Digits of a stated limit that follows from other values.
+/// Number of digits of a limit that follows from other values.
 const LIMIT_DIGITS: usize = 8;
 
-/// The largest allowed number, rounded down.
+/// Returns the largest allowed number as text, rounded down.
 fn largest(value: f64) -> String {
     let near = round_to(value, LIMIT_DIGITS);
     ron_float(if near > value { round_to(value * (1.0 - 1e-7), LIMIT_DIGITS) } else { near })
 }
 
-/// The smallest allowed number, rounded up.
+/// Returns the smallest allowed number as text, rounded up.
 fn smallest(value: f64) -> String {
     let near = round_to(value, LIMIT_DIGITS);
     ron_float(if near < value { round_to(value * (1.0 + 1e-7), LIMIT_DIGITS) } else { near })
 }
 
-/// The errors found so far in a scene.
+/// Errors that were found so far in a scene.
 struct Found<'s> {
     scene: &'s Scene,
     tree: Tree,

@@ -1,4 +1,4 @@
-//! A checked scene: the only kind of scene that is computed.
+//! Checked scenes. Only a checked scene can be computed.
 
 use std::mem::take;
 use std::ops::Deref;
@@ -9,7 +9,7 @@ use super::model::{Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values have been checked. It can be read like a [`Scene`]; a changed one is checked again.
+/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. A changed scene is checked anew.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -22,18 +22,18 @@ use serde::Serialize;
 pub struct CheckedScene(Scene);
 
 impl Scene {
-    /// Checks this scene.
+    /// Checks all values of this scene.
     ///
     /// # Errors
-    /// All invalid values, each with its field and its allowed range.
+    /// Returns all invalid values, each with its field and its allowed range.
     pub fn checked(self) -> Result<CheckedScene, SceneErrors> {
         CheckedScene::of(self, None, |_| Origin::Scene)
     }
 }
 
 impl Scene {
-    /// Removes what does not affect the figures: texts, observed quantities, and all but `samples` samples of the curve,
-    /// since figures are at the ends of loading stages or exact extremes.
+    /// Removes what the forces and energies do not depend on: title, notes, recorded quantities, and points of the force
+    /// curve. At most `samples` points remain on each stage. Forces and energies do not depend on the number of points.
     pub fn strip(&mut self, samples: u64) {
         self.title.clear();
         self.notice.clear();
@@ -43,7 +43,7 @@ impl Scene {
 }
 
 impl CheckedScene {
-    /// Checks a scene that was read from a text. Errors of numbers that are not finite show them as written, `1e999`.
+    /// Checks a scene that was read from a text. Errors show numbers that are not finite as they are written: `1e999`.
     pub(super) fn of(
         scene: Scene,
         text: Option<&Text>,
@@ -58,10 +58,10 @@ impl CheckedScene {
         Ok(CheckedScene(scene))
     }
 
-    /// This scene with a change, checked.
+    /// Returns this scene after `change`, checked anew.
     ///
     /// # Errors
-    /// All values that the change makes invalid.
+    /// Returns all values that the change makes invalid.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;
@@ -76,7 +76,7 @@ impl CheckedScene {
         scene.checked()
     }
 
-    /// This scene with another seed of its random phases, if it has any. Every seed is allowed.
+    /// Returns this scene with another seed of the random phases, if the profile is random. Every seed is allowed.
     #[must_use]
     pub fn with_seed(&self, seed: u64) -> CheckedScene {
         let mut scene = self.0.clone();
@@ -84,14 +84,14 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// This scene reduced to what its figures need; see [`Scene::strip`].
+    /// Returns this scene without what its forces and energies do not need, as [`Scene::strip`] does.
     pub fn stripped(&self, samples: u64) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.strip(samples);
         CheckedScene(scene)
     }
 
-    /// This scene with one more quantity observed besides the force curve.
+    /// Returns this scene with one more quantity recorded.
     pub fn observing(&self, observer: Observer) -> CheckedScene {
         let mut scene = self.0.clone();
         if !scene.observe.contains(&observer) {
@@ -100,7 +100,7 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// This scene with its files renamed. Names of files need no check here: reading the files checks them.
+    /// Returns this scene with other names of its measured files. A name is checked when its file is read.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

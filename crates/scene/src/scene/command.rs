@@ -1,8 +1,9 @@
-//! The shell command that opens a scene.
+//! Shell command that opens a scene.
 
 use std::ffi::OsStr;
 
-/// The command of `program` that opens a scene with overrides, for a POSIX shell. Only words that need quotes are quoted.
+/// Returns the command that opens a scene with overrides in `program`, for a POSIX shell. Overrides are pairs of path and
+/// value.
 ///
 /// ```
 /// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
@@ -20,7 +21,7 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
     }
 }
 
-/// A word quoted for a shell.
+/// Returns a word for a POSIX shell, in quotes where they are needed.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);

@@ -1,4 +1,4 @@
-//! A scene with its text, whose fields can be changed without loss of comments.
+//! A scene with its text. Fields can be changed, and the comments of the text stay.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -17,11 +17,11 @@ use super::text::index::{Text, is_within, line_column};
 use super::tree::{Tree, in_ron, to_ron};
 use asperity_contact::Move;
 
-/// Limit of the length of a text, bytes; a longer text is refused unread. Scenes have a few hundred bytes.
+/// Largest length of the text of a scene in bytes. A longer text is refused unread; most scenes have a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
 
-/// A checked scene with its text and the overrides of its fields. A change returns a new document; a refused change leaves
-/// the document as it was.
+/// A checked scene with its text in RON, and with the overrides that have changed it. An override is the path of a field and
+/// its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it was.
 ///
 /// ```
 /// use asperity_scene::Document;
@@ -41,18 +41,19 @@ pub struct Document {
     scene: CheckedScene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects that are switched off, each with the path, the former text and the present text of every changed value.
+    /// Effects that are switched off. Each has the path, the former text and the present text of every value that changed
+    /// with it.
     pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
-    /// Choices that were left by keys, each with the path of its field and its last text.
+    /// Choices that a key has replaced, each with the path of its field and its last text.
     pub(super) left: Vec<(&'static str, String)>,
 }
 
 impl Document {
-    /// Reads and checks a scene. `name`, of the file or of the built-in scene, is for errors.
+    /// Reads and checks the text of a scene. Errors state `name`, the name of a file or of a built-in scene.
     ///
     /// # Errors
-    /// The first syntax error of the text, or all invalid values, each with line and column. An unsupported version is
-    /// stated instead of a syntax error.
+    /// Returns the first syntax error or all invalid values, each with line and column. If the version is not supported, this
+    /// is the only error.
     ///
     /// ```
     /// use asperity_scene::Document;
@@ -84,31 +85,31 @@ impl Document {
         })
     }
 
-    /// Creates the document of a scene that was not read from a text, in canonical form.
+    /// Creates a document with a new text for a scene that has none. The text is as [`to_ron`] writes it.
     ///
     /// # Errors
-    /// All invalid values.
+    /// Returns an error for each invalid value.
     pub fn from_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
         scene.clone().checked()?;
         Document::parse(&to_ron(scene), name)
     }
 
-    /// This document with one field overridden; see [`Document::set_all`].
+    /// Returns this document with one field changed, as [`Document::set_all`] does.
     ///
     /// # Errors
-    /// As [`Document::set_all`].
+    /// Returns the same errors as [`Document::set_all`].
     pub fn set(&self, path: &str, value: &str) -> Result<Document, SceneErrors> {
         self.set_all(&[pair(path, value)])
     }
 
-    /// This document with fields overridden, one after the other. Values are in RON; numbers may have an SI prefix and
-    /// their unit, `50 mJ/m²`.
+    /// Returns this document with fields changed one after the other. Each pair is the path of a field and its new value in
+    /// RON. A number may have an SI prefix and a unit: `50 mJ/m²`.
     ///
-    /// A field missing from the text is inserted, with its group; `None` removes an optional part. Ranges are checked once,
-    /// at the end, so that overrides that are only allowed together may come in any order.
+    /// A field that the text omits is inserted, and so is its group. The value `None` removes an optional part. Values are
+    /// checked once, at the end, so values that are only allowed together may come in any order.
     ///
     /// # Errors
-    /// All errors, each with the overrides that cause it.
+    /// Returns all errors, each with the overrides that cause it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let (mut new, mut errors) = (self.clone(), Vec::new());
         for (path, value) in overrides {
@@ -134,16 +135,16 @@ impl Document {
         Ok(new)
     }
 
-    /// The loading stages, each with its index.
+    /// Returns the loading stages, each with its index in the loading.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
     }
 
-    /// This document with other loading stages. A stage that is kept has its index in the present loading, and keeps its
-    /// notation and its comments.
+    /// Returns this document with other loading stages. A stage with an index keeps the text and the comments of that stage
+    /// in the present loading. A stage without an index is new.
     ///
     /// # Errors
-    /// As [`Document::set`].
+    /// Returns the same errors as [`Document::set`].
     pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
         let elements: Vec<_> = stages.iter().map(|(place, stage)| (*place, in_ron(stage))).collect();
         let mut new =
@@ -161,18 +162,18 @@ impl Document {
         Ok(new)
     }
 
-    /// The present text, with all comments.
+    /// Returns the present text, with all comments.
     pub fn text(&self) -> &str {
         self.text.as_str()
     }
 
-    /// The checked scene.
+    /// Returns the checked scene.
     pub fn scene(&self) -> &CheckedScene {
         &self.scene
     }
 
-    /// Value of a field as written, or its default if the field is omitted. `None` if the scene has no such field, such as
-    /// a field of another form.
+    /// Returns the value of a field as the text states it, or the default of an omitted field. Returns `None` if this scene
+    /// cannot have the field, for example the angle of a cone in a scene with a sphere.
     pub fn value(&self, path: &str) -> Option<&str> {
         self.text.value(path).or_else(|| {
             let field = FIELDS.iter().find(|field| field.path == path && self.has(field))?;
@@ -180,7 +181,8 @@ impl Document {
         })
     }
 
-    /// Fields that this scene has or could have: all fields except fields of choices that are not selected.
+    /// Returns the fields that this scene has or may have. Fields of variants that are not selected, such as other forms, are
+    /// left out.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -189,49 +191,51 @@ impl Document {
         field.variant.is_none() || field.variant == self.text.variant(field.parent())
     }
 
-    /// Name of the file or of the built-in scene.
+    /// Returns the name of the file or of the built-in scene.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Title of the scene, or if there is none the name of its file without folders.
+    /// Returns the title of the scene. A scene without a title has the name of its file, without folders, as its title.
     pub fn title(&self) -> &str {
         let file = || Path::new(&self.name).file_name().and_then(OsStr::to_str);
         if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
     }
 
-    /// Overrides since the text was opened, without superseded ones: applied to the opened text they give this document's
-    /// scene.
+    /// Returns the overrides since the text was opened. An override that a later one replaces is left out. If they are
+    /// applied to the opened text, the result is the scene of this document.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
 
-    /// The document, marked as read from a table of results with these lines above the scene.
+    /// Marks the document as read from a table of results with these lines above the scene.
     pub(super) fn of_table(self, head: &str) -> Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// The lines above the scene in the table of results from which the scene was read; empty for any other source.
+    /// Returns the lines above the scene in the table of results from which the scene was read. Scenes from other sources
+    /// have no such lines.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
 
-    /// Number of comments in the text. A change that replaces a value with a comment inside reduces it.
+    /// Returns the number of comments in the text. A new value also removes the comments inside the old value.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
 
-    /// Line and column, from 1, of a field in the text, or of the nearest group around it.
+    /// Returns line and column of a field in the text, both from 1. For an omitted field it returns the place of the group
+    /// around it.
     pub fn place(&self, path: &str) -> (usize, usize) {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// This document as if `opened` had been opened and these overrides had led to the present text.
+    /// Returns this document as if `opened` had been its first text and these overrides had led to its present text.
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document { opened, overrides, ..self }
     }
 
-    /// The text that was opened.
+    /// Returns the text that was opened.
     pub fn opened(&self) -> &str {
         &self.opened
     }
@@ -241,23 +245,24 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// This document with its measured files renamed; in canonical form if a name changes.
+    /// Returns this document with new names of its measured files. If a name changes, the text is written anew, without
+    /// comments.
     ///
     /// # Errors
-    /// All invalid values.
+    /// Returns an error for each invalid value.
     pub fn moved_to(&self, rename: impl Fn(&str) -> String) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(&self.scene);
         scene.rename_measured_files(rename);
         if scene == *self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
     }
 
-    /// Path of a file named in the scene, relative to the scene's own file.
+    /// Returns the path of a file that the scene names. File names in a scene are relative to the folder of the scene file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
     }
 }
 
-/// The text with the field at `path` set to `value`.
+/// Returns the text with the field at `path` set to `value`.
 fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || {
@@ -282,8 +287,8 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
     Ok(text)
 }
 
-/// A typed group of values with prefixes and units, `Cone(angle: 70°)`, in RON; `None` for any other text, and for a group
-/// that is in RON already.
+/// Returns a typed group of values with prefixes and units, such as `Cone(angle: 70°)`, in RON. Returns `None` for any other
+/// text, also for a group that is in RON already.
 fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
     let mut depth = 0_usize;
@@ -316,7 +321,7 @@ pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
 }
 
-/// Adds an override; it replaces earlier ones of the same field or of fields inside it.
+/// Adds an override, which replaces earlier ones of the same field and of fields inside it.
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));

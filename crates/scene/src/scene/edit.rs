@@ -8,7 +8,7 @@ use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
 use std::collections::BTreeSet;
 
-/// The field at a path, given the variant of its group or loading stage in the text.
+/// Returns the field at a path, for the variant of its group or loading stage in the text.
 pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
@@ -20,11 +20,11 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 
 /// Sets the field at `path` to `value`, in RON, and returns the new text.
 ///
-/// A missing field is inserted, with its group if that is missing too; a missing part is not inserted for the value `None`.
-/// Only this one place of the text changes.
+/// A missing field is inserted, and so is its group if that is missing. The value `None` inserts nothing. Only this place of
+/// the text changes.
 ///
 /// # Errors
-/// The reason in a sentence: no such field, not a single value, or no place for the field.
+/// Returns the reason as a sentence: no such field, not a single value, or no place for the field.
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = value.trim();
     // A position in a list or pair refers to that list or pair.
@@ -75,7 +75,7 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
     if edited.written(path) == Some(value) { Ok(edited) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
-/// Message that names the choices that have this field.
+/// Returns a message that names the choices with this field.
 fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> String {
     let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
         return format!("{parent} has no such field");

@@ -1,4 +1,4 @@
-//! Optional effects of a scene, in addition to the nonadhesive contact of a flat body.
+//! Optional effects of a scene: form, roughness, adhesion and unloading.
 
 use super::adhesion::{Adhesion, RoughnessParameter};
 use super::model::{Roughness, Scene};
@@ -6,7 +6,8 @@ use asperity_contact::Move;
 use asperity_data::round_to;
 use asperity_surface::Form;
 
-/// Optional effect of a scene, switched by [`Document::with`](crate::scene::document::Document::with) and
+/// Optional part of a scene that can be switched on and off as a whole, with
+/// [`Document::with`](crate::scene::document::Document::with) and
 /// [`Document::without`](crate::scene::document::Document::without).
 ///
 /// ```
@@ -19,21 +20,21 @@ use asperity_surface::Form;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
-    /// A macroscopic form; without it the body is nominally flat.
+    /// Macroscopic form of the body. Without a form the body is nominally flat.
     Form,
-    /// Roughness; without it the profile is smooth.
+    /// Roughness of the body. Without roughness the profile is smooth.
     Roughness,
-    /// Adhesion; without it the bodies do not attract each other.
+    /// Adhesion between the bodies. Without adhesion the bodies do not attract each other.
     Adhesion,
-    /// Loading stages that may pull; without them the body is pressed and held.
+    /// Loading stages that may pull the body back. Without unloading the body is only pressed.
     Unloading,
 }
 
 impl Effect {
-    /// All effects, in the order of a scene file.
+    /// All effects, in the order of their fields in a scene file.
     pub const ALL: [Effect; 4] = [Effect::Form, Effect::Roughness, Effect::Adhesion, Effect::Unloading];
 
-    /// Technical name.
+    /// Returns the name of the effect: `form`, `roughness`, `adhesion` or `unloading`.
     pub const fn name(self) -> &'static str {
         match self {
             Effect::Form => "form",
@@ -43,12 +44,12 @@ impl Effect {
         }
     }
 
-    /// Path of the [field](crate::scene::fields::FIELDS) of the effect.
+    /// Returns the path of the field that holds the effect: `loading` for unloading, otherwise the name of the effect.
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self { "loading" } else { self.name() }
     }
 
-    /// Returns true if the scene has the effect. A work of adhesion of zero counts as no adhesion.
+    /// Returns true if the scene has the effect. A work of adhesion of zero is no adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
             Effect::Form => scene.form.is_some(),
@@ -58,7 +59,7 @@ impl Effect {
         }
     }
 
-    /// The scene with the effect added, with values that suit the rest of the scene.
+    /// Returns the scene with the effect, with values that suit the rest of the scene.
     pub(super) fn suited(self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         match self {
@@ -92,7 +93,7 @@ impl Effect {
     }
 }
 
-/// Returns true if a stage may pull the body back. The first stage cannot, since it begins at separation.
+/// Returns true if a stage may pull the body back. The first stage cannot, because it begins at separation.
 fn may_pull(loading: &[Move]) -> bool {
     let mut reached = f64::NEG_INFINITY;
     loading.iter().enumerate().any(|(index, stage)| {
@@ -108,7 +109,7 @@ fn may_pull(loading: &[Move]) -> bool {
     })
 }
 
-/// The stage that presses most: the largest force, else the deepest indentation, else the first stage.
+/// Returns the stage that presses most: the largest force, else the deepest indentation, else the first stage.
 pub(super) fn pressing(loading: &[Move]) -> Move {
     let pressure = |stage: &Move| match *stage {
         Move::ToForce(force) if force > 0.0 => (2, force),

@@ -1,4 +1,4 @@
-//! Errors of a scene: place, value and allowed values.
+//! Errors of a scene: where, which value, and what is allowed.
 
 use std::fmt;
 
@@ -7,22 +7,22 @@ use strsim::osa_distance;
 use super::text::index::{is_within, line_column};
 use asperity_data::shown;
 
-/// Number of errors that are listed; further ones are only counted.
+/// Number of errors that are listed; further errors are only counted.
 pub(super) const MOST_LISTED: usize = 100;
 
-/// Where an error comes from.
+/// Source of an invalid value.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
-    /// A scene file.
+    /// A scene file or a built-in scene.
     File {
         /// Name of the file or of the built-in scene.
         name: String,
-        /// Line and column, both from 1, columns counted in characters; `None` for the file as a whole.
+        /// Line and column, both from 1, the column in characters; `None` if the error concerns the whole file.
         place: Option<(usize, usize)>,
     },
-    /// One or more overrides, as `path=value`.
+    /// Changes of fields, each as `path=value`.
     Overrides(Vec<String>),
-    /// A scene without a text.
+    /// A scene without a text, made by a program.
     #[default]
     Scene,
 }
@@ -44,7 +44,7 @@ impl fmt::Display for Origin {
     }
 }
 
-/// One error of a scene.
+/// One error of a scene, with the place, the value and what is allowed.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -57,25 +57,26 @@ impl fmt::Display for Origin {
 #[derive(Clone, Debug, Default, PartialEq, Eq, thiserror::Error)]
 #[error("{origin}{}", self.what())]
 pub struct SceneError {
-    /// Where the error comes from.
+    /// Source of the invalid value.
     pub origin: Origin,
-    /// Path of the field, `loading.0` for a loading stage; empty for an error that concerns no single field.
+    /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage. Empty if no single field is
+    /// wrong.
     pub field: String,
-    /// The value as written; empty if there is none.
+    /// Invalid value as it was written; empty if there is none.
     pub value: String,
-    /// Allowed values; empty if `message` contains them.
+    /// Allowed values; empty if `message` states them.
     pub allowed: String,
-    /// Reason of the error, or the name of the field.
+    /// Reason of the error, or the name of the field in words.
     pub message: String,
 }
 
 impl SceneError {
-    /// An error that concerns a file or scene as a whole.
+    /// Returns an error that concerns a file or a scene as a whole.
     pub(super) fn whole(origin: Origin, message: impl Into<String>) -> SceneError {
         SceneError { origin, message: message.into(), ..SceneError::default() }
     }
 
-    /// An error of a value; its origin is set later.
+    /// Returns an error of a value. Its origin is set later.
     pub(super) fn of(
         field: &str,
         value: impl Into<String>,
@@ -86,12 +87,12 @@ impl SceneError {
         SceneError { field: field.into(), value, allowed, ..SceneError::whole(Origin::Scene, message) }
     }
 
-    /// The same error with another origin.
+    /// Returns the same error with another origin.
     pub(super) fn at(self, origin: Origin) -> SceneError {
         SceneError { origin, ..self }
     }
 
-    /// The error without its origin: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
+    /// Returns the error without its source: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
     pub fn what(&self) -> String {
         let of =
             [&self.field, &self.value].map(|part| shown(part)).into_iter().filter(|part| !part.is_empty());
@@ -105,7 +106,7 @@ impl SceneError {
     }
 }
 
-/// All errors of a scene, at least one, in the order of their detection; each is a line of its own.
+/// All errors of a scene, at least one. Shown as text, each error is one line.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -119,7 +120,7 @@ impl SceneError {
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` if there are errors: with the origin of each, and shortened if the list is long.
+    /// Returns `Err` if there are errors. Each gets its origin, and a long list is shortened.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,
@@ -133,12 +134,12 @@ impl SceneErrors {
         if errors.is_empty() { Ok(()) } else { Err(SceneErrors(errors)) }
     }
 
-    /// The first error.
+    /// Returns the first error.
     pub fn first(&self) -> &SceneError {
         &self.0[0]
     }
 
-    /// All errors.
+    /// Returns an iterator over all errors.
     pub fn iter(&self) -> std::slice::Iter<'_, SceneError> {
         self.0.iter()
     }
@@ -159,13 +160,13 @@ impl fmt::Display for SceneErrors {
 
 impl std::error::Error for SceneErrors {}
 
-/// Origin of an error at a byte of a scene with this name: its line and column.
+/// Returns the origin of an error at a byte of a text: its line and column.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::File { name: name.into(), place: Some(line_column(text, offset)) }
 }
 
-/// Overrides that cause an error: overrides of its field, of a group around it or of a field inside it, or else all
-/// overrides.
+/// Returns the overrides that cause an error: those of its field, of a group around it, or of a field inside it. If there are
+/// none, all overrides count.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
     let is_behind = |path: &str| is_within(&error.field, path) || is_within(path, &error.field);
     let is_known = overrides.iter().any(|(path, _)| is_behind(path));
@@ -173,12 +174,12 @@ pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)
     Origin::Overrides(behind.map(|(path, value)| format!("{path}={value}")).collect())
 }
 
-/// Limit of the length of a name that is compared with other names; a longer one is not a mistyped name.
+/// Largest length of a name that is compared with other names. A longer one is no misspelt name.
 const LONGEST: usize = 64;
 
-/// The nearest of the names, if it is near enough to be the intended one.
+/// Returns the name among `names` that is probably meant by `name`, or `None` if no name is similar.
 ///
-/// The last component of a name suffices: `hurst` means `roughness.hurst`.
+/// The last part of a path suffices: `hurst` finds `roughness.hurst`.
 ///
 /// ```
 /// use asperity_scene::nearest;
@@ -202,7 +203,7 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
     names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
 }
 
-/// A question for the nearest name, to append to a message: `; did you mean length?`. Empty if no name is near.
+/// Returns a question to append to a message, such as `; did you mean length?`. The text is empty if no name is similar.
 pub fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }

@@ -1,4 +1,4 @@
-//! One field of a scene: path, symbol, unit, range, step, default and meaning.
+//! One field of a scene with its path, symbol, unit, range, step, default and meaning.
 
 use super::range::{Range, choice_name};
 use super::stages::{STAGES, read_loading, stage_in_ron};
@@ -6,56 +6,57 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// One field of a scene.
+/// A field of a scene, as a row of the table [`FIELDS`](crate::FIELDS). A row describes the field and does not hold its
+/// value.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
-    /// Path from the top of the scene, components joined by dots: `roughness.hurst`.
+    /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
     pub path: &'static str,
-    /// Variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`. `None` if the field
-    /// does not depend on a choice.
+    /// Variant that has this field: `Paraboloid` for the radius of a paraboloid. `None` if the field depends on no variant.
     pub variant: Option<&'static str>,
-    /// Name in words: `Hurst exponent`.
+    /// Name of the field in words: `Hurst exponent`.
     pub name: &'static str,
-    /// Symbol in the equations; empty if there is none.
+    /// Symbol of the field in the equations; empty if it has none.
     pub symbol: &'static str,
-    /// SI unit; `1` for numbers without a unit, empty for other values.
+    /// SI unit of the field; `1` for a number without a unit, empty for other values.
     pub unit: &'static str,
-    /// Allowed values.
+    /// Allowed values of the field.
     pub range: Range,
-    /// How a key changes the value.
+    /// How one press of a key changes the value.
     pub step: Step,
-    /// Value of an omitted field, as written; empty if the field is required.
+    /// Value that an omitted field has, in RON; empty if the field is required.
     pub default: &'static str,
-    /// Meaning in one line.
+    /// Meaning of the field in one line.
     pub meaning: &'static str,
-    /// Function that converts a typed text to RON.
+    /// Function that converts typed text to RON.
     pub(super) read: Read,
 }
 
-/// Function that converts typed text, without blanks around it, to RON as the value of a field.
+/// Function that converts typed text, without blanks around it, to the value of a field in RON.
 pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 
-/// Step of a field for one press of a key.
+/// Change of a value by one press of a key, as a small or a large step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// Adds the first number, or the second as the large step; the result is a multiple of the first.
+    /// Adds the first number, or the second for a large step. The result is a multiple of the first number.
     Linear(f64, f64),
-    /// To the next preferred number: twenty in a decade (the Renard series R20) as the small step, 1–2–5 as the large one.
+    /// Goes to the next preferred number. For a small step there are twenty such numbers per decade (Renard series R20), for
+    /// a large step 1, 2 and 5.
     Logarithmic,
-    /// Adds the first number to an integer, or the second as the large step.
+    /// Adds the first integer, or the second for a large step.
     Integer(u64, u64),
-    /// To the next power of two; the large step is four of these steps.
+    /// Goes to the next power of two; a large step is four small ones.
     Doubling,
-    /// For a pair of modes, the last mode to the next power of two, and as the large step the first mode. For a pair of
-    /// wavelengths, the shortest one to the next preferred number, and as the large step the longest one.
+    /// Changes one number of a pair. A small step changes the last mode or the shortest wavelength, a large step the first
+    /// mode or the longest wavelength. Modes go to the next power of two, wavelengths to the next preferred number.
     Band,
-    /// To the next of the allowed choices.
+    /// Goes to the next allowed choice.
     Choice,
-    /// Keys do not change the value; it is only typed.
+    /// Keys do not change the value; it can only be typed.
     Typed,
 }
 
-/// A required field with the usual unit and step for its range, named by its path.
+/// Returns a required field with the usual unit and step for its range. Its name is its path.
 pub(super) const fn row(path: &'static str, range: Range) -> Field {
     let (step, unit, read): (_, _, Read) = match range {
         Range::Real(..) => (Step::Logarithmic, "1", read_number),
@@ -105,7 +106,7 @@ impl Field {
 }
 
 impl Field {
-    /// A row that a program lists beside the fields of a scene; the program itself keeps its value.
+    /// Returns a row for a program's own list of parameters. The row is no field of a scene, and the program keeps the value.
     pub const fn beside(
         path: &'static str,
         name: &'static str,
@@ -115,12 +116,12 @@ impl Field {
         row(path, range).name(name).meaning(meaning)
     }
 
-    /// The same row for a quantity with this SI unit.
+    /// Returns the same row for a quantity with this SI unit.
     pub const fn in_unit(self, unit: &'static str) -> Field {
         Field { unit, ..self }
     }
 
-    /// Allowed values with the unit: `from 1 to 1e13 Pa`.
+    /// Returns the allowed values in words, with the unit: `from 1 to 1e13 Pa`.
     pub fn allowed(&self) -> String {
         match self.unit {
             "" | "1" => self.range.to_string(),
@@ -128,8 +129,8 @@ impl Field {
         }
     }
 
-    /// A written number, or both wavelengths of a pair, with the unit, in a given format: `100 µm, 200 nm`; `None` for
-    /// other values.
+    /// Formats a value of this field with its unit. `written` is a number or a pair of wavelengths in RON, `format` the
+    /// function that formats each number: `100 µm, 200 nm`. Returns `None` for other values.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         let ends = match self.range {
             Range::Real(..) => vec![written.parse().ok()?],
@@ -139,8 +140,8 @@ impl Field {
         Some(ends.into_iter().map(|end| format(end, self.unit)).collect::<Vec<_>>().join(", "))
     }
 
-    /// A typed value that has no units, with the units of the shown value: `50` for `4.356 mJ/m²`, `80, 500` for `100 µm,
-    /// 200 nm`.
+    /// Appends the units of a shown value to a typed value that has none: `50` becomes `50 mJ/m²` if `4.356 mJ/m²` is shown.
+    /// Both numbers of a pair of wavelengths get a unit.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         match (self.range, shown.split_once(", "), split_pair(typed)) {
             (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
@@ -151,12 +152,12 @@ impl Field {
         }
     }
 
-    /// Path of the enclosing group; empty at the top of the scene.
+    /// Returns the path of the group that contains the field; empty at the top of the scene.
     pub fn parent(&self) -> &'static str {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
     }
 
-    /// The last component of the path.
+    /// Returns the last part of the path: `hurst` for `roughness.hurst`.
     pub fn last(&self) -> &'static str {
         self.path.rsplit_once('.').map_or(self.path, |(_, last)| last)
     }
@@ -170,34 +171,35 @@ impl PartialEq for Field {
 
 pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
 
-/// The force of a loading stage [`ToForce`](asperity_contact::Move::ToForce), at `loading.0.0` for the first stage.
+/// Force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce). Its path is `loading.0.0` for the first
+/// stage.
 pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
     .of("ToForce")
     .quantity("force of stage", "F", "N")
     .meaning("target: the stage ends where the force first reaches this value; compression is positive");
 
-/// The indentation of a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation), at `loading.0.0`
+/// Indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation). Its path is `loading.0.0`
 /// for the first stage.
 pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToIndentation")
     .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
-/// A loading stage without a number, at `loading.0` for the first stage.
+/// Loading stage as a whole, including a stage without a number. Its path is `loading.0` for the first stage.
 pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
-/// The displacement of a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement), at `loading.0.0` for the first
-/// stage.
+/// Displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement). Its path is
+/// `loading.0.0` for the first stage.
 pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToDisplacement")
     .quantity("displacement of stage", "D", "m")
     .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
-/// The fields of the targets of loading stages.
+/// Fields of the numbers that end loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-/// Returns the field and the value of the target of a loading stage, if the stage has a numeric target.
+/// Returns the field and the number that end a loading stage; `None` for a stage without a number, such as separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
         Move::ToForce(force) => Some((&LEG_FORCE, force)),
@@ -207,17 +209,17 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     }
 }
 
-/// Integers from this one on are not all exact as floating-point numbers.
+/// Smallest integer from which on floating-point numbers leave integers out.
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
-    /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, a work with
-    /// its unit is an adhesion, `none` leaves an optional part out, and a loading may be a list of stages, as
-    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text is unchanged but for surrounding blanks.
+    /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of the field: `50 mJ/m²`,
+    /// `16k`. A text needs no quotes. The name of a file becomes a measured roughness or a table of the form. A work with its
+    /// unit becomes an adhesion. `none` omits an optional part. A loading may be a list of stages as
+    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text stays, without blanks around it.
     ///
     /// # Errors
-    /// Text that begins as a number and continues as another unit, or a number that is too large.
+    /// Returns an error for a number with another unit, or a number that is too large.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         match typed.trim() {
             // As an omitted part is shown.
@@ -231,7 +233,7 @@ fn begins_as_number(typed: &str) -> bool {
     typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
 }
 
-/// Reads a number in RON, or one with a prefix or the unit.
+/// Reads a number in RON, or a number with a prefix or the unit.
 fn read_number(field: &Field, typed: &str) -> Result<String, QuantityError> {
     match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
         true => parse_quantity(typed, field.unit).map(ron_float),
@@ -256,7 +258,7 @@ fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
     }
 }
 
-/// Reads two numbers, or a single one as in a field of one number.
+/// Reads two numbers, or a single number as a field of one number does.
 fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let is_whole = matches!(field.range, Range::Band(..));
     let Some((first, last)) = split_pair(typed) else {
@@ -320,13 +322,13 @@ pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityErro
     Ok(format!("[{}]", stages.join(", ")))
 }
 
-/// The two parts of a typed pair: `4, 512`, `4–512`, `4 to 512`, in brackets or not.
+/// Splits a typed pair into its two parts: `4, 512`, `4–512`, `4 to 512`, with or without brackets.
 fn split_pair(typed: &str) -> Option<(&str, &str)> {
     let pair = typed.trim_matches(['(', ')', ' ', ',']);
     [",", "–", " to "].iter().find_map(|between| pair.split_once(between))
 }
 
-/// A choice without fields in words, as users read and type it: `sub-cell` for `SubCell`.
+/// Returns the name of a choice without fields as users read and type it: `sub-cell` for `SubCell`.
 pub fn choice_in_words(name: &str) -> String {
     let mut words = String::new();
     for character in name.chars() {
@@ -338,7 +340,7 @@ pub fn choice_in_words(name: &str) -> String {
     words
 }
 
-/// Returns true for a text with a dot or a folder, as no choice of a field has.
+/// Returns true for a text with a dot or a path separator. No choice of a field has either.
 fn is_file_name(typed: &str) -> bool {
     typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
 }

@@ -1,7 +1,7 @@
 //! The table of all fields of a scene: paths, symbols, units, ranges, steps, defaults, meanings.
 //!
-//! Reading and writing, checks of ranges, defaults, overrides, steps of the keys, axes of studies, the explorer's list of
-//! parameters, random scenes of the tests and the reference in docs/scene-file.md all iterate over this table.
+//! Many parts use this table: the reader and the writer of scenes, checks, overrides, keys, and axes of studies. The
+//! explorer, the random scenes of tests and the reference in docs/scene-file.md use it too.
 
 use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
@@ -13,14 +13,14 @@ use super::range::Range::{Band, Choice, List, Text, Wavelengths, Whole};
 use super::stages::{MOST_STAGES, STAGES};
 use super::text::read_ron;
 
-/// Version of the scene file.
+/// Version of the format of scene files.
 pub const SCENE_VERSION: u32 = 1;
 
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// The field at a path. Where variants of a choice have fields of the same name, `variant` decides; for `None` the first
-/// one is returned.
+/// Returns the field at a path. If several variants have a field of this name, `variant` decides; `None` selects the first
+/// one.
 ///
 /// ```
 /// let radius = asperity_scene::field("form.radius", Some("Paraboloid")).unwrap();
@@ -31,13 +31,13 @@ pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
     FIELDS.iter().find(|field| field.path == path && is_of(field))
 }
 
-/// Value of an omitted field that has a default.
+/// Returns the default value of a field.
 pub(super) fn default_of<T: DeserializeOwned>(path: &str) -> T {
     let row = FIELDS.iter().find(|field| field.path == path && !field.default.is_empty());
     row.and_then(|row| read_ron(row.default).ok()).expect("a row of the table with a default of this type")
 }
 
-/// Fields inside the group or choice at a path, for this variant; fields at the top for an empty path.
+/// Returns the fields directly inside the group or the variant at a path; an empty path is the whole scene.
 pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
     let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
     FIELDS.iter().filter(move |field| field.parent() == path && is_of(field))
@@ -60,7 +60,7 @@ const ROUGHNESS: Range = Choice(&[
 const SWITCH: Range = Choice(&["false", "true"]);
 const UNIT: Range = Text { least: 0, most: 20, lines: false };
 
-/// Every field of a scene, in the order of a scene file.
+/// All fields of a scene, in the order of a scene file.
 // Two or three lines for a row: what it is, and what it means.
 #[rustfmt::skip]
 pub const FIELDS: &[Field] = &[
@@ -82,7 +82,7 @@ pub const FIELDS: &[Field] = &[
     row("length", Range::closed(1e-9, 10.0)).quantity("apparent diameter", "L", "m")
         .meaning("length of the profile: apparent diameter of the contact"),
     row("form", FORMS).default("None").read(read_form)
-        .meaning("macroscopic shape of the rigid body; none is nominally flat"),
+        .meaning("macroscopic shape of the rigid body; nominally flat if left out"),
     row("form.radius", Range::above(0.0, 1e9)).of("Paraboloid").quantity("radius of curvature", "R", "m")
         .meaning("radius of curvature at the apex"),
     row("form.angle", Range::between(0.0, FRAC_PI_2)).of("Cone").quantity("flank angle", "θ", "rad")
@@ -101,14 +101,14 @@ pub const FIELDS: &[Field] = &[
     row("form.radius", Range::above(0.0, 5.0)).of("Punch").quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),
     row("form.file", FILE_NAME).of("Table").name("table of the form")
-        .meaning("file of depths f of a body of revolution at ascending radii r from 0"),
+        .meaning("file with two columns: ascending radii r from 0, and depths f of a body of revolution"),
     row("form.unit", UNIT).of("Table").name("unit of the table").default("\"\"")
-        .meaning("unit of lengths where the table states none; m if empty"),
+        .meaning("unit of the lengths if the table states none; m if empty"),
     row("roughness", ROUGHNESS).default("None").read(read_roughness)
-        .meaning("roughness of the rigid body; none is smooth"),
+        .meaning("roughness of the rigid body; smooth if left out"),
     row("roughness.hurst", Range::between(0.0, 1.0)).of("SelfAffine").quantity("Hurst exponent", "H", "1")
         .step(Linear(0.01, 0.1))
-        .meaning("decay of the roughness towards short waves: low H is jagged, high H is smooth"),
+        .meaning("decay of the roughness towards short waves: a low H is jagged, a high H is smooth"),
     row("roughness.rms_height", Range::closed(1e-30, 100.0)).of("SelfAffine").quantity("rms height", "h", "m")
         .default("None").meaning("root mean square height of the profile"),
     row("roughness.rms_gradient", Range::closed(1e-30, 1e9)).of("SelfAffine").quantity("rms gradient", "⟨∇z⟩", "1")
@@ -118,36 +118,36 @@ pub const FIELDS: &[Field] = &[
     row("roughness.wavelengths", Wavelengths(1e-15, 10.0)).of("SelfAffine").quantity("wavelengths", "λ", "m")
         .default("None").meaning("longest and shortest wave, in place of the modes"),
     row("roughness.roll_off", Range::closed(1e-15, 10.0)).of("SelfAffine").quantity("roll-off wavelength", "λ_r", "m")
-        .default("None").meaning("wavelength above which the spectrum of the surface is flat, within the waves of the profile"),
+        .default("None").meaning("wavelength above which the spectrum of the surface is flat"),
     row("roughness.seed", Whole(0, u64::MAX)).of("SelfAffine").name("seed").step(Integer(1, 100))
         .meaning("seed of the random phases"),
     row("roughness.file", FILE_NAME).of("Measured").name("measured surface")
         .meaning("file of a measured profile or map"),
     row("roughness.further_files", List { of: &["\"other.txt\""], least: 0, most: 10_000 }).of("Measured")
         .name("further files of the surface").default("[]")
-        .meaning("further files of the same face, samples of one roughness"),
+        .meaning("further measurements of the same face"),
     row("roughness.as_line", SWITCH).of("Measured").name("profile as line").default("false")
         .meaning("true: use the heights unchanged; false: generate random profiles with the measured spectrum"),
     row("roughness.opposite", FILE_NAME).of("Measured").name("measured surface of the opposite face")
         .default("None")
-        .meaning("file of the opposite face, whose spectrum is added; none is smooth"),
+        .meaning("file of the opposite face, whose spectrum is added"),
     row("roughness.row", Whole(1, 1 << 28)).of("Measured").name("row of the map")
         .step(Integer(1, 100)).default("None")
-        .meaning("row of a map used as the measured profile; none is the whole map"),
+        .meaning("number of the row of a map that is used alone; the whole map if left out"),
     row("roughness.column", Whole(1, 1 << 28)).of("Measured").name("column of the map")
         .step(Integer(1, 100)).default("None")
-        .meaning("column of a map, in place of a row"),
+        .meaning("number of the column of a map, in place of a row"),
     row("roughness.detrend", Choice(&["Nothing", "Mean", "Tilt", "Curvature"])).of("Measured")
         .name("detrending").default("None")
-        .meaning("what is subtracted from the heights; by default Tilt, of a periodic surface Mean, with as_line Nothing"),
+        .meaning("what is subtracted from the heights; by default Tilt, for a periodic surface Mean, with as_line Nothing"),
     row("roughness.periodic", SWITCH).of("Measured").name("periodic surface").default("false")
-        .meaning("true: the surface repeats itself at its borders, and no window is used"),
+        .meaning("true: the surface repeats itself at its borders, so no window is used"),
     row("roughness.unit", UNIT).of("Measured").name("unit of the file").default("\"\"")
-        .meaning("unit of lengths where the file states none; with as_line m if empty"),
+        .meaning("unit of the lengths if the file states none; with as_line m if empty"),
     row("roughness.height_unit", UNIT).of("Measured").name("unit of heights of the file").default("\"\"")
-        .meaning("unit of heights where the file states none; as roughness.unit if empty"),
+        .meaning("unit of the heights if the file states none; roughness.unit if empty"),
     row("roughness.spacing", Range::closed(1e-18, 1e9)).of("Measured").quantity("distance between points of the file", "", "m").default("None")
-        .meaning("distance between points where the file states none"),
+        .meaning("distance between points if the file states none"),
     row("roughness.interpolate", SWITCH).of("Measured").name("interpolation of missing points")
         .default("false")
         .meaning("true: missing points get heights from their neighbours; false: they are refused"),
@@ -160,9 +160,9 @@ pub const FIELDS: &[Field] = &[
     row("roughness.surface_name", FILE_NAME).of("Measured").name("surface of a container").default("None")
         .meaning("name of a surface or measurement in a container"),
     row("roughness.channel", Whole(0, u32::MAX as u64)).of("Measured").name("channel of the file")
-        .step(Integer(1, 10)).default("None").meaning("number of the channel"),
+        .step(Integer(1, 10)).default("None").meaning("number of the channel of the file, from 0"),
     row("roughness.continue_to", Range::closed(1e-15, 10.0)).of("Measured").quantity("shortest wavelength", "λ_s", "m").default("None")
-        .meaning("wavelength down to which the spectrum continues as a power law; none is the last resolved one"),
+        .meaning("wavelength down to which the spectrum continues as a power law; the shortest resolved one if left out"),
     row("roughness.seed", Whole(0, u64::MAX)).of("Measured").name("seed of the equivalent line")
         .step(Integer(1, 100)).default("1").meaning("seed of the random phases of the measured spectrum"),
     row("adhesion", Choice(&["(work: 0.05)", "(kappa: 2.0)", "(elastic_energy_ratio: 0.5)"])).default("None")
@@ -172,33 +172,33 @@ pub const FIELDS: &[Field] = &[
         .meaning("energy per area that opens the interface"),
     row("adhesion.closing_work", Range::closed(0.0, 1e6)).quantity("work of adhesion on closing", "γ₁", "J/m²")
         .default("None")
-        .meaning("energy per area gained where the interface closes, at most adhesion.work; by default the same"),
+        .meaning("energy per area gained where the interface closes, at most adhesion.work, which is the default"),
     row("adhesion.kappa", Range::closed(1e-6, 1e6)).quantity("roughness-adhesion parameter", "κ", "1").default("None")
         .meaning("√(h⟨∇z⟩E*/γ): adhesion is strong for small κ"),
     row("adhesion.elastic_energy_ratio", Range::closed(1e-12, 1e12)).quantity("elastic energy ratio", "e_el/γ", "1")
         .default("None")
-        .meaning("elastic energy that flattens the roughness, over γ: adhesion is strong for small e_el/γ"),
+        .meaning("elastic energy that flattens the roughness over γ: adhesion is strong for small e_el/γ"),
     row("adhesion.range", Range::closed(1e-12, 1e-3)).quantity("range of attraction", "z₀", "m").default("None")
         .meaning("range of the attraction, for the Tabor number; by default 0.3 nm"),
     row("loading_stiffness", Range::closed(1e-12, 1e12)).quantity("loading stiffness", "k", "N/m").default("None")
-        .meaning("stiffness of the instrument that moves the body, D = d + F/k; none is rigid"),
+        .meaning("stiffness of the instrument that moves the body; rigid if left out"),
     row("loading", List { of: &STAGES, least: 1, most: MOST_STAGES }).default("[ToZeroForce, ToSeparation]")
         .read(read_stages)
-        .meaning("stages in their order, from separation"),
+        .meaning("stages in their order; the body starts separated"),
     row("numerics", Range::Group).default("()")
         .meaning("resolution and method of the computation"),
     row("numerics.points", Whole(1, MOST_POINTS)).quantity("points", "N", "1").step(Doubling).default("16384")
         .meaning("number of springs along the profile"),
     row("numerics.solver", Choice(&["Exact", "Stepwise(step: 1.0e-9)"])).name("solver").default("Exact")
-        .meaning("exact solver, or the stepwise relaxation of the paper"),
+        .meaning("exact solver, or relaxation step by step, as Popov and Filippov (2012) do"),
     row("numerics.solver.step", Range::closed(1e-30, 1e6)).of("Stepwise").quantity("step", "Δd", "m")
         .meaning("displacement between two relaxations"),
     row("numerics.edges", Choice(&["Grid", "SubCell"])).name("edges").default("SubCell")
-        .meaning("edges of patches: SubCell finds them between springs, Grid counts whole springs, as the paper does"),
+        .meaning("SubCell: the edge of a patch may lie between two springs; Grid: a patch is a number of whole springs"),
     row("numerics.samples", Whole(2, 1_000_000)).name("samples").step(Doubling).default("512")
         .meaning("points of the force curve on each stage"),
     row("observe", List { of: &["Fragments", "HeightHistogram"], least: 0, most: 2 }).default("[]")
-        .meaning("observed quantities beside the force curve"),
+        .meaning("quantities that are recorded beside the force curve"),
 ];
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Sources of scenes: the built-in scenes, the user's own folder and the working folder.
+//! Sources of scenes: the built-in scenes, the user's own folder of scenes, and the working folder.
 
 use std::fs;
 use std::io;
@@ -12,19 +12,19 @@ use super::text::index::Text;
 use asperity_data::{ReadError, read_regular_text};
 use asperity_data::{path_name, printable};
 
-/// Name of the default scene.
+/// Name of the built-in scene with which the program begins.
 pub const DEFAULT: &str = "pressure-sensitive";
 
-/// A built-in scene or plan.
+/// A built-in scene, or a built-in plan of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
     /// Name on the command line.
     pub name: &'static str,
-    /// Text in RON.
+    /// Text of the scene or plan in RON.
     pub text: &'static str,
 }
 
-/// Makes presets of the built-in files of a folder, by their names.
+/// Makes [`Preset`]s of the built-in files of a folder, by their names.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
@@ -52,7 +52,7 @@ const PRESETS: &[Preset] = built_in!["":
     "elastic-energy-above",
 ];
 
-/// All built-in scenes, in the recommended order.
+/// Returns all built-in scenes, in the recommended order.
 ///
 /// ```
 /// use asperity_scene::presets;
@@ -63,12 +63,12 @@ pub fn presets() -> &'static [Preset] {
     PRESETS
 }
 
-/// The built-in scene with this name.
+/// Returns the built-in scene with this name; `None` if there is none.
 pub fn find_scene(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-/// Converts typed text to a path: a leading `~` becomes the home folder, if there is one.
+/// Converts typed text to a path. A leading `~` becomes the home folder, if there is one.
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
     let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
@@ -78,7 +78,7 @@ pub fn typed_path(text: &str) -> PathBuf {
     }
 }
 
-/// Where a scene comes from.
+/// Place from which a scene comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// Built into the program.
@@ -89,44 +89,46 @@ pub enum Source {
     Working,
 }
 
-/// A scene of the library, or a file that looks like a scene.
+/// A scene of the library, or a file in RON that may be a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name: for a file in the working folder with `.ron`, for the user's own scene without.
+    /// Name of the scene. A file of the working folder has the ending `.ron` in its name, a scene of the user's own folder
+    /// has not.
     pub name: String,
-    /// Where the scene comes from.
+    /// Place from which the scene comes.
     pub origin: Source,
     /// Path of the file; `None` for a built-in scene.
     pub path: Option<PathBuf>,
     /// Text of the file; empty if it cannot be read.
     pub text: String,
-    /// The scene, whose files are relative to its own file, or the errors of the file.
+    /// The scene, or the errors of its file.
     pub document: Result<Document, SceneErrors>,
 }
 
-/// The folder of the user's own scenes, which open by their names: `asperity/presets` in the configuration folder, which is
-/// `$XDG_CONFIG_HOME`, by default `~/.config`, and on Windows the roaming application data. It may not exist.
+/// Returns the folder of the user's own scenes, which open by their names. The folder is `asperity/presets` in the
+/// configuration folder: `$XDG_CONFIG_HOME` or `~/.config`, on Windows the roaming application data. The folder may not
+/// exist.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }
 
-/// The file of the scene with this name in the folder of the user's own scenes, if it exists.
+/// Returns the file of the scene with this name in the user's own folder, if it exists.
 pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
     let mut components = Path::new(name).components();
     let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
     Some(own.join(format!("{name}.ron"))).filter(|path| is_name && path.is_file())
 }
 
-/// Names of the scenes in the folder of the user's own scenes.
+/// Returns the names of the scenes in the user's own folder.
 pub(super) fn own_names(own: &Path) -> Vec<String> {
     scene_files(own).unwrap_or_default().iter().map(|path| name_of(path, Source::Own)).collect()
 }
 
-/// All scenes: the built-in ones in their order, then the user's own, then those of a working folder, the latter two sorted
-/// by name.
+/// Lists all scenes: the built-in ones in their order, then the folder `own` of the user, then the folder `working`. Both
+/// folders are sorted by name.
 ///
-/// Lists files that end in `.ron`, except plans of studies; subfolders are not searched. Files that are no scene or cannot
-/// be read are listed with their error. Only regular files are opened.
+/// A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no scene or cannot be read is
+/// listed with its error. Only regular files are opened, and subfolders are not searched.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
     let built_in = presets()
         .iter()
@@ -142,7 +144,7 @@ pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
 }
 
 impl Entry {
-    /// Creates the entry of a text, or of the reason why the text could not be read.
+    /// Creates the entry of a text, or of the reason why it could not be read.
     fn new(name: String, origin: Source, path: Option<PathBuf>, text: Result<String, String>) -> Entry {
         let file = path.as_ref().map_or_else(|| name.clone(), |path| path.display().to_string());
         let document = match &text {
@@ -154,17 +156,18 @@ impl Entry {
         Entry { name, origin, path, text: text.unwrap_or_default(), document }
     }
 
-    /// Title of the scene; empty if it has none.
+    /// Returns the title of the scene; empty if it has none.
     pub fn title(&self) -> &str {
         self.document.as_ref().map_or("", |document| &document.scene().title)
     }
 
-    /// Notice of the scene; empty if it has none.
+    /// Returns the notes on the scene; empty if it has none.
     pub fn notice(&self) -> &str {
         self.document.as_ref().map_or("", |document| &document.scene().notice)
     }
 
-    /// The first error of the file, with its place and the number of further errors, on one line.
+    /// Returns the first error of the file on one line, with its place and the number of further errors. Returns `None` for a
+    /// valid scene.
     pub fn error(&self) -> Option<String> {
         let errors = self.document.as_ref().err()?;
         let (first, more) = (errors.first(), errors.iter().count() - 1);
@@ -177,7 +180,7 @@ impl Entry {
     }
 }
 
-/// The scenes of a folder, sorted by name; empty for a missing folder.
+/// Lists the scenes of a folder, sorted by name; none for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
@@ -199,7 +202,7 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     entries
 }
 
-/// Paths of the files of a folder that end in `.ron`; the files are not read.
+/// Lists the files of a folder that end in `.ron`, without reading them.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let paths = fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
     // The target of a link decides; a link without a target is no folder.
@@ -212,7 +215,7 @@ fn name_of(path: &Path, origin: Source) -> String {
     name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Reason why the file of a scene was not read, in words.
+/// Returns in words why the file of a scene was not read.
 pub(super) fn describe(error: ReadError) -> String {
     match error {
         ReadError::Folder => "this is a directory, not a scene file".into(),

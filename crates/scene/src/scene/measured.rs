@@ -8,23 +8,25 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::Not;
 
-/// A measured surface, profile or map. The fields without `skip` are options of `asperity surface` too.
+/// A measured surface, profile or map, as the roughness of a scene. Many of its fields are also options of `asperity
+/// surface`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
-    /// The file, relative to the scene file.
+    /// Name of the measured file, relative to the scene file.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub file: String,
-    /// Further files of the same face: samples of one roughness, whose spectrum is estimated from all of them.
+    /// Names of files with further measurements of the same surface. The spectrum is estimated from all of them together.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,
-    /// True if the measured profile itself is the line, false if its equivalent line is.
+    /// True if the measured heights are the profile; false if random profiles get the measured spectrum.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub as_line: bool,
-    /// File of the opposite face, relative to the scene file; the spectra of both faces add.
+    /// Name of the file of the opposite surface, relative to the scene file; `None` if that surface is smooth. The spectra of
+    /// both surfaces add.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opposite: Option<String>,
@@ -39,7 +41,7 @@ pub struct Measured {
     )]
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub height_unit: String,
-    /// Distance between points, m, where a file states none.
+    /// Distance between points in m where a file states none.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
@@ -59,11 +61,11 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
-    /// Name of a surface or measurement in a container of several.
+    /// Name of a surface or a measurement in a file with several of them.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_name: Option<String>,
-    /// Channel of files with several, by its number.
+    /// Number of a channel in a file with several channels.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<u64>,
@@ -88,19 +90,19 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub periodic: bool,
-    /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law;
-    /// `None`: the last resolved wavelength.
+    /// Wavelength in m down to which the measured spectrum continues as a power law; `None` if the spectrum ends at its
+    /// shortest resolved wave.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continue_to: Option<f64>,
-    /// Seed of the random phases of the equivalent line.
+    /// Seed of the random phases of profiles with the measured spectrum.
     #[cfg_attr(feature = "clap", arg(skip = default_seed()))]
     #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
     pub seed: u64,
 }
 
 impl Measured {
-    /// The surface of one file, with all options left out.
+    /// Returns the surface of one file, with the default of each option.
     pub fn of_file(file: &str) -> Self {
         Measured {
             file: file.to_owned(),
@@ -134,20 +136,20 @@ fn is_default_seed(seed: &u64) -> bool {
     *seed == default_seed()
 }
 
-/// Name of a typed unit; empty for none.
+/// Returns the usual name of a typed unit; empty for an empty text.
 #[cfg(feature = "clap")]
 fn unit_name(text: &str) -> Result<String, asperity_surface::SurfaceError> {
     if text.is_empty() { Ok(String::new()) } else { text.parse().map(|unit: Unit| unit.name().to_owned()) }
 }
 
 impl Measured {
-    /// Names of the files of each face.
+    /// Returns the names of the files of each face: the rough face, then the opposite one, if it is given.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
         let face = std::iter::once(&self.file).chain(&self.further_files).map(String::as_str).collect();
         std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
     }
 
-    /// Options for reading and analysing a checked surface.
+    /// Returns the options for reading and analysing a surface whose values have been checked.
     pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
             as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),

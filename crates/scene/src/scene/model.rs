@@ -1,6 +1,6 @@
-//! The types of a scene: what the author chooses, in SI units, and quantities that follow from it by one formula.
+//! Types of a scene: the values that its author chooses, in SI units, and quantities that follow from them by one formula.
 //!
-//! These types hold values as written, valid or not; [`Scene::checked`] finds the invalid ones.
+//! The types may hold invalid values. [`Scene::checked`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
 use super::fields::{SCENE_VERSION, default_of};
@@ -12,18 +12,18 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
-/// Smallest recommended number of springs per wave of a form, of roughness and of the maps: the adhesion force of rough
-/// profiles then has an error of about one per cent with both edge models (docs/accuracy.md). At least two springs per wave
-/// are required.
+/// Recommended number of springs per shortest wave. With this number the adhesion force of a rough profile has an error of
+/// about one per cent with both edge models (docs/accuracy.md). A random profile needs at least two springs per wave, a wavy
+/// sphere four.
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Version of the file format, 1.
+    /// Version of the file format; always 1.
     pub version: u32,
-    /// Title of the scene, one line.
+    /// Title of the scene in one line.
     #[serde(default)]
     pub title: String,
     /// Notes on the scene.
@@ -31,29 +31,29 @@ pub struct Scene {
     pub notice: String,
     /// Elastic constants of the half-space.
     pub material: Material,
-    /// Apparent diameter L of the contact, m.
+    /// Apparent diameter L of the contact in m, which is also the length of the profile.
     pub length: f64,
-    /// Macroscopic form; `None` for a nominally flat body.
+    /// Macroscopic form of the rigid body; `None` for a nominally flat body.
     pub form: Option<Form>,
-    /// Roughness; `None` for a smooth profile.
+    /// Roughness of the rigid body; `None` for a smooth body.
     pub roughness: Option<Roughness>,
-    /// Adhesion; `None` without adhesion.
+    /// Adhesion between the bodies; `None` for a contact without adhesion.
     pub adhesion: Option<Adhesion>,
-    /// Stiffness k of the instrument that moves the body, N/m; `None` for a rigid instrument.
+    /// Stiffness k of the instrument that moves the body in N/m; `None` for a rigid instrument.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loading_stiffness: Option<f64>,
-    /// Loading history from separation: consecutive loading stages.
+    /// Loading stages in their order. The bodies are separated before the first one.
     #[serde(default = "default_loading")]
     pub loading: Vec<Move>,
-    /// Resolution and solver.
+    /// Number of springs, solver, and other settings of the computation.
     #[serde(default)]
     pub numerics: Numerics,
-    /// Quantities to observe besides the force curve.
+    /// Quantities to record in addition to the force curve.
     #[serde(default)]
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants of the half-space as written: E and ν of a half-space under a rigid body, or E* of two elastic bodies.
+/// Elastic constants as a scene states them: E and ν of a half-space under a rigid body, or the effective modulus E*.
 ///
 /// ```
 /// use asperity_scene::Material;
@@ -66,38 +66,38 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus E, Pa.
+    /// Young's modulus E in Pa.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<f64>,
     /// Poisson's ratio ν.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson_ratio: Option<f64>,
-    /// Effective modulus E* of eq. (2), Pa.
+    /// Effective modulus E* of eq. (2) in Pa, in place of E and ν.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effective_modulus: Option<f64>,
 }
 
 impl Material {
-    /// Material with this effective modulus E*, Pa.
+    /// Returns a material with this effective modulus E* in Pa.
     pub fn effective(effective_modulus: f64) -> Self {
         Material { effective_modulus: Some(effective_modulus), ..Material::default() }
     }
 
-    /// Isotropic material under a rigid body, with Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
+    /// Returns an isotropic material under a rigid body: Young's modulus E in Pa and Poisson's ratio ν give E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
         let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
         Material { youngs_modulus, poisson_ratio, effective_modulus: None }
     }
 
-    /// Effective modulus E* of eq. (2), Pa; NaN if a constant is missing or out of its range.
+    /// Returns the effective modulus E* of eq. (2) in Pa; NaN if a constant is missing or out of its range.
     pub fn effective_modulus(&self) -> f64 {
         self.modulus().map_or(f64::NAN, Modulus::pascals)
     }
 
-    /// Effective modulus E* of eq. (2).
+    /// Returns the effective modulus E* of eq. (2).
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a constant that is missing or out of its range.
+    /// Returns [`ContactError::Value`] if a constant is missing or out of its range.
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
         let [modulus, ratio] =
             [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
@@ -105,39 +105,39 @@ impl Material {
     }
 }
 
-/// Roughness of the rigid profile.
+/// Roughness of the rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Roughness {
-    /// Random-phase self-affine profile, eqs. (4)–(9). Its amplitude is given by `rms_height` or by `rms_gradient`.
+    /// Random self-affine profile, eqs. (4)–(9). Either `rms_height` or `rms_gradient` gives its amplitude.
     SelfAffine {
-        /// Hurst exponent H.
+        /// Hurst exponent H, above 0 and below 1.
         hurst: f64,
-        /// Root mean square height h, m.
+        /// Root mean square height h of the profile in m; `None` if `rms_gradient` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         rms_height: Option<f64>,
-        /// Root mean square gradient ⟨∇z⟩.
+        /// Root mean square gradient ⟨∇z⟩ of the profile; `None` if `rms_height` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         rms_gradient: Option<f64>,
-        /// First and last mode k, q = 2πk/L; `None` if `wavelengths` is given.
+        /// First and last mode k, in waves per length L; `None` if `wavelengths` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         modes: Option<(u64, u64)>,
-        /// Longest and shortest wavelength, m, in place of `modes`.
+        /// Longest and shortest wavelength in m; `None` if `modes` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         wavelengths: Option<(f64, f64)>,
-        /// Wavelength, m, above which the spectrum of the surface is flat; `None` without a roll-off.
+        /// Wavelength in m above which the spectrum of the surface is flat; `None` if there is no such wavelength.
         #[serde(skip_serializing_if = "Option::is_none")]
         roll_off: Option<f64>,
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Measured surface, profile or map: its equivalent line, or the profile itself.
+    /// Roughness from a measured surface: random profiles with its spectrum, or the measured profile itself.
     Measured(Measured),
 }
 
 impl Scene {
-    /// A scene of this material and this apparent diameter (m): nominally flat, smooth, without adhesion, and with the
-    /// defaults of a scene file.
+    /// Returns a scene of this material and this apparent diameter in m. The body is nominally flat and smooth, there is no
+    /// adhesion, and other fields have the defaults of a scene file.
     ///
     /// ```
     /// use asperity_scene::{Adhesion, Material, Scene};
@@ -166,19 +166,19 @@ impl Scene {
         }
     }
 
-    /// Spring spacing Δx = L/N, m.
+    /// Returns the distance Δx = L/N between springs in m.
     pub fn spacing(&self) -> f64 {
         self.length / self.numerics.points as f64
     }
 
-    /// Index range of the springs under the body: all springs, except the springs beside a punch.
+    /// Returns the indices of the springs under the body. Only a punch leaves springs beside it.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form.as_ref().map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness. For given
-    /// wavelengths λ the modes are the whole numbers nearest to L/λ, so that the waves stay when the length changes.
+    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness.
+    /// Wavelengths λ become the modes nearest to L/λ, so the waves stay the same when the length changes.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine { hurst, modes, wavelengths, roll_off, .. }) = self.roughness else {
             return None;
@@ -190,7 +190,7 @@ impl Scene {
         Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
-    /// Warning if the shortest wave has fewer springs than [`SPRINGS_PER_WAVE`]. Such a scene is allowed.
+    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs. A scene with a warning is allowed.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
@@ -221,22 +221,23 @@ impl Scene {
         })
     }
 
-    /// The measured surface, if there is one.
+    /// Returns the measured surface, if the scene has one.
     pub fn measured(&self) -> Option<&Measured> {
         if let Some(Roughness::Measured(measured)) = &self.roughness { Some(measured) } else { None }
     }
 
-    /// Returns true if a measured profile is itself the line.
+    /// Returns true if the measured heights are used unchanged as the profile.
     pub fn measured_as_line(&self) -> bool {
         self.measured().is_some_and(|measured| measured.as_line)
     }
 
-    /// Options for reading and analysing the measured surface.
+    /// Returns the options for reading and analysing the measured surface.
     pub fn measured_options(&self) -> MeasuredOptions {
         self.measured().map_or_else(MeasuredOptions::default, Measured::options)
     }
 
-    /// Names of the files of the measured surfaces and of the table of the form, relative to the scene file.
+    /// Returns the names of all files that the scene needs: measured surfaces, and the table of the form. The names are
+    /// relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
         let mut files = self.measured().map_or_else(Vec::new, |measured| measured.faces().concat());
         if let Some(Form::Table { file, .. }) = &self.form {
@@ -245,13 +246,14 @@ impl Scene {
         files
     }
 
-    /// Paths of the files of each face, in `folder`.
+    /// Returns the paths of the measured files in `folder`: first all files of the rough body, then the file of the opposite
+    /// body, if it is given.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
     }
 
-    /// Renames the files of the measured surfaces and of the form.
+    /// Renames the measured files and the table of the form.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
@@ -264,7 +266,7 @@ impl Scene {
         }
     }
 
-    /// Seed of the random phases; `None` if the profile has none.
+    /// Returns the seed of the random phases; `None` if the profile is not random.
     pub fn seed(&self) -> Option<u64> {
         match self.roughness.as_ref()? {
             Roughness::Measured(Measured { as_line: true, .. }) => None,
@@ -272,7 +274,7 @@ impl Scene {
         }
     }
 
-    /// Sets the seed of the random phases, if there are any.
+    /// Sets the seed of the random phases. A scene without a seed stays unchanged.
     pub fn set_seed(&mut self, wanted: u64) {
         if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
             &mut self.roughness
@@ -282,17 +284,17 @@ impl Scene {
     }
 }
 
-/// Resolution and solver.
+/// Number of springs, solver, and other settings of the computation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "NumericsText")]
 pub struct Numerics {
     /// Number of springs N.
     pub points: u64,
-    /// Exact solver or stepwise relaxation.
+    /// Solver of the equilibrium: exact, or stepwise as in the paper.
     pub solver: Solver,
-    /// Edge model of the contact patches.
+    /// Edge model: where the edge of a contact patch may lie, between springs or at whole springs.
     pub edges: Edges,
-    /// Number of curve samples on each loading stage.
+    /// Number of points of the force curve on each loading stage.
     pub samples: u64,
 }
 
@@ -302,7 +304,7 @@ impl Default for Numerics {
     }
 }
 
-/// Resolution and solver as written in a file, where omitted fields have their defaults.
+/// Settings of the computation as written in a file, where omitted fields have their defaults.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "Numerics")]
 struct NumericsText {
@@ -325,21 +327,22 @@ impl From<NumericsText> for Numerics {
     }
 }
 
-/// Solver of the equilibrium of the springs.
+/// Solver for the equilibrium of the springs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// The exact solver: all thresholds at once, without a step error.
+    /// Exact solver: it finds the indentation of each event directly, so there is no error from a step.
     Exact,
-    /// The method of the paper: move by a step, relax, repeat.
+    /// Method of the paper: move the body by a step, relax the springs, repeat.
     Stepwise {
-        /// Step Δd of the indentation, m.
+        /// Step Δd of the indentation in m.
         step: f64,
     },
 }
 
 impl Solver {
-    /// The edge model of a scene that states none: edges between springs if the solver supports them.
+    /// Returns the edge model of a scene that states none: edges between springs with the exact solver, whole springs with
+    /// the stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => default_of("numerics.edges"),
@@ -348,12 +351,12 @@ impl Solver {
     }
 }
 
-/// A quantity that is observed besides the force curve.
+/// A quantity that is recorded in addition to the force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Observer {
-    /// The contact patches and their lengths.
+    /// The contact patches after each loading stage.
     Fragments,
-    /// The histogram of heights.
+    /// The histogram of the heights of the profile.
     HeightHistogram,
 }
 

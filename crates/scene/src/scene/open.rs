@@ -1,4 +1,4 @@
-//! Opening a scene by file, by name or from a stream; a table of results opens as its scene.
+//! Opening a scene by the name of its file, by its own name or from a stream.
 
 use std::fs::File;
 use std::io;
@@ -12,12 +12,12 @@ use super::library::{describe, find_scene, own_folder, own_names, own_scene, pre
 use asperity_data::printable;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 
-/// Opens a scene: a file, if one of that name exists or the name looks like a path (ends in `.ron` or has a path
-/// separator); else a built-in scene; else one of the user's own scenes, see [`own_folder`]. Only regular files are read,
-/// since a pipe, a terminal or a device would block. A table of results in CSV opens as the scene that it contains.
+/// Opens a scene. A name that ends in `.ron`, contains a path separator or belongs to a file is opened as a file. Other names
+/// are searched among the built-in scenes, then in the user's [`own_folder`]. A table of results in CSV opens as the scene
+/// that it contains. Only regular files are read, because a pipe or a terminal would wait.
 ///
 /// # Errors
-/// There is no such scene, its file cannot be read, or the scene has errors.
+/// Returns an error if there is no such scene, if its file cannot be read, or if the scene has errors.
 ///
 /// ```
 /// assert_eq!(asperity_scene::open("jkr-sphere")?.scene().length, 1.0e-4);
@@ -57,24 +57,23 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     Err(whole(name_or_path, message))
 }
 
-/// Returns true for the name of a file: of one that exists, or one that looks like a path.
+/// Returns true if a name looks like a path or belongs to an existing file.
 pub fn is_file_name(name: &str) -> bool {
     is_path(name) || Path::new(name).is_file()
 }
 
-/// Returns true for a name that looks like a path.
+/// Returns true if a name looks like a path, with the ending `.ron` or a path separator.
 pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene of a command argument: as [`open`] does, but also from a stream. `-` is standard input; a pipe or a
-/// device, such as `<(…)` of a shell, is read up to its end.
+/// Opens the scene that an argument of a command names, as [`open`] does, or reads it from a stream. The argument `-` is
+/// standard input. A pipe or a device, such as `<(…)` of a shell, is read to its end.
 ///
-/// Reading a stream waits for its writer, so this function is for commands that an interrupt ends, not for an explorer that
-/// controls the terminal.
+/// A stream waits for its writer. A program that controls the terminal should call [`open`], which never waits.
 ///
 /// # Errors
-/// As [`open`].
+/// Returns the same errors as [`open`].
 pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
     if argument == "-" {
         return document_of(text_of_stream(io::stdin().lock()), "standard input");
@@ -94,10 +93,10 @@ fn whole(name: &str, message: String) -> SceneErrors {
     SceneError::whole(Origin::File { name: name.into(), place: None }, message).into()
 }
 
-/// Beginning of the lines above the scene in a table of results, and the line between them and the scene.
+/// Text with which a table of results begins, and text between its head and its scene.
 const TABLE: (&str, &str) = ("asperity ", "\nscene:\n");
 
-/// The document of a scene, or of the scene in a table of results, of which no other lines are read.
+/// Returns the document of a scene, or of the scene in a table of results, whose other lines are not read.
 fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, SceneErrors> {
     let text = text.map_err(|error| whole(name, describe(error)))?;
     if !text.starts_with(TABLE.0) {

@@ -1,4 +1,4 @@
-//! Allowed values of fields, as checks and as readable text.
+//! Allowed values of fields: checks of values, and text for readers.
 
 use std::fmt;
 use std::ops::Bound;
@@ -10,13 +10,14 @@ use std::ops::RangeBounds;
 pub enum Range {
     /// A finite real number between two ends.
     Real(Bound<f64>, Bound<f64>),
-    /// A whole number, both ends included.
+    /// An integer from the first to the second number, both included.
     Whole(u64, u64),
-    /// A pair `(first, last)` of whole numbers between these ends, first ≤ last, both ends included.
+    /// A pair `(first, last)` of integers with first ≤ last. Both lie between these ends, which are included.
     Band(u64, u64),
-    /// A pair `(longest, shortest)` of wavelengths between these ends, m, longest ≥ shortest, both ends included.
+    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest. Both lie between these ends, which are
+    /// included.
     Wavelengths(f64, f64),
-    /// Text without control characters.
+    /// Text without control characters, except for line breaks where they are allowed.
     Text {
         /// Smallest allowed number of characters.
         least: usize,
@@ -25,38 +26,38 @@ pub enum Range {
         /// True if line breaks are allowed.
         lines: bool,
     },
-    /// One of these values, each written in RON.
+    /// One of these values. Each value is written in RON, with example numbers.
     Choice(&'static [&'static str]),
-    /// A list of these values, each written in RON.
+    /// A list of values.
     List {
-        /// Allowed elements.
+        /// Allowed kinds of elements. Each kind is written in RON, with example numbers.
         of: &'static [&'static str],
         /// Smallest allowed number of elements.
         least: usize,
         /// Largest allowed number of elements.
         most: usize,
     },
-    /// A group of fields.
+    /// A group of fields, each with its own range.
     Group,
 }
 
 impl Range {
-    /// From `min` to `max`, both included.
+    /// Returns the range from `min` to `max`, both included.
     pub(super) const fn closed(min: f64, max: f64) -> Range {
         Range::Real(Included(min), Included(max))
     }
 
-    /// Above `min`, up to and including `max`.
+    /// Returns the range above `min` and up to `max`, which is included.
     pub(super) const fn above(min: f64, max: f64) -> Range {
         Range::Real(Excluded(min), Included(max))
     }
 
-    /// Above `min` and below `max`.
+    /// Returns the range above `min` and below `max`.
     pub(super) const fn between(min: f64, max: f64) -> Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true for an allowed real number; NaN and infinity are never allowed.
+    /// Returns true if a real number is allowed. NaN and infinity are never allowed.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -65,12 +66,13 @@ impl Range {
         }
     }
 
-    /// Returns true for an allowed integer.
+    /// Returns true if an integer is allowed.
     pub fn contains_whole(&self, value: u64) -> bool {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }
 
-    /// The smallest and the largest number of a numeric field; `None` for other fields.
+    /// Returns the smallest and the largest number of a numeric range; `None` for other ranges. An end may itself be
+    /// excluded.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => Some((min, max)),
@@ -81,12 +83,12 @@ impl Range {
     }
 }
 
-/// The name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`; the whole text if there is no name.
+/// Returns the name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`. A choice without a name is returned whole.
 pub(super) fn choice_name(choice: &str) -> &str {
     choice.split_once('(').map_or(choice, |(name, _)| if name.is_empty() { choice } else { name })
 }
 
-/// The part of a choice that identifies it: its name, or the first field of a group without a name.
+/// Returns the part that identifies a choice: its name, or the first field of a group without a name.
 pub(super) fn choice_key(choice: &str) -> &str {
     let key = choice_name(choice.trim());
     key.split_once(':').filter(|_| key.starts_with('(')).map_or(key, |(key, _)| key)
@@ -133,7 +135,7 @@ fn counts(least: usize, most: usize) -> String {
     if least == 0 { format!("at most {most}") } else { format!("{least} to {most}") }
 }
 
-/// Names of choices as a list in words: `Cone, Punch or None`.
+/// Returns the names of choices as a list in words: `Cone, Punch or None`.
 fn listed(choices: &[&str], last: &str) -> String {
     let names: Vec<&str> = choices.iter().map(|choice| choice_name(choice)).collect();
     match names.split_last() {

@@ -1,4 +1,4 @@
-//! Reader of the text of a scene, which explains errors in terms of scenes.
+//! Reader of the text of a scene, whose errors are in the words of scenes.
 
 use ron::Error;
 use ron::error::SpannedError;
@@ -11,14 +11,14 @@ use super::range::Range;
 use super::text::index::{Text, offset_of};
 use super::text::read_ron;
 
-/// Limit of the length of a value that messages repeat.
+/// Largest length of a value that messages repeat.
 const MOST_REPEATED: usize = 60;
 
 /// Message for a text that does not begin as a scene, such as a table of an instrument.
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
-/// The reason why a version is refused; the fields of the former version 2 are those of version 1.
+/// Returns the reason why a version is refused. The former version 2 had the fields of version 1.
 pub(super) fn reason_of_version(version: &str) -> &'static str {
     match version {
         "2" => "there is no version 2 any more: write version: 1, all other fields stay",
@@ -26,7 +26,7 @@ pub(super) fn reason_of_version(version: &str) -> &'static str {
     }
 }
 
-/// Reads a scene; its values are not checked. An error has the origin of the byte at which reading failed.
+/// Reads a scene without checking its values. `origin` gives the origin of an error at a byte of the text.
 pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
     read_ron(text).map_err(|error| {
         let (offset, error) = no_scene(text, &error).unwrap_or_else(|| explain(text, &error));
@@ -34,8 +34,8 @@ pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene
     })
 }
 
-/// The byte and the error of a text that does not begin as a scene, or has an unsupported version, which may be why the
-/// rest cannot be read; `None` for any other text.
+/// Returns the byte and the error of a text that does not begin as a scene or has an unsupported version, which may be why
+/// the rest is unreadable. Returns `None` for any other text.
 fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     if !source.trim().is_empty() && !source[..place_of(source, error).1].contains('(') {
         let start = source.len() - source.trim_start().len();
@@ -50,7 +50,7 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     Some((text.nearest_value("version"), error))
 }
 
-/// First byte of the error, and the byte that the reader has reached.
+/// Returns the first byte of the error, and the byte that the reader has reached.
 fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
@@ -63,7 +63,7 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     (if text[start..end].contains(something) { start } else { end }, end)
 }
 
-/// First byte of an error in a text, and the error in plain words.
+/// Returns the first byte of an error in a text, and the error in plain words.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
@@ -100,7 +100,7 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
     (offset, error)
 }
 
-/// Explains the error of a value: a single value is marked as a whole and repeated, with the allowed values.
+/// Explains the error of a value. A single value is marked as a whole and repeated, with the allowed values.
 fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
     let value = text
         .written(path)
@@ -116,12 +116,12 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
     (offset, error)
 }
 
-/// Returns true for a field of the plan of a study in place of one of a scene, which are the expected ones.
+/// Returns true if a field of the plan of a study was found where fields of a scene were expected.
 fn is_of_plan(found: &str, expected: &[&str]) -> bool {
     ["scene", "axes", "preloads", "profiles", "record"].contains(&found) && expected.contains(&"material")
 }
 
-/// Message of the reader in plain words.
+/// Returns the message of the reader in plain words.
 fn plain(error: &Error) -> String {
     let text = match error {
         Error::Eof => "the text ends too early",

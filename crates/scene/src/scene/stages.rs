@@ -1,4 +1,4 @@
-//! Loading stages: the one table of their kinds, and loadings as text, which reads back as the same loading.
+//! Loading stages: the table of their kinds, and loadings as text that can be read back.
 
 use super::range::choice_name;
 use super::text::ron_float;
@@ -7,23 +7,23 @@ use asperity_data::shown;
 use asperity_data::{QuantityError, parse_quantity};
 use std::mem::discriminant;
 
-/// Limit of the number of stages of a loading.
+/// Largest number of stages of a loading.
 pub(super) const MOST_STAGES: usize = 100_000;
 
-/// A kind of loading stage.
+/// A kind of loading stage: what ends the stage, such as a force or first touch.
 #[derive(Debug)]
 pub struct StageKind {
     example: &'static str,
-    /// Name of the target in words.
+    /// Name in words of what ends the stage.
     word: &'static str,
-    /// SI unit of its number; empty for a kind without a number.
+    /// SI unit of the number that ends the stage; empty for a kind without a number.
     pub unit: &'static str,
-    /// Creates the stage from its number.
+    /// Function that makes the stage from its number. A kind without a number ignores the argument.
     pub stage: fn(f64) -> Move,
 }
 
-/// All kinds, in the order in which a key changes them. Of several kinds with the same unit, the first is written as a
-/// number alone, and the others as their word and a number.
+/// All kinds of loading stages, in the order in which a key changes them. In text, a force or an indentation is only a number
+/// with a unit. A displacement is in metres too, so its word precedes the number.
 pub const STAGE_KINDS: [StageKind; 6] = [
     StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
     StageKind {
@@ -43,7 +43,7 @@ pub const STAGE_KINDS: [StageKind; 6] = [
     StageKind { example: "ToSeparation", word: "separation", unit: "", stage: |_| Move::ToSeparation },
 ];
 
-/// The examples of all kinds.
+/// Examples of all kinds in RON.
 pub(super) const STAGES: [&str; STAGE_KINDS.len()] = {
     let (mut examples, mut place) = ([""; STAGE_KINDS.len()], 0);
     while place < examples.len() {
@@ -53,7 +53,7 @@ pub(super) const STAGES: [&str; STAGE_KINDS.len()] = {
     examples
 };
 
-/// Index of the kind of a stage in [`STAGE_KINDS`], and the number of the stage, if it has one.
+/// Returns the index of the kind of a stage in [`STAGE_KINDS`], and the number that ends the stage, if it has one.
 pub fn kind_and_number(stage: &Move) -> (usize, Option<f64>) {
     let is_same = |kind: &StageKind| discriminant(&(kind.stage)(0.0)) == discriminant(stage);
     let number = match *stage {
@@ -63,20 +63,20 @@ pub fn kind_and_number(stage: &Move) -> (usize, Option<f64>) {
     (STAGE_KINDS.iter().position(is_same).unwrap_or_default(), number)
 }
 
-/// Largest force that the loading stages press to, N; 0 if there is none.
+/// Returns the largest target force of the loading stages in N; 0 if no stage has a positive one.
 pub fn pressing_force(loading: &[Move]) -> f64 {
     let force = |stage: &Move| if let Move::ToForce(force) = *stage { force } else { 0.0 };
     loading.iter().map(force).fold(0.0, f64::max)
 }
 
-/// A stage in RON.
+/// Returns a loading stage in RON: `ToForce(1.0e-5)`.
 pub fn stage_in_ron(stage: &Move) -> String {
     let (kind, number) = kind_and_number(stage);
     let name = choice_name(STAGES[kind]);
     number.map_or_else(|| name.to_owned(), |number| format!("{name}({})", ron_float(number)))
 }
 
-/// A stage as text, with its number in this format: `10 µN`, `touch`.
+/// Returns a loading stage as text, with its number in this format: `10 µN`, `touch`.
 fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     let (place, number) = kind_and_number(stage);
     let StageKind { word, unit, .. } = STAGE_KINDS[place];
@@ -88,8 +88,8 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// A loading as text; repeated minor loops are one item: `10 µN, 3 loops 0 N to 10 µN, separation`. With
-/// [`exact_quantity`](asperity_data::exact_quantity) as the format, `read_loading` returns the same loading.
+/// Formats a loading as text for readers: `10 µN, 3 loops 0 N to 10 µN, separation`. Repeated loops between two stages become
+/// one item. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] returns the same loading.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -117,10 +117,10 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
     items.join(", ")
 }
 
-/// Reads a loading as [`loading_text`] writes it, in brackets or not; stages may also be in RON, with units or not.
+/// Reads a loading as [`loading_text`] writes it. The text may be in square brackets, and a stage may also be in RON.
 ///
 /// # Errors
-/// A text that is no stage, or too many stages.
+/// Returns an error if a part of the text is no stage, or if there are more than 100 000 stages.
 pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     let list = text.trim().strip_prefix('[').and_then(|list| list.strip_suffix(']')).unwrap_or(text);
     let mut loading = Vec::new();
@@ -143,10 +143,11 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// Reads a stage as [`loading_text`] writes it. A number without a unit is of the kind `usual`, by default a force.
+/// Reads a loading stage as [`loading_text`] writes it. A number without a unit has the kind `usual`, an index in
+/// [`STAGE_KINDS`]; `None` is a force.
 ///
 /// # Errors
-/// A text that is no stage.
+/// Returns an error if the text is no stage.
 ///
 /// ```
 /// use asperity_contact::Move;

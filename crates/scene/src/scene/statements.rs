@@ -1,4 +1,4 @@
-//! The numbers that define a scene, in the order of the table of fields.
+//! Values that define a scene, in the order of the table of fields.
 
 use super::field::Field;
 use super::fields::fields_inside;
@@ -9,20 +9,20 @@ use super::tree::Tree;
 use asperity_data::exact_quantity;
 use asperity_data::grouped;
 
-/// Paths of fields without an effect on the solution.
+/// Paths of fields on which the solution does not depend.
 const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numerics.samples"];
 
-/// A field of a scene with its value in words.
+/// A field of a scene and its value as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
     /// The field.
     pub field: &'static Field,
-    /// Value of the field, with its unit and all digits.
+    /// Value of the field with its unit and all its digits.
     pub value: String,
 }
 
-/// The values that a scene states: all numbers, and the choices and names that differ from their defaults. For a choice
-/// with numbers, only its numbers.
+/// Lists the values on which the solution depends: all numbers, and the choices and names that are not defaults. A group,
+/// such as the form, is listed by its numbers.
 ///
 /// ```
 /// use asperity_scene::{open, statements};

@@ -1,4 +1,4 @@
-//! Steps of a field by a key, from the text of one value to the text of the next.
+//! Steps of a field by a key: from the text of one value to the text of the next.
 
 use super::field::{Field, Step};
 use super::fields::fields_inside;
@@ -15,11 +15,11 @@ const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
 const SAME: f64 = 1e-9;
 
 impl Field {
-    /// The value `steps` presses of a key away from `value`, both as in a scene file; `None` at the end of the range, or
-    /// for a field that is only typed.
+    /// Returns the value of this field after `steps` presses of a key, each a large step if `coarse` is true. The given and
+    /// the returned value are RON text. Returns `None` at the end of the range, or if keys cannot change the field.
     ///
-    /// Numbers stay within the range of the field. Choices repeat in a circle, which includes `None` for an optional field
-    /// and leaves out choices that require a text.
+    /// Numbers stay within the range of the field. Choices repeat in a circle. The circle includes `None` for an optional
+    /// field, and leaves out choices that need a text, such as the name of a file.
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if steps == 0 {
             return None;
@@ -63,7 +63,7 @@ impl Field {
         next.filter(|next| next != value && number(next).is_none_or(|next| number(value) != Some(next)))
     }
 
-    /// The preferred number `steps` steps away, or the first one outside the range of the field.
+    /// Returns the preferred number `steps` steps away, or the first one outside the range of the field.
     fn preferred(&self, value: f64, steps: i32, coarse: bool) -> Option<f64> {
         let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
         let mut next = preferred(value, series, steps > 0)?;
@@ -112,13 +112,13 @@ fn number(text: &str) -> Option<f64> {
     ron::from_str(text).ok().filter(|value: &f64| value.is_finite())
 }
 
-/// A multiple of `unit` without the rounding errors of binary arithmetic: 0.71, not 0.7100000000000001.
+/// Rounds a multiple of `unit` to its decimal digits: 0.71, not 0.7100000000000001.
 fn decimal(value: f64, unit: f64) -> f64 {
     let digits = (-unit.log10()).ceil().max(0.0) as usize;
     format!("{value:.digits$}").parse().unwrap_or(value)
 }
 
-/// The power of two `times` steps above or below a value.
+/// Returns the power of two `times` steps above or below a value.
 fn doubled(value: u64, times: i32) -> u64 {
     (0..times.unsigned_abs().min(64)).fold(value, |value, _| match value {
         value if times > 0 => value.saturating_add(1).checked_next_power_of_two().unwrap_or(u64::MAX),
@@ -127,7 +127,7 @@ fn doubled(value: u64, times: i32) -> u64 {
     })
 }
 
-/// The next member of a series of preferred numbers in [1, 10), which repeats in all decades.
+/// Returns the next member of a series of preferred numbers in [1, 10), which repeats in all decades.
 fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
     if value == 0.0 {
         return None;

@@ -1,4 +1,4 @@
-//! Switching effects of a document off and on, and stepping through choices.
+//! Effects of a document, switched off and on, and steps through choices.
 
 use super::adhesion::Adhesion;
 use super::document::{Document, pair};
@@ -10,17 +10,17 @@ use super::range::{Range, choice_key};
 use super::text::read_ron;
 use super::tree::{Tree, differing};
 
-/// The adhesion that is given to a smooth body.
+/// Adhesion that a smooth body gets.
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
-    /// This document without an effect; unchanged if the effect is off already.
+    /// Returns this document without an effect; unchanged if the effect is already off.
     ///
-    /// If the roughness is switched off, adhesion by κ or e_el/γ becomes adhesion by a work: the work that was given
-    /// before, else the usual one. Without unloading, only the stage that presses most remains.
+    /// Without roughness, κ or e_el/γ cannot give the work of adhesion. The scene then gets the work that it last had, or 50
+    /// mJ/m². Without unloading, only the stage that presses most remains.
     ///
     /// # Errors
-    /// The scene does not allow the effect to be left out.
+    /// Returns an error if the scene needs the effect.
     pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
@@ -47,13 +47,13 @@ impl Document {
         Ok(new)
     }
 
-    /// This document with an effect; unchanged if the effect is on already.
+    /// Returns this document with an effect; unchanged if the effect is already on.
     ///
-    /// Restores the values that were removed when the effect was switched off; values changed since then stay. If there are
-    /// none, or if they are no longer valid, the effect takes values that suit the scene.
+    /// The effect gets back the values that it had when it was switched off. A value that was changed since then stays. If
+    /// there are no such values, or if they are no longer valid, the effect gets values that suit the scene.
     ///
     /// # Errors
-    /// The effect is impossible in the scene, such as roughness on a single spring.
+    /// Returns an error if the effect is impossible in the scene, such as roughness on a single spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
@@ -66,31 +66,31 @@ impl Document {
         restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
     }
 
-    /// This document with the values of another scene. In a group with the same choice, only the changed numbers are
-    /// replaced.
+    /// Returns this document with the values of another scene. A group that has the same variant in both scenes keeps its
+    /// text; only changed numbers are replaced.
     ///
     /// # Errors
-    /// Invalid values.
+    /// Returns an error for each invalid value.
     pub fn with_scene(&self, scene: &Scene) -> Result<Document, SceneErrors> {
         self.set_all(&overrides_to(self.scene(), scene))
     }
 
-    /// This document with another adhesion; see [`Document::with_scene`].
+    /// Returns this document with another adhesion, as [`Document::with_scene`] does.
     ///
     /// # Errors
-    /// An invalid value.
+    /// Returns an error if a value is invalid.
     pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
         self.with_scene(&Scene { adhesion: Some(adhesion), ..Scene::clone(self.scene()) })
     }
 
-    /// This document with the next choice of a field, forwards or backwards, that the scene allows; `None` if there is no
-    /// other.
+    /// Returns this document with the next choice of a field that the scene allows, or the previous one if `forwards` is
+    /// false. Returns `None` if there is no other choice.
     ///
-    /// The choice that omits an effect switches it off, and the next one switches it on again. A choice that was left
-    /// before comes back as it was then; any other choice has its usual numbers.
+    /// The choice that omits an effect switches it off, and the next choice switches it on again. A choice that the field had
+    /// earlier gets back its numbers. Any other choice has its usual numbers.
     ///
     /// # Errors
-    /// No other choice is allowed.
+    /// Returns an error if the scene allows none of the other choices.
     pub fn with_next_choice(&self, field: &Field, forwards: bool) -> Result<Option<Document>, SceneErrors> {
         let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
         let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
@@ -128,8 +128,8 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// This document with a choice as it was left, if that is still allowed, else with values that suit the scene or are
-    /// usual.
+    /// Returns this document with a choice as the field last had it, if that is still allowed. Otherwise the choice has
+    /// values that suit the scene, or its usual values.
     fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
         let is_same = |text: &str| choice_key(text) == choice_key(choice);
         let left = self.left.iter().find(|(of, text)| *of == path && is_same(text));
@@ -150,7 +150,7 @@ impl Document {
     }
 }
 
-/// Overrides that turn one scene into another; a field that is no longer given is replaced together with its group.
+/// Returns overrides that turn one scene into another. A field that is no longer given is replaced together with its group.
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
     let [from, to] = [from, to].map(Tree::of);
     let changed = differing([&from, &to], |before, after| after || !before).into_iter();

@@ -1,4 +1,4 @@
-//! A scene as a tree of values that are read, set and written by the paths of the table of fields.
+//! A scene as a tree of values, which are read, set and written by the paths of the table of fields.
 
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -9,8 +9,8 @@ use super::model::Scene;
 use super::range::Range;
 use super::text::{ron_float, ron_string};
 
-/// The values of a scene as JSON. A choice is the name of its variant, or an object with this name as its only key and the
-/// fields of the variant inside; an omitted field has no value.
+/// Values of a scene as a JSON tree. A variant without fields is its name; a variant with fields is an object whose only key
+/// is the name. An omitted field has no value.
 ///
 /// ```
 /// use asperity_scene::{Tree, open};
@@ -24,28 +24,29 @@ use super::text::{ron_float, ron_string};
 pub struct Tree(Value);
 
 impl Tree {
-    /// The values of a scene. A number that is not finite becomes `null`.
+    /// Returns the values of a scene. A number that is not finite becomes `null`.
     pub fn of(scene: &Scene) -> Tree {
         Tree(serde_json::to_value(scene).unwrap_or_default())
     }
 
-    /// The scene that has these values.
+    /// Returns the scene with these values.
     ///
     /// # Errors
-    /// The contradiction between fields, with their paths.
+    /// Returns an error if fields contradict each other; the text names their paths.
     pub fn scene(self) -> Result<Scene, String> {
         serde_json::from_value(self.0).map_err(|error| error.to_string())
     }
 
-    /// Number at a path: `form.radius`, `roughness.modes.0`, `loading.1.0`.
+    /// Returns the number at a path, such as `form.radius`, `roughness.modes.0` or `loading.1.0`; `None` if there is no
+    /// number.
     pub fn get(&self, path: &str) -> Option<f64> {
         self.at(path)?.as_f64()
     }
 
-    /// Sets the number at a path, valid or not. An omitted number of the selected choice is added; a missing adhesion is
-    /// created for one of its numbers.
+    /// Sets the number at a path, valid or not. A number that the selected variant omits is added. A number of a missing
+    /// adhesion adds the adhesion.
     ///
-    /// Returns `false`, with the tree unchanged, if the scene has no such number.
+    /// Returns false, with the tree unchanged, if the scene can have no number there.
     pub fn set(&mut self, path: &str, value: f64) -> bool {
         let is_adhesion = |field: &Field| field.parent() == "adhesion" && self.0["adhesion"].is_null();
         let row = FIELDS.iter().find(|row| row.path == path && (self.has(row) || is_adhesion(row)));
@@ -75,7 +76,7 @@ impl Tree {
         true
     }
 
-    /// Value at a path, where names of variants do not count.
+    /// Returns the value at a path, which has no names of variants.
     fn at(&self, path: &str) -> Option<&Value> {
         path.split('.').try_fold(&self.0, |group, name| match contents(group) {
             Value::Object(group) => group.get(name),
@@ -86,34 +87,34 @@ impl Tree {
         })
     }
 
-    /// Returns true if a field belongs to the selected choices.
+    /// Returns true if a field belongs to the selected variants.
     pub(super) fn has(&self, field: &Field) -> bool {
         let group = if field.parent().is_empty() { Some(&self.0) } else { self.at(field.parent()) };
         let is_of = |group: &Value| field.variant.is_none() || field.variant == variant(group);
         group.is_some_and(|group| !group.is_null() && is_of(group))
     }
 
-    /// Value of a field; `None` if it is omitted, or belongs to a choice that is not selected. A number that is not finite
-    /// is `null`.
+    /// Returns the value of a field; `None` if it is omitted or belongs to a variant that is not selected. A number that is
+    /// not finite is `null`.
     pub(super) fn value(&self, field: &Field) -> Option<&Value> {
         let is_given = |value: &&Value| !value.is_null() || matches!(field.range, Range::Real(..));
         self.at(field.path).filter(is_given).filter(|_| self.has(field))
     }
 
-    /// The fields inside a field, for its selected choice.
+    /// Returns the fields inside a field, for its selected variant.
     pub(super) fn inside(&self, field: &Field) -> Vec<&'static Field> {
         let has_fields = matches!(field.range, Range::Choice(_) | Range::Group);
         let value = self.value(field).filter(|_| has_fields);
         value.map_or_else(Vec::new, |value| fields_inside(field.path, variant(value)).collect())
     }
 
-    /// Value of an omitted field, as written; empty if the field is required.
+    /// Returns the value of an omitted field in RON; empty if the field is required.
     pub(super) fn default(&self, field: &Field) -> &'static str {
         let is_stepwise = field.path == "numerics.edges" && self.at("numerics.solver.step").is_some();
         if is_stepwise { "Grid" } else { field.default }
     }
 
-    /// Value of a field in RON, or its default. `None` if the field belongs to a choice that is not selected.
+    /// Returns the value of a field in RON, or its default; `None` if it belongs to a variant that is not selected.
     pub(super) fn written(&self, field: &Field) -> Option<String> {
         let Some(value) = self.value(field) else {
             return self.has(field).then(|| self.default(field).into());
@@ -135,7 +136,7 @@ impl Tree {
         })
     }
 
-    /// The fields that differ from their defaults, as `name: value`.
+    /// Returns the fields that differ from their defaults, as `name: value`.
     fn entries(&self, fields: &[&Field]) -> impl Iterator<Item = String> {
         fields.iter().filter_map(|field| {
             let value = self.written(field).filter(|value| value != self.default(field))?;
@@ -144,8 +145,9 @@ impl Tree {
     }
 }
 
-/// Fields with different values in two scenes: each by itself where both scenes make the same choices and `splits` is true
-/// for every field of the group (given whether it is stated in each scene), otherwise the group.
+/// Returns the fields that differ between two scenes. Fields of a group are compared one by one if both scenes have the same
+/// variant and `splits` is true for each; otherwise the whole group counts. `splits` gets whether each scene states the
+/// field.
 pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Vec<&'static Field> {
     let mut fields: Vec<&Field> = fields_inside("", None).collect();
     let mut found = Vec::new();
@@ -169,7 +171,7 @@ pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Ve
     found
 }
 
-/// The scene as canonical RON text that ends in a line break and omits fields with their default; parsing it returns the
+/// Writes a scene as RON text, without fields that have their default. The text ends in a line break and reads back as the
 /// same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let tree = Tree::of(scene);
@@ -178,12 +180,12 @@ pub fn to_ron(scene: &Scene) -> String {
     format!("(\n{lines})\n")
 }
 
-/// A loading stage, or a list of stages or observers, in RON.
+/// Returns a loading stage, or a list of stages or observers, in RON.
 pub(super) fn in_ron(value: &impl Serialize) -> String {
     written(&serde_json::to_value(value).unwrap_or_default())
 }
 
-/// A value without fields in RON: a number, a name, a loading stage, or a list of these.
+/// Returns a value without fields in RON: a number, a name, a loading stage, or a list of them.
 pub(super) fn written(value: &Value) -> String {
     match value {
         Value::Number(number) if number.is_f64() => ron_float(number.as_f64().unwrap_or_default()),
@@ -199,7 +201,7 @@ fn joined(list: &[Value], written: impl Fn(&Value) -> String) -> String {
     list.iter().map(written).collect::<Vec<_>>().join(", ")
 }
 
-/// Name of the variant of a choice; `None` for a value that is no choice.
+/// Returns the name of the variant of a value, or `None` if it has no variants.
 fn variant(value: &Value) -> Option<&str> {
     match value {
         Value::String(name) => Some(name),
@@ -210,7 +212,7 @@ fn variant(value: &Value) -> Option<&str> {
     }
 }
 
-/// The value without the name of its variant.
+/// Returns the value without the name of its variant.
 fn contents(value: &Value) -> &Value {
     match (value, variant(value)) {
         (Value::Object(group), Some(name)) => &group[name],

@@ -1,4 +1,4 @@
-//! Outcome of a computed scene, or the reason why there is none.
+//! Results of a scene, or the reason why there are none.
 
 use super::reach::BeyondFullContact;
 use crate::analysis::governing::{Governing, SteepWaves};
@@ -11,93 +11,94 @@ use asperity_surface::{Histogram, SurfaceError};
 use serde::Serialize;
 use thiserror::Error;
 
-/// All results of a scene.
+/// All results of a computed scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// Facts about the profile.
+    /// Numbers that describe the profile.
     pub line: LineFacts,
-    /// Governing parameters.
+    /// Modulus, work of adhesion, roughness, κ and e_el/γ.
     pub governing: Governing,
-    /// Ideal adhesion force F_a,max, eq. (14), N; `None` without adhesion.
+    /// Ideal adhesion force F_a,max of eq. (14) in N; `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
-    /// Adhesion force F_smooth, N, of the same body without roughness after the same preload; `None` without adhesion.
+    /// Adhesion force F_smooth in N of the same body without roughness after the same preload; `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(d=0), N; `None` without adhesion or an unloading stage.
+    /// Adhesion force F_a(d=0) in N, turned at first touch; `None` without adhesion or without an unloading stage.
     pub first_touch_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(F=0), N; `None` without adhesion or an unloading stage.
+    /// Adhesion force F_a(F=0) in N, turned at zero force; `None` without adhesion or without an unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
-    /// Tabor number μ; `None` without adhesion or a radius of curvature.
+    /// Tabor number μ; `None` without adhesion or without a radius of curvature.
     pub tabor_number: Option<f64>,
-    /// Waves of a sphere, if they are too steep for the theory of Johnson, Kendall and Roberts.
+    /// Waves of a wavy sphere, if they are too steep for the theory of Johnson, Kendall and Roberts.
     pub steep_waves: Option<SteepWaves>,
-    /// Regime of adhesion (Fig. 4) turned at first touch; `None` without a tensile force.
+    /// Regime of adhesion (Fig. 4) that follows from F_a(d=0); `None` for a loading without a tensile force.
     pub regime: Option<Regime>,
-    /// Regime of adhesion turned at zero force; `None` without a tensile force.
+    /// Regime of adhesion that follows from F_a(F=0); `None` for a loading without a tensile force.
     pub regime_after_zero_force: Option<Regime>,
-    /// Headline figures of the loading history.
+    /// Main forces and energies of the loading, such as preload, adhesion force and dissipated energy.
     pub figures: Figures,
-    /// Figures over the displacement of the instrument; `None` for a rigid instrument.
+    /// Results over the displacement of the instrument; `None` for a rigid instrument.
     pub instrument: Option<InstrumentFigures>,
-    /// The loading history itself.
+    /// Force curves of all loading stages, and the contact at their ends.
     pub history: History,
-    /// Contact patches after each loading stage, if observed.
+    /// Contact patches at the end of each loading stage. Empty unless the scene records them.
     pub fragments: Vec<Vec<Patch>>,
-    /// Histogram of the heights of the profile, if observed.
+    /// Histogram of the heights of the profile; `None` unless the scene records it.
     pub histogram: Option<Histogram>,
-    /// Times of the computing stages.
+    /// Times of the computation.
     pub timings: Timings,
 }
 
 impl Outcome {
-    /// Adhesion force over the ideal one, F_a/F_a,max; `None` without either.
+    /// Returns the adhesion force over the ideal one, F_a/F_a,max; `None` without a tensile force or without adhesion.
     pub fn adhesion_share(&self) -> Option<f64> {
         Some(self.figures.adhesion_force? / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?)
     }
 }
 
-/// Facts about a profile, without its heights.
+/// Numbers that describe a profile, without its heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineFacts {
-    /// Number of springs N of the foundation.
+    /// Number N of springs along the length L.
     pub points: usize,
-    /// Apparent diameter L, m.
+    /// Apparent diameter L in m.
     pub length: f64,
-    /// Spring spacing Δx, m.
+    /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Index of the first spring under the body; above zero only under a punch.
+    /// Index of the first spring under the body, which is above zero only for a punch.
     pub first: usize,
-    /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
+    /// Height of the highest point in m. The apex of the form without roughness has the height zero.
     pub summit: f64,
-    /// Largest gap, m.
+    /// Largest gap in m: depth of the lowest point of the profile below its highest point.
     pub deepest: f64,
-    /// First and last mode of the roughness.
+    /// First and last mode of a random roughness, in waves per length; `None` for other profiles.
     pub modes: Option<(u64, u64)>,
-    /// Seed of the roughness.
+    /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient by the integrals of eq. (12), for the same rms height.
+    /// Rms gradient by the integrals of eq. (12) for the same rms height, in place of sums over modes; `None` unless
+    /// self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// Times of the computing stages, s; zero for a stage that did not run.
+/// Times of the parts of a computation in s; zero for a part that was not repeated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
-    /// Time for making the profile, s.
+    /// Time in s for making the profile.
     pub line: f64,
-    /// Time for building the contact tree and counting heights into the histogram, s.
+    /// Time in s for building the contact tree ([`Stage::Tree`](crate::Stage::Tree)) and for the histogram of heights.
     pub tree: f64,
-    /// Time for the thresholds of all loading stages, or for the steps of the stepwise solver, s.
+    /// Time in s for finding the indentations at which patches change, or for the steps of the stepwise solver.
     #[serde(rename = "loop")]
     pub passes: f64,
-    /// Time for the curves and exact extremes of all loading stages, s.
+    /// Time in s for the force curves of all loading stages and their extreme forces.
     pub curve: f64,
-    /// Time for F_a(d=0) and F_a(F=0), for the regimes, s.
+    /// Time in s for F_a(d=0) and F_a(F=0), which the regimes need.
     pub without_preload: f64,
 }
 
 impl Timings {
-    /// Time of all computing stages, s.
+    /// Returns the sum of all times in s.
     pub fn total(&self) -> f64 {
         self.line + self.tree + self.passes + self.curve + self.without_preload
     }
@@ -107,51 +108,51 @@ impl Timings {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// A variant of the scene that the computation needs has values out of their ranges.
+    /// The computation changes the scene, and a changed value is out of its range.
     #[error(transparent)]
     Values(#[from] SceneErrors),
-    /// The scene does not fit into memory.
+    /// There is not enough memory for the scene.
     #[error(
         "not enough memory: this scene takes about {} MiB; fewer numerics.points and numerics.samples take less",
         bytes.div_ceil(1 << 20)
     )]
     OutOfMemory {
-        /// Required bytes.
+        /// Required memory in bytes.
         bytes: u64,
     },
-    /// The profile could not be made, for this reason.
+    /// The profile could not be made.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Reversals were requested for the stepwise solver.
+    /// Unloadings from many turning points were requested, which need the exact solver.
     #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
     NeedsExactSolver,
-    /// Turning points were requested for a loading that never presses.
+    /// Turning points were requested for a loading that never presses the bodies together.
     #[error(
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
-    /// No loading reaches the preload, since the contact already has a larger force at first touch.
+    /// The preload is below the force at first touch, so no loading ends there.
     #[error(
         "preload {}: allowed: at least the force at first touch, {}",
         format_quantity(*preload, "N"),
         format_quantity(rounded_up(*touch), "N")
     )]
     BelowTouch {
-        /// The preload, N.
+        /// Requested preload in N.
         preload: f64,
-        /// Force at first touch, N.
+        /// Force at first touch in N.
         touch: f64,
     },
-    /// A stage presses the body deeper than one length of the profile beyond full contact.
+    /// A loading stage presses the body deeper than one length of the profile beyond full contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
-    /// The contact could not be computed, for this reason.
+    /// The contact could not be computed.
     #[error(transparent)]
     Contact(#[from] ContactError),
 }
 
 impl RunError {
-    /// Returns true if the computation was stopped rather than failed.
+    /// Returns true if the caller stopped the computation.
     pub fn is_interruption(&self) -> bool {
         *self == RunError::Contact(ContactError::Interrupted)
     }

@@ -1,4 +1,4 @@
-//! Targets out of reach of the model, in words, with the nearest target within reach.
+//! Loading stages beyond the reach of the model: the reason in words, and the nearest allowed target.
 
 use crate::scene::field::target_field;
 use asperity_contact::Contact;
@@ -6,8 +6,8 @@ use asperity_contact::Move;
 use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 
-/// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. Beyond full
-/// contact the force curve is a straight line, and a body so deep is no longer on a half-space with small deformations.
+/// Deepest state that the model covers: the body is one length of the profile deeper than at full contact. Beyond full
+/// contact the force curve is a straight line, and a deeper body is no longer on a half-space with small deformations.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -20,18 +20,18 @@ use thiserror::Error;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
-    /// Force, N, and indentation, m, at which the last spring touches.
+    /// Force in N and indentation in m at which the last spring touches.
     pub full_contact: (f64, f64),
-    /// Force in the deepest state, N.
+    /// Force of the deepest state in N.
     pub force: f64,
-    /// Indentation in the deepest state, m.
+    /// Indentation of the deepest state in m.
     pub indentation: f64,
-    /// Displacement of the instrument in the deepest state, m.
+    /// Displacement of the instrument in the deepest state in m.
     pub displacement: f64,
 }
 
 impl Reach {
-    /// Finds the deepest state of a contact within reach of the model.
+    /// Computes the deepest state of a contact that the model covers.
     pub fn of(contact: &Contact) -> Reach {
         let length = contact.profile().length();
         let full_contact = (contact.full_contact_force(), contact.profile().deepest());
@@ -41,7 +41,7 @@ impl Reach {
         Reach { full_contact, force, indentation, displacement }
     }
 
-    /// Reason why a stage beyond the deepest state is refused, in words; `None` for a stage within reach.
+    /// Returns in words why a stage is refused; `None` for a stage that ends no deeper than the deepest state.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }
@@ -58,7 +58,7 @@ impl Reach {
     }
 }
 
-/// A stage that presses the body deeper than one length of the profile beyond full contact.
+/// Error of a loading stage that presses the body deeper than one length of the profile beyond full contact.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
     "{} is far beyond full contact at {}, deeper by more than the length of the profile; allowed: at most {}",
@@ -67,17 +67,17 @@ impl Reach {
     format_quantity(*allowed, unit)
 )]
 pub struct BeyondFullContact {
-    /// Target of the stage, in `unit`.
+    /// Force, indentation or displacement that should end the stage, in `unit`.
     pub found: f64,
-    /// Value at full contact of the quantity that is the target (force, indentation or displacement), in `unit`.
+    /// Force, indentation or displacement at full contact, in `unit`.
     pub full_contact: f64,
-    /// Largest allowed target, rounded to four digits, in `unit`.
+    /// Largest allowed value, in `unit`, rounded down to four digits.
     pub allowed: f64,
-    /// SI unit of the three numbers: N or m.
+    /// SI unit of the three numbers, N or m.
     pub unit: &'static str,
 }
 
-/// Returns an error for a loading with a stage beyond the deepest state.
+/// Returns an error if a stage of the loading ends beyond the deepest state.
 pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFullContact> {
     let length = contact.profile().length();
     // Even without the way to full contact most loadings are within reach.
@@ -94,7 +94,7 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
     beyond.max_by(|one, other| one.found.total_cmp(&other.found)).map_or(Ok(()), Err)
 }
 
-/// Force by which an indentation of one length of the profile increases the force at full contact, N.
+/// Returns the force in N that is added to the force at full contact if the body goes one length of the profile deeper.
 fn force_of_a_length(contact: &Contact) -> f64 {
     contact.spring_stiffness() * contact.gaps().len() as f64 * contact.profile().length()
 }

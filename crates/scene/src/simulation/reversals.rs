@@ -1,4 +1,4 @@
-//! Reversals of a scene: the unloadings from many turning points of one loading.
+//! Unloadings from many turning points of one loading.
 
 use super::outcome::RunError;
 use super::reach;
@@ -13,23 +13,24 @@ use asperity_contact::Move;
 use asperity_contact::{Body, ContactError, Reversal};
 use std::ops::RangeInclusive;
 
-/// Allowed number of turning points of a map.
+/// Allowed numbers of turning points of a [`ReversalMap`].
 pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
-/// Limit of the number of points of a map below its first turning point, over the number of turning points.
+/// Largest number of grid points of a map below its first turning point, over the number of turning points.
 const MOST_BELOW: usize = 4;
-/// Number of samples of a loading stage whose curve is not used.
+/// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
 
-/// Function that receives reversals, each with the index of its turning point.
+/// Function that receives each unloading with the index of its turning point.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Unloads a checked scene to separation from the end of each of these stages, every one of which begins at separation.
-    /// `see` receives each reversal with the index of its stage, the shallowest first, with the forces at `points`,
-    /// ascending indentations in m. `stop` is polled between two reversals.
+    /// Loads a checked scene from separation to each of the stages `ends` and unloads it to separation again. `see` receives
+    /// each unloading with the index of its stage, the shallowest first. Each unloading has its forces at the indentations
+    /// `points`, which are in m and ascend. `stop` is asked after each unloading.
     ///
     /// # Errors
-    /// The scene has the stepwise solver, an end is out of reach, memory is insufficient, or `stop` returned true.
+    /// Returns an error if the scene has the stepwise solver, if the profile cannot be made, or if the contact cannot reach a
+    /// stage. A stopped computation is also an error.
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
@@ -50,21 +51,22 @@ impl Simulation {
         Ok(Body::new(&contact, scene.numerics.samples as usize).reversals(ends, points, &mut see)?)
     }
 
-    /// The deepest state of a checked scene within reach of the model.
+    /// Returns the deepest state of a checked scene that the model covers.
     ///
     /// # Errors
-    /// As for the profile in [`Simulation::run`].
+    /// Returns an error if the profile cannot be made.
     pub fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
         let plan = Workload::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 
-    /// First-order reversal curves of a checked scene from `count` equally spaced turning points, at indentations with the
-    /// same spacing down to separation. The turning points lie between the indentations of two preloads, N, or else between
-    /// first touch and the preload of the scene's own loading.
+    /// Unloads a checked scene from `count` turning points, and returns the unloading curves (first-order reversal curves).
+    /// The turning points are equally spaced between the indentations at two preloads in N. Without `preloads` the turning
+    /// points lie between first touch and the preload of the scene. A `count` outside [`TURNING_POINTS`] becomes the nearest
+    /// allowed number.
     ///
     /// # Errors
-    /// As for [`Simulation::reverse`], and for a loading that never presses.
+    /// Returns the same errors as [`Simulation::reverse`], and an error if the loading never presses.
     ///
     /// ```
     /// use asperity_scene::{Simulation, open};

@@ -1,4 +1,4 @@
-//! Heights of the roughness of a scene, synthesised or measured.
+//! Heights of the roughness of a scene, random or measured.
 
 use super::outcome::RunError;
 use crate::scene::fields::MOST_POINTS;
@@ -20,11 +20,11 @@ pub(super) struct RoughnessKey {
     shift: f64,
 }
 
-/// Where a roughness comes from.
+/// Source of a roughness.
 #[derive(Clone, PartialEq)]
 enum Source {
     SelfAffine(SelfAffine),
-    /// Paths of the files of each face, and the length of the line, m.
+    /// Paths of the files of each face, and the length of the profile in m.
     Measured {
         faces: Vec<Vec<PathBuf>>,
         options: MeasuredOptions,
@@ -32,12 +32,12 @@ enum Source {
     },
 }
 
-/// Heights of a roughness before scaling, with what is known of them.
+/// Heights of a roughness before scaling, with what is known about them.
 pub(super) struct Rough {
     pub key: RoughnessKey,
     /// Heights; empty once their memory has become the gaps of the profile.
     pub heights: Vec<f64>,
-    /// Amplitude of the self-affine profile, scaled to rms height 1 m on a length of 1 m.
+    /// Amplitude of the self-affine profile for an rms height of 1 m on a length of 1 m.
     pub unit: Option<Amplitude>,
     /// Amplitude of a measured surface.
     pub measured: Option<Amplitude>,
@@ -45,14 +45,14 @@ pub(super) struct Rough {
     pub modes: Option<(u64, u64)>,
 }
 
-/// Maker of heights, which keeps what serves several roughnesses.
+/// Maker of heights. It keeps what several roughnesses share.
 #[derive(Default)]
 pub(super) struct RoughnessMaker {
-    /// Folder to which names of files in scenes are relative.
+    /// Folder of the files that scenes name.
     pub folder: PathBuf,
     /// A measured surface in memory that replaces the files of all scenes.
     pub measured: Option<Arc<MeasuredRoughness>>,
-    /// The equivalent line of the files read last: it is small, and serves all seeds.
+    /// Spectrum of the files that were read last. It is small and serves all seeds.
     pub equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, Arc<MeasuredRoughness>)>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
@@ -75,7 +75,7 @@ impl RoughnessMaker {
         Some(RoughnessKey { source, seed: scene.seed().unwrap_or(0), points, shift })
     }
 
-    /// Makes the heights of a roughness; synthesised ones in the memory `memory`.
+    /// Makes the heights of a roughness. Random heights use the memory `memory`.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         let RoughnessKey { ref source, seed, points, shift } = key;
         let (faces, options, length) = match source {
@@ -106,7 +106,7 @@ impl RoughnessMaker {
         Ok(Rough { key, heights, unit: None, measured: Some(amplitude), modes })
     }
 
-    /// Returns the measured surface of the faces: the given one, the equivalent line kept from the last call, or a new one.
+    /// Returns the measured surface of the faces: the given one, the spectrum kept from the last call, or a new one.
     fn surface(
         &mut self,
         faces: &[Vec<PathBuf>],
@@ -124,8 +124,9 @@ impl RoughnessMaker {
     }
 }
 
-/// Number of springs, a power of two, with which the shortest wave of an equivalent line over a length (m) has twice
-/// [`SPRINGS_PER_WAVE`]; from there on both edge models agree.
+/// Returns a number of springs, a power of two from 1024 on, for a profile with this measured spectrum on a length in m. The
+/// shortest wave has at least twice [`SPRINGS_PER_WAVE`] springs, unless that needs more than 2²⁸. With so many springs both
+/// edge models agree.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)

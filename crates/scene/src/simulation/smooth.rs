@@ -13,12 +13,12 @@ use asperity_surface::Form;
 use asperity_surface::Line;
 
 impl Simulation {
-    /// Adhesion force of the body of a scene without its roughness, N, after the preload in `figures`, or after zero force
-    /// if the preload is not compressive; `None` without adhesion. In closed form where there is one, otherwise on the
-    /// springs of the scene.
+    /// Computes the adhesion force in N of the body of a scene without its roughness; `None` without adhesion. The body is
+    /// unloaded after the preload in `figures`, or from zero force if this preload is not compressive. The force is in closed
+    /// form where there is one, otherwise it is computed with the springs of the scene.
     ///
     /// # Errors
-    /// Memory is insufficient or the form cannot be read.
+    /// Returns an error for lack of memory, or if the form cannot be read.
     pub fn smooth_adhesion_force(
         &mut self,
         scene: &CheckedScene,
@@ -48,7 +48,8 @@ impl Simulation {
         }
     }
 
-    /// Profile of a form without roughness: kept from the last scene if form, length and number are the same, or made.
+    /// Returns the profile of a form without roughness. It is kept from the last scene with the same form, length and number
+    /// of springs.
     fn smooth_profile(&mut self, scene: &Scene, form: &Form) -> Result<Profile, RunError> {
         let (length, points) = (scene.length, scene.numerics.points);
         let is_same = |of: &&SmoothProfile| of.form == *form && of.length == length && of.points == points;

@@ -1,4 +1,4 @@
-//! Execution of the computing stages whose input has changed since the last run.
+//! Computation of a scene. Only parts whose input has changed since the last run are computed.
 
 use super::outcome::{LineFacts, Outcome, RunError, Timings};
 use super::reach;
@@ -22,17 +22,17 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const HISTOGRAM_BINS: usize = 64;
-/// Ratio of the kept memory to the memory that the next run needs above which the kept memory is released.
+/// Kept memory is released if it exceeds the memory that the next run needs by more than this factor.
 const MOST_SPARE: u64 = 4;
-/// Number of bytes that is always kept.
+/// Number of bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
-/// Computes scenes. The profile, the contact tree and their inputs are kept from run to run, so that a changed parameter
-/// repeats only the computing stages that depend on it. Repeated stages reuse their memory.
+/// Computes scenes. A simulation keeps the profile and the contact tree from run to run. It repeats only the parts of the
+/// computation that depend on a changed parameter. Repeated parts reuse their memory.
 ///
-/// Between runs at most four times the memory of the last scene is kept ([`Workload::peak_bytes`], and 20 bytes for each
-/// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; the allocator of glibc keeps blocks
-/// of less than 32 MiB, up to 64 MiB for each thread.
+/// Between runs it keeps at most four times the memory of the last scene, but always up to 32 MiB. The memory of a scene is
+/// [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory returns to the allocator. The
+/// allocator of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
@@ -47,19 +47,19 @@ const SMALL: u64 = 32 << 20;
 /// ```
 #[derive(Default)]
 pub struct Simulation {
-    /// True for a single scene: memory for a further profile is released at once.
+    /// True for a single scene, whose memory for a further profile is released at once.
     single: bool,
     maker: RoughnessMaker,
     roughness: Option<Rough>,
     line: Option<(LineKey, Line)>,
     histogram: Option<Histogram>,
-    /// The line as the profile of a contact, with its tree.
+    /// The last profile as the profile of a contact, with its tree.
     profile: Option<Profile>,
-    /// Profile of the form without roughness, once it was needed for F_smooth.
+    /// Profile of the form without roughness, once F_smooth has needed it.
     pub(super) smooth: Option<SmoothProfile>,
-    /// Contact tree of a former profile, for the reuse of its memory.
+    /// Contact tree of a former profile, whose memory is reused.
     former_tree: ContactTree,
-    /// Memory that is kept from former runs, bytes.
+    /// Memory kept from former runs, in bytes.
     kept: u64,
 }
 
@@ -72,7 +72,7 @@ struct LineKey {
     form: Option<Form>,
 }
 
-/// Profile of a form without roughness, with all that it depends on.
+/// Profile of a form without roughness, with everything on which it depends.
 pub(super) struct SmoothProfile {
     pub form: Form,
     pub length: f64,
@@ -80,39 +80,40 @@ pub(super) struct SmoothProfile {
     pub profile: Profile,
 }
 
-/// Contact of a scene before its loading, with the results of making the profile and the tree.
+/// Contact of a scene before its loading, with facts about its profile.
 pub(super) struct Prepared {
     pub contact: Contact,
     facts: LineFacts,
     governing: Governing,
     random_phases: u64,
     heights_binned: u64,
-    /// Times for the profile and the tree, s.
+    /// Times in s for the profile and the tree.
     timings: Timings,
 }
 
-/// Called after each loading stage with its index, its record and its leg; an error stops the run.
+/// Function called after each loading stage with its index, its force curve ([`LegRecord`]) and its contact ([`Leg`]). An
+/// error stops the run.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Creates a simulation whose scenes have their files in `folder`.
+    /// Returns a simulation of scenes whose measured files are in `folder`.
     pub fn new(folder: PathBuf) -> Self {
         Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
     }
 
-    /// Sets it up for a single scene: the memory of the Fourier transform is freed before the contact is solved, and the
+    /// Saves memory for a single scene. The memory of the Fourier transform is freed before the contact is solved, and the
     /// gaps of the profile take the memory of its heights. Each further profile then takes more time.
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
 
-    /// Uses a measured surface in memory in place of the files of all scenes.
+    /// Uses a measured surface in memory in place of the measured files of all scenes.
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
     }
 
-    /// The equivalent line of the measured surface of the scene whose profile was made last.
+    /// Returns the measured spectrum of the scene whose profile was made last; `None` if this scene has none.
     pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
         let RoughnessMaker { measured, equivalent, .. } = &self.maker;
         match &**measured.as_ref().or(equivalent.as_ref().map(|(.., surface)| surface))? {
@@ -121,7 +122,7 @@ impl Simulation {
         }
     }
 
-    /// Creates a simulation for the same files and the same measured surface, without any kept stage.
+    /// Returns a simulation with the same folder and the same measured surface that has computed nothing yet.
     pub fn another(&self) -> Simulation {
         let RoughnessMaker { folder, measured, .. } = &self.maker;
         let (folder, measured) = (folder.clone(), measured.clone());
@@ -129,16 +130,16 @@ impl Simulation {
         Simulation { single: self.single, maker, ..Simulation::default() }
     }
 
-    /// The profile of the last scene.
+    /// Returns the profile that was made last; `None` before the first one.
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
     }
 
-    /// Makes the profile of a checked scene, unless it is unchanged since the last one, and returns it with what is known
-    /// of it.
+    /// Makes the profile of a checked scene, unless the last scene had the same profile. Returns the profile, the numbers
+    /// that describe it, and its governing parameters.
     ///
     /// # Errors
-    /// Memory is insufficient or a measured profile cannot be read.
+    /// Returns an error for lack of memory, or if a measured file or a form cannot be used.
     pub fn make_line(&mut self, scene: &CheckedScene) -> Result<(&Line, LineFacts, Governing), RunError> {
         self.line_of(scene)
     }
@@ -188,16 +189,16 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// The profile of a checked scene.
+    /// Returns the profile of a checked scene for use in a [`Contact`].
     ///
     /// # Errors
-    /// As for [`Self::make_line`].
+    /// Returns the same errors as [`Self::make_line`].
     pub fn profile(&mut self, scene: &CheckedScene) -> Result<Profile, RunError> {
         self.line_of(scene)?;
         Ok(self.made()?.clone())
     }
 
-    /// The profile that was made last.
+    /// Returns the profile that was made last.
     fn made(&self) -> Result<&Profile, ContactError> {
         self.profile.as_ref().ok_or(ContactError::Internal("the profile of the scene has not been made"))
     }
@@ -228,7 +229,7 @@ impl Simulation {
         Ok(Line::from_roughness(memory, length, scene.form.as_ref(), scale)?)
     }
 
-    /// Makes the heights of a roughness; synthesised ones in the memory `memory`.
+    /// Makes the heights of a roughness. Random heights use the memory `memory`.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         // The transform allocates its own memory, and would end the process on failure.
         check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::of_springs)?;
@@ -239,8 +240,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Makes the parts of the profile that the plan requires and that are missing: its histogram and its contact tree.
-    /// Returns the number of heights sorted into bins.
+    /// Makes the histogram and the contact tree of the profile, if the plan requires them and they are missing. Returns the
+    /// number of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
         let memory = take(&mut self.former_tree);
         if plan.runs(Stage::Tree) {
@@ -253,8 +254,8 @@ impl Simulation {
         Ok(binned)
     }
 
-    /// Checks before any allocation that a run has enough memory. Kept memory counts; it is released if it is far too large
-    /// or leaves too little room.
+    /// Checks before any allocation that there is enough memory for a run. Kept memory counts. It is released if it is far
+    /// too large or leaves too little room.
     fn make_room(&mut self, bytes: u64) -> Result<(), RunError> {
         if self.kept / MOST_SPARE > bytes && self.kept > SMALL {
             self.give_back();
@@ -271,7 +272,7 @@ impl Simulation {
         *self = self.another();
     }
 
-    /// Makes the profile and the contact of a checked scene by this plan.
+    /// Makes the profile and the contact of a checked scene, as this plan requires.
     pub(super) fn prepare(
         &mut self,
         plan: &Workload,
@@ -299,28 +300,29 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Contact of a checked scene before its loading, and its governing parameters.
+    /// Returns the contact of a checked scene before its loading, and its governing parameters.
     ///
     /// # Errors
-    /// As for [`Self::make_line`].
+    /// Returns the same errors as [`Self::make_line`], and an error if a value of the contact is out of its range.
     pub fn contact(&mut self, scene: &CheckedScene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
 
-    /// Computes a checked scene; see [`Self::run`], which can be stopped.
+    /// Computes a checked scene. [`Self::run`] does the same and can be stopped.
     ///
     /// # Errors
-    /// A computing stage fails; earlier results are kept for the next run.
+    /// Returns an error if a part of the computation fails. Results of earlier parts are kept for the next run.
     pub fn compute(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {
         self.run(scene, &|| false, &mut |_, _, _| Ok(()))
     }
 
-    /// Runs a checked scene: only the computing stages that it needs. `stop` is asked between stages; `after` receives each
-    /// loading stage of the scene.
+    /// Computes a checked scene. `stop` is asked between parts of the computation and after each loading stage; true ends the
+    /// run. `after` receives each loading stage.
     ///
     /// # Errors
-    /// A computing stage fails or `stop` returns true; earlier results are kept for the next run.
+    /// Returns an error if a part of the computation fails or if `stop` returns true. Results of earlier parts are kept for
+    /// the next run.
     pub fn run(
         &mut self,
         scene: &CheckedScene,
@@ -383,14 +385,14 @@ impl Simulation {
     }
 }
 
-/// The profile of a contact on the springs under a line.
+/// Returns the profile of a contact on the springs under a line.
 pub(crate) fn profile_of(line: &Line) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
     profile.on_foundation(line.length, line.first)?.with_summit(line.summit)
 }
 
-/// Loads a contact with the solver of the scene; with `without_preload` also with turns at first touch and at zero force. Returns
-/// the history, and F_a(d=0) and F_a(F=0), N, where the contact pulls.
+/// Loads a contact with the solver of the scene. Returns its history, and F_a(d=0) and F_a(F=0) in N where the contact pulls
+/// and `without_preload` is true.
 fn load(
     scene: &Scene,
     contact: &Contact,

@@ -1,4 +1,4 @@
-//! Computing stages of a scene, the fields that require them, and their costs. The run follows this plan.
+//! Parts of the computation of a scene, the fields that require them, and their costs. A run follows this plan.
 
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
@@ -7,53 +7,54 @@ use asperity_contact::CurvePoint;
 use asperity_contact::Edges;
 use serde::Serialize;
 
-/// Bytes per spring of a height of the roughness or a gap of the profile.
+/// Bytes per spring of the heights of the roughness or the gaps of the profile.
 const HEIGHT: u64 = 8;
-/// Bytes per spring of the contact tree for modes up to the Nyquist wave number: a quarter of the springs are local maxima
-/// of the gap, each with a node and two turning points, and every fourth spring has two sums.
+/// Bytes per spring of the contact tree for modes up to the Nyquist wave number. A quarter of the springs are then local
+/// maxima of the gap, each with a node and two turning points. Every fourth spring has two sums.
 const NODE: u64 = 20;
-/// Bytes per spring of the passes: thresholds of a quarter of the springs, and runs of the present and the previous stage.
-/// Runs are few except with almost no adhesion.
+/// Bytes per spring for finding events: thresholds of a quarter of the springs, and runs of the present and the previous
+/// stage. Runs are few except with almost no adhesion.
 const PASSED: u64 = 12;
 /// Bytes per spring of the stepwise solver: its threshold and its state of contact.
 const RELAXED: u64 = 9;
-/// Bytes per sample of the present loading stage besides its curve, as measured; and with edges between springs, whose
-/// contributions are also summed for each sample.
+/// Bytes per curve point of the present loading stage besides the curve, as measured. The second number is for edges between
+/// springs, whose contributions are also summed for each point.
 const SAMPLED: u64 = 64;
 const SAMPLED_WITH_EDGES: u64 = 120;
 /// Largest prime factor of a number of springs that the Fourier transform handles directly.
 const LARGEST_FACTOR: u64 = 31;
 
-/// Reasons why several computing stages are skipped.
+/// Reasons why several parts of the computation are skipped.
 const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
 const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
-/// A computing stage from a scene to its force curve, in the order of execution.
+/// A part of the computation from a scene to its force curve, in the order of execution. Loading stages are something else;
+/// see [`Scene::loading`](crate::Scene::loading).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
-    /// Adding the macroscopic form.
+    /// Addition of the macroscopic form to the profile.
     Form,
-    /// Drawing random phases and transforming them into a profile.
+    /// Random phases and their Fourier transform, which give a random profile.
     Synthesis,
-    /// Reading a measured profile.
+    /// Reading of a measured profile.
     MeasuredProfile,
-    /// Building the contact tree of the gaps.
+    /// Contact tree: the tree of the gaps from which the exact solver finds where patches form, merge, split and detach.
     Tree,
-    /// Evaluating the rule of Hess.
+    /// Rule of Hess, which limits the stretch of contact patches.
     RuleOfHess,
-    /// Listing the runs of loading stages that load.
+    /// Search for the indentations at which patches form and merge during loading.
     LoadingPass,
-    /// Listing the runs of loading stages that unload.
+    /// Search for the indentations at which patches split and detach during unloading.
     UnloadingPass,
-    /// Steps and relaxation sweeps of the stepwise solver.
+    /// Steps and relaxations of the stepwise solver.
     Relaxation,
-    /// The loops with turns at first touch and at zero force, for F_a(d=0) and the regimes.
+    /// Loops that turn at first touch and at zero force, for F_a(d=0), F_a(F=0) and the regimes.
     WithoutPreload,
-    /// Listing the contact patches.
+    /// List of the contact patches at the end of each loading stage.
     Fragments,
-    /// Counting heights into the histogram.
+    /// Histogram of the heights of the profile.
     HeightHistogram,
 }
 
@@ -65,30 +66,30 @@ impl Stage {
         "height histogram",
     ];
 
-    /// Name of the computing stage in words.
+    /// Returns the name of this part in words, such as `contact tree`.
     pub fn name(self) -> &'static str {
         Stage::NAMES[self as usize]
     }
 }
 
-/// A computing stage, whether a scene runs it, and its cost, which is zero for a skipped stage.
+/// A part of the computation with its cost. A part that a scene does not need is listed too, with zero cost.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
-    /// The stage.
+    /// Part of the computation.
     pub stage: Stage,
-    /// True if the stage runs.
+    /// True if the scene needs this part.
     pub runs: bool,
-    /// Name of the field that requires the stage, or the reason why it is skipped.
+    /// Name of the field that requires this part, or the reason why it is skipped.
     pub because: &'static str,
-    /// Number of passes over the profile or its tree; `None` for at least one in each loading stage of its direction.
+    /// Number of passes over the profile or its tree; `None` if it depends on the loading stages.
     pub passes: Option<u64>,
-    /// Largest number of springs visited in all passes; `None` if `passes` is.
+    /// Largest number of springs that all passes visit together; `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
-    /// Bytes of the arrays that the stage adds.
+    /// Memory in bytes of the arrays that this part adds.
     pub bytes: u64,
 }
 
-/// The computing stages of a scene, in the order of execution, with its memory.
+/// Plan of the computation of a scene: its parts in the order of execution, and the memory that it needs.
 ///
 /// ```
 /// use asperity_scene::{Stage, Workload, open};
@@ -102,26 +103,26 @@ pub struct PlannedStage {
 pub struct Workload {
     /// Number of springs under the body.
     pub springs: u64,
-    /// Approximate peak memory of a run besides the program itself, bytes: all arrays and the resulting curves. Not included,
-    /// because unknown here: the content of a measured file, 16 bytes for each of its points, and lists of contact patches.
+    /// Approximate peak memory of a run in bytes, without the program itself: all arrays and the resulting curves. Two
+    /// amounts are unknown here and not included: a measured file, with 16 bytes per point, and lists of contact patches.
     pub peak_bytes: u64,
-    /// Approximate largest resident memory of `asperity run`, bytes, with the program itself. The heights of the
-    /// roughness do not count: the gaps of a single scene reuse their memory.
+    /// Approximate largest resident memory of `asperity run` in bytes, with the program itself. The heights of the roughness
+    /// are not added, because the gaps reuse their memory.
     pub resident_bytes: u64,
-    /// All computing stages, including skipped ones.
+    /// All parts of the computation, including those that are skipped.
     pub stages: Vec<PlannedStage>,
 }
 
 impl Workload {
-    /// Resident memory of the program after a small scene, bytes: code, tables and stacks.
+    /// Resident memory of the program in bytes after a small scene: code, tables and stacks.
     pub const PROGRAM: u64 = 14 << 20;
 
-    /// Plans the computing stages of a scene.
+    /// Plans the computation of a scene.
     pub fn of(scene: &CheckedScene) -> Self {
         Workload::of_any(scene)
     }
 
-    /// Plans the computing stages of a checked scene whose loading may have been replaced.
+    /// Plans the computation of a checked scene whose loading may have been replaced.
     pub(super) fn of_any(scene: &Scene) -> Self {
         let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
         let stages = stages(scene, points, springs);
@@ -140,7 +141,7 @@ impl Workload {
         plan
     }
 
-    /// Returns true if a stage runs.
+    /// Returns true if the scene needs this part.
     pub fn runs(&self, stage: Stage) -> bool {
         self.stages.iter().any(|planned| planned.stage == stage && planned.runs)
     }
@@ -149,7 +150,7 @@ impl Workload {
         self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.bytes)
     }
 
-    /// Returns the bytes of the stages that make the profile.
+    /// Returns the memory in bytes of the parts that make the profile.
     pub(super) fn line_bytes(&self) -> u64 {
         HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
     }

@@ -1,5 +1,4 @@
-//! A case of the catalogue of checks, and what its measurements share: adhesive rough bodies, loaded through the public
-//! interface.
+//! A case of the catalogue of checks, and the adhesive rough bodies that the cases load through the public interface.
 
 use asperity_contact::{Contact, Cycle, Edges, LoadOptions, Modulus, Move, Profile};
 use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
@@ -11,27 +10,27 @@ pub(super) const CLOSED_FORM: &str = "closed form";
 pub(super) const INDEPENDENT: &str = "independent computation";
 pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 
-/// What a case computes, and the function that measures its error.
+/// Subject of a case, with the function that measures its error.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Subject {
-    /// A scene, by its text.
+    /// Scene given by its text.
     Scene(&'static str, fn(&CheckedScene) -> Measured),
     /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The largest error counts.
     Bodies(fn(&Body) -> Measured),
 }
 
-/// A case whose result is known.
+/// Case with a known result, by which this program is checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Name of the case.
     pub name: &'static str,
-    /// Family: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of the rules.
+    /// Family of the case: bodies with a known loop, laws for every body, or input at the limits of numbers and rules.
     pub family: &'static str,
     /// Statement that the case checks.
     pub holds: &'static str,
     /// Source of the known result.
     pub evidence: &'static str,
-    /// Quantity whose error is compared with the bound.
+    /// Quantity whose error must not exceed the bound.
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
     pub(super) subject: Subject,
@@ -48,7 +47,7 @@ impl Case {
     }
 }
 
-/// Bounds for edges at springs and for edges between springs.
+/// Returns bounds for edges at springs and for edges between springs.
 pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
@@ -81,17 +80,18 @@ pub(super) fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
     })
 }
 
-/// Error of a case, or the reason why there is none.
+/// Error of a case, or the reason why it cannot be measured.
 pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
 
 pub const RANDOM: u64 = 48;
 
-/// Effective modulus of random bodies, Pa; their length, m; and their rms height or largest height, m.
+/// Effective modulus of random bodies in Pa, their length in m, and their rms height or largest height in m.
 const MODULUS: f64 = 2.0e6;
 const LENGTH: f64 = 1.0e-4;
 const HEIGHT: f64 = 1.0e-7;
 
-/// A rigid profile on an adhesive foundation: heights (m), length (m), effective modulus E* (Pa), work of adhesion γ (J/m²).
+/// Rigid profile on an adhesive foundation: heights in m, length in m, effective modulus E* in Pa, work of adhesion γ in
+/// J/m².
 #[derive(Clone, Debug)]
 pub struct Body {
     pub heights: Vec<f64>,
@@ -103,7 +103,7 @@ pub struct Body {
 
 impl Body {
     /// Creates a body with one of several kinds of profiles. Its adhesion ranges from almost none to far more than full
-    /// contact needs; the seed determines the body on every machine.
+    /// contact needs. The seed determines the same body on every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
@@ -128,7 +128,7 @@ impl Body {
         Ok(Body { heights, length: LENGTH, modulus: MODULUS, work, edges })
     }
 
-    /// Returns the height of the profile from its lowest to its highest point, m.
+    /// Returns the height difference between the lowest and the highest point of the profile, m.
     pub fn depth(&self) -> f64 {
         let (least, most) =
             self.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
@@ -137,25 +137,25 @@ impl Body {
         most - least
     }
 
-    /// Returns the largest stretch, m, by eq. (10), of a patch as long as the whole profile.
+    /// Returns the largest stretch of a patch as long as the whole profile in m, by eq. (10).
     pub fn stretch(&self) -> f64 {
         (PI * self.length * self.work / self.modulus).sqrt()
     }
 
-    /// Returns a force of the order of the forces that act, N.
+    /// Returns a force in N of the order of the forces that act.
     pub fn force_unit(&self) -> f64 {
         self.modulus * self.length * (self.depth() + self.stretch())
     }
 
-    /// Returns irregular indentations from just before separation to full contact, m, as turning points.
+    /// Returns irregular indentations in m, from just before separation to full contact, as turning points.
     pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
         let (low, high) = (-0.9 * self.stretch(), 1.1 * self.depth() + 1e-3 * self.stretch());
         let mut turns = phases(seed, 1).map(|phase| low + (high - low) * phase / TAU);
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
 
-    /// Loads the separated body to one indentation after the other, and if it `separates` finally to separation; `samples`
-    /// is the number of curve points of each stage.
+    /// Loads the separated body to one indentation after the other, and to separation at the end if `separates` is true.
+    /// `samples` is the number of points in the curve of each stage.
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
         let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();

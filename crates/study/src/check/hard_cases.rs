@@ -28,8 +28,8 @@ pub const CASES: &[Case] = &[
         &both(4.0, 4.0), OfScene(ROUGH, far_loads)),
 ];
 
-/// Returns the force on a rough flat face in full contact, N: cosines have the mean 0, so the mean gap equals the height of
-/// the highest point.
+/// Returns the force on a rough flat face in full contact in N. Cosines have the mean 0, so the mean gap equals the height
+/// of the highest point.
 fn full_contact(outcome: &Outcome, indentation: f64) -> f64 {
     outcome.governing.effective_modulus * outcome.line.length * (indentation - outcome.line.summit)
 }
@@ -57,8 +57,8 @@ fn heights_of_any_size(body: &Body) -> Measured {
     only_scales(&Body { work: 0.0, ..body.clone() }, &of([-850, -500, 20, 39]))
 }
 
-/// Presses a scene to far indentations and to the forces found there; returns the largest error of a force, in units of its
-/// change by one rounding of the indentation.
+/// Presses a scene to large indentations and to the forces found there. Returns the largest error of a force, in units of
+/// its change by one rounding of the indentation.
 fn far_loads(scene: &CheckedScene) -> Measured {
     let (depth, bare) = (outcome(scene)?.line.deepest, with(scene, "adhesion.work", 0.0)?);
     largest((0..=20).flat_map(|power| [scene, &bare].map(|scene| (scene, 10.0_f64.powi(power) * depth))).map(

@@ -85,7 +85,7 @@ fn energy(body: &Body) -> Measured {
     Ok((lost(cycle.stages()) - done).abs() / scale)
 }
 
-/// Scales lengths along the profile, heights and stresses by these powers of two, which must not change a bit of any
+/// Scales lengths along the profile, heights and stresses by these powers of two, which must not change any bit of a
 /// mantissa.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);

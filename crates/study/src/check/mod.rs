@@ -1,9 +1,9 @@
-//! The catalogue of checks: statements about scenes and profiles, each with its evidence and an error bound, computed on
-//! this machine through the public interface alone.
+//! The catalogue of checks. Its statements about scenes and profiles, each with its evidence and an error bound, are
+//! checked on this machine through the public interface.
 //!
-//! A check computes one number, the error, and compares it with a bound stated beforehand. The evidence is a closed form,
-//! the stepwise solver, which applies the rules without tree and thresholds, or a law that holds for every body. A check
-//! that cannot be computed fails with a sentence that says why.
+//! A check computes one number, the error, and compares it with a bound that was set beforehand. The evidence is a closed
+//! form, a law that holds for every body, or the stepwise solver, which applies the rules without tree and thresholds. A
+//! check that cannot be computed fails with a sentence that says why.
 
 pub(crate) mod case;
 pub(crate) mod closed_forms;
@@ -16,42 +16,42 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// A case, with the edge model for which it is checked.
+/// Case that is checked with one model of the edges of patches.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
-    /// The case.
+    /// Case that is checked.
     pub case: Case,
-    /// Edge model of the contact patches.
+    /// Model of the edges of patches: at springs or between springs.
     pub edges: Edges,
     /// Largest allowed error.
     pub bound: f64,
 }
 
-/// The result of a check.
+/// Result of a check.
 #[derive(Debug)]
 pub struct Verdict {
-    /// The check that was computed.
+    /// Check that was computed.
     pub check: Check,
-    /// The error, or the reason why it could not be computed.
+    /// Error that was found, or the reason why it could not be computed.
     pub error: Result<f64, String>,
-    /// Time of the check, s.
+    /// Computing time of the check, s.
     pub seconds: f64,
 }
 
 impl Verdict {
-    /// Returns true if the error is within its bound.
+    /// Returns true if the error does not exceed the bound.
     pub fn passes(&self) -> bool {
         // NaN is not within any bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
     }
 }
 
-/// Returns all cases in the order of display.
+/// Returns all cases of the catalogue in the order of display.
 pub fn catalogue() -> Vec<Case> {
     [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
 }
 
-/// Returns the checks of the chosen cases.
+/// Returns the checks of the cases that `choose` selects, one for each model of the edges.
 ///
 /// ```
 /// use asperity_study::{checks, judge_case};
@@ -64,7 +64,7 @@ pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()
 }
 
-/// Computes a check and its error.
+/// Runs a check and measures its error.
 pub fn judge_case(check: Check) -> Verdict {
     let (clock, edges) = (Instant::now(), check.edges);
     let error = match check.case.subject {

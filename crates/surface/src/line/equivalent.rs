@@ -9,10 +9,11 @@ use crate::spectrum::isotropic::{IsotropicSpectrum, LineMoments, line_moments};
 use asperity_data::check_room;
 use std::f64::consts::TAU;
 
-/// Relative excess of a wavelength over the length of the scan that is attributed to rounding.
+/// Relative excess of a wavelength over the length of the scan that counts as rounding.
 const ROUNDING: f64 = 1.0e-9;
 
-/// Equivalent line of the measured surfaces of one or two faces in contact; the spectra of the faces are added.
+/// Equivalent line of measured surfaces: a random profile with their spectrum. One or both of the two faces in contact are
+/// measured; the spectra of two faces are added.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, EquivalentLine, Topography, analyse};
@@ -28,7 +29,7 @@ const ROUNDING: f64 = 1.0e-9;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
-    /// Spectra of the measured faces.
+    /// Spectrum of each measured face.
     pub faces: Vec<IsotropicSpectrum>,
 }
 
@@ -39,28 +40,28 @@ impl From<&Analysis> for EquivalentLine {
 }
 
 impl EquivalentLine {
-    /// Analyses the surfaces in the files of all faces.
+    /// Analyses the surfaces in the files of one or two faces.
     ///
     /// # Errors
-    /// [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
+    /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
         Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
     }
 
-    /// Heights, m, of a random profile of the line: at the middles of `points` equal cells of this length (m), with the random
-    /// phases of the seed.
+    /// Computes the heights in m of a random profile of this length in m, at the middles of `points` equal cells. The seed
+    /// gives the random phases.
     ///
     /// # Errors
-    /// No wave of the spectrum fits on the length with these points, or too little memory.
+    /// No wave of the spectrum fits the length with these points, or the memory is too small.
     pub fn heights(&self, length: f64, points: usize, seed: u64) -> Result<Vec<f64>, SurfaceError> {
         let (modes, of_mode) = (self.modes(length, points)?, |mode: u64| self.amplitude(mode, length));
         check_room(TRANSFORM_BYTES * points as u64).map_err(SurfaceError::of_springs)?;
         Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Equivalent line of spectra changed at random within the uncertainty of their fits; `share` scales the change, and
-    /// `number` selects it: equal numbers give equal changes.
+    /// Changes the spectra at random within the uncertainty of their fits. `share` scales the change. `number` selects the
+    /// change: equal numbers give equal changes.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
@@ -69,25 +70,26 @@ impl EquivalentLine {
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }
 
-    /// Moments of the line, with their standard errors, over the wave numbers for which the spectra of all faces are known.
+    /// Computes the moments of the line with their standard errors, over the wave numbers for which the spectra of all faces
+    /// are known.
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
 
-    /// PSD of the line, m³, at a wave number, rad/m: the sum of the PSDs of the faces.
+    /// Returns the power spectral density (PSD) of the line in m³ at a wave number in rad/m, the sum over the faces.
     pub fn power(&self, wave_number: f64) -> f64 {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// First and last wave number, rad/m, of the line: it begins where the spectra of all faces are known; each spectrum
-    /// ends at its own limit.
+    /// Returns the first and the last wave number of the line in rad/m. The line begins where the spectra of all faces are
+    /// known, and ends where the last of them ends.
     pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
-    /// First and last mode k (q = 2πk/L) of a line of this length (m) on `points` springs: the waves of the spectrum that
-    /// fit the line and that the springs resolve. Waves longer than the scan are unknown and omitted.
+    /// Returns the first and the last mode k (q = 2πk/L) of a line of this length in m on `points` springs. These are the waves
+    /// of the spectrum that fit the line and that the springs resolve. Waves longer than the scan are unknown and left out.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -105,18 +107,20 @@ impl EquivalentLine {
         Ok((first as u64, last as u64))
     }
 
-    /// The same line without the waves beyond a wave number, rad/m.
+    /// Returns the same line without the waves beyond a wave number in rad/m.
     pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
         EquivalentLine { faces: self.faces.iter().map(|face| face.up_to(wave_number)).collect() }
     }
 
-    /// Amplitude A_k, m, of a mode k of a line of this length (m): A_k² = 4 C_line(q_k)/L.
+    /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k² = 4 C_line(q_k)/L, with the
+    /// power spectral density C_line of the line.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Share, m², of a wave of k waves over the side of a square (m) in the mean square height of a surface with these spectra:
-    /// A_k²/(4πk), where k need not be a whole number; zero half a wave beyond the first and the last one.
+    /// Returns the part in m² of one wave in the mean square height of a surface with these spectra: A_k²/(4πk). The wave has k
+    /// = `waves` waves over the side of a square in m, which need not be a whole number. The part is zero more than half a wave
+    /// beyond the first and the last wave.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
         if waves < first - 0.5 || waves > last + 0.5 {
@@ -135,7 +139,7 @@ impl EquivalentLine {
         4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
 
-    /// Roughness amplitude of the modes `first..=last` on a line of this length (m).
+    /// Computes the rms height, gradient and curvature of the modes `first..=last` on a line of this length in m.
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
@@ -143,12 +147,12 @@ impl EquivalentLine {
     }
 }
 
-/// Roughness of a line from measured surfaces.
+/// Roughness of a rigid profile from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
-    /// The measured profile itself is the line.
+    /// The measured profile itself is the rigid profile.
     Profile(MeasuredProfile),
-    /// The equivalent line of the measured surfaces.
+    /// The rigid profile is an equivalent line of the measured surfaces.
     Equivalent(EquivalentLine),
 }
 
@@ -156,7 +160,7 @@ impl MeasuredRoughness {
     /// Analyses the files of one or two faces.
     ///
     /// # Errors
-    /// A file that cannot be read or has no spectrum.
+    /// A file cannot be read or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         match faces {
             [face] if options.as_line.is_some() && face.len() == 1 => {

@@ -1,4 +1,4 @@
-//! Macroscopic forms f(r) and their MDR transforms g(x), which for waves contain a Struve function.
+//! Macroscopic forms f(r) and their equivalent profiles g(x) by the method of dimensionality reduction.
 
 use super::table::{FormTable, Rows};
 use crate::error::{Place, SurfaceError, refused};
@@ -10,49 +10,49 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body; its axis is on the spring ⌊N/2⌋ ([`Form::spring_on_axis`]).
+/// Macroscopic form of the rigid body. Its axis lies on the spring ⌊N/2⌋ of N springs; see [`Form::spring_on_axis`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
-    /// Paraboloid r²/2R, the sphere of Hertz and JKR.
+    /// Paraboloid of depth r²/2R, the sphere of Hertz and JKR.
     Paraboloid {
-        /// Radius of curvature R, m.
+        /// Radius of curvature R in m.
         radius: f64,
     },
-    /// Cone r tan θ.
+    /// Cone of depth r tan θ.
     Cone {
-        /// Angle θ between flank and surface plane, rad.
+        /// Angle θ between flank and surface plane in rad.
         angle: f64,
     },
-    /// Power law b rⁿ.
+    /// Body whose depth is a power law b rⁿ.
     Power {
-        /// Coefficient b, m^(1−n).
+        /// Coefficient b in m^(1−n).
         coefficient: f64,
-        /// Exponent n.
+        /// Exponent n of the power law.
         exponent: f64,
     },
-    /// Sphere r²/2R with concentric waves A (1 − cos 2πr/λ).
+    /// Sphere of depth r²/2R with concentric waves A (1 − cos 2πr/λ).
     WavySphere {
-        /// Radius of curvature R, m.
+        /// Radius of curvature R in m.
         radius: f64,
-        /// Amplitude A of the waves, m; from trough to crest they are 2A high.
+        /// Amplitude A of the waves in m. From trough to crest the waves are 2A high.
         amplitude: f64,
-        /// Wavelength λ, m.
+        /// Wavelength λ in m.
         wavelength: f64,
     },
-    /// Flat-ended cylinder; nothing outside its radius touches.
+    /// Flat-ended cylinder. Nothing outside its radius touches.
     Punch {
-        /// Radius a, m.
+        /// Radius a of the flat end in m.
         radius: f64,
     },
     /// Body of revolution from a file of radii and depths.
     Table {
         /// Path of the file, relative to the scene file.
         file: String,
-        /// Unit of the numbers where the file states none; empty for m.
+        /// Unit of the numbers if the file states none; empty for m.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
-        /// Rows of the table, once [`Form::load`] has read them.
+        /// Rows of the table, after [`Form::load`] has read them.
         #[serde(skip)]
         rows: Rows,
     },
@@ -60,7 +60,8 @@ pub enum Form {
 
 impl Form {
     /// Reads the table of a form from a folder, unless it is read already, and checks that it covers a profile of this length
-    /// (m). All clones of the form then have the table; other forms need none. Until its table is read, a form is flat.
+    /// in m. All clones of the form then share the table. Forms without a table need no reading. A form whose table is not read
+    /// is flat.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let in_file = |error: SurfaceError| {
@@ -80,27 +81,27 @@ impl Form {
         Err(in_file(refused(Place::File, fault, format!("length at most {most:e} m"))))
     }
 
-    /// The table of a form that has one and has read it.
+    /// Returns the table of the form, if the form has a table that is read.
     pub fn table(&self) -> Option<&FormTable> {
         if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
     }
 
-    /// Index of the spring on the axis of every form, ⌊N/2⌋ of N = `points` springs. With the axis between two
-    /// springs a form would be blunt by half a cell, an error of first order in force, indentation and energy.
+    /// Returns the index ⌊N/2⌋ of the spring on the axis of every form, for N = `points` springs. An axis between two springs
+    /// would blunt the form by half a cell, an error of first order in force, indentation and energy.
     pub fn spring_on_axis(points: u64) -> u64 {
         points / 2
     }
 
-    /// Displacement of the body along the foundation, in cells, that moves its axis from L/2 onto a spring: ½ for an even
-    /// number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position does
-    /// not depend on the number of springs. A punch has no tip and is not displaced.
+    /// Returns the displacement of the body along the foundation in cells. It moves the axis from L/2 onto a spring: by ½ for
+    /// an even number of springs, and by 0 for an odd one. Form and roughness are displaced together, so that their relative
+    /// position does not depend on the number of springs. A punch has no tip and is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 
-    /// Range of indices of the springs under the form, of `points` springs on `length` (m). All springs count, except for a
-    /// punch. A punch covers its diameter, rounded to whole cells and centred on the axis to half a cell. The range is empty
-    /// for a diameter below half a cell.
+    /// Returns the range of indices of the springs under the form, for `points` springs on `length` in m. All forms except a
+    /// punch lie above all springs. A punch covers its diameter, rounded to whole cells and centred on the axis to half a cell.
+    /// The range is empty for a diameter below half a cell.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -114,7 +115,7 @@ impl Form {
         first..first + cells
     }
 
-    /// Radius of the flat end of a punch, m, outside of which no spring touches; `None` for all other forms.
+    /// Returns the radius of the flat end of a punch in m, outside of which no spring touches; `None` for all other forms.
     pub fn flat_end(&self) -> Option<f64> {
         match *self {
             Form::Punch { radius } => Some(radius),
@@ -122,7 +123,7 @@ impl Form {
         }
     }
 
-    /// The form without its waves.
+    /// Returns the form without its waves.
     pub fn without_waves(&self) -> Form {
         match self {
             &Form::WavySphere { radius, .. } => Form::Paraboloid { radius },
@@ -130,7 +131,7 @@ impl Form {
         }
     }
 
-    /// Radius of a sphere or a punch, m, as a mutable reference; `None` for other forms.
+    /// Returns the radius of a sphere or a punch in m as a mutable reference; `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius } | Form::WavySphere { radius, .. } | Form::Punch { radius } => {
@@ -140,12 +141,13 @@ impl Form {
         }
     }
 
-    /// Radius of a smooth sphere, m; `None` for other forms.
+    /// Returns the radius of a smooth sphere in m; `None` for other forms.
     pub fn sphere_radius(&self) -> Option<f64> {
         if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
     }
 
-    /// Curvature at the summit, 1/m; `None` for cones, power laws and tables without a finite curvature at the tip.
+    /// Returns the curvature at the summit in 1/m; `None` for cones, power laws, and tables without a finite curvature at the
+    /// tip.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
@@ -158,12 +160,12 @@ impl Form {
         }
     }
 
-    /// Depth g(|x|), m, of the equivalent profile below its apex at a distance from the axis, m; for a punch the depth
-    /// under its flat face ([`Form::springs_under`]).
+    /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a punch
+    /// it is 0, the depth of the flat face above the springs of [`Form::springs_under`].
     ///
-    /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr: a paraboloid r²/2R becomes x²/R, a cone r tan θ becomes
-    /// (π/2)|x| tan θ, a power law b rⁿ becomes κₙ b |x|ⁿ ([`power_law_factor`]), and waves A (1 − cos 2πr/λ) become
-    /// (π²A/λ)|x| H₀(2π|x|/λ) with a Struve function.
+    /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr. A paraboloid r²/2R becomes x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power
+    /// law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x|
+    /// H₀(2π|x|/λ), with the Struve function H₀ of [`struve_0`].
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.
@@ -186,7 +188,8 @@ impl Form {
         }
     }
 
-    /// Depth f(r), m, of the body below its apex at a distance from the axis, m; `None` beside a punch, where there is no body.
+    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m. `None` beside a punch, where
+    /// there is no body.
     ///
     /// ```
     /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 2.0 }.depth(0.1), Some(0.1 * 0.1 / 4.0));
@@ -204,7 +207,8 @@ impl Form {
         })
     }
 
-    /// Coefficient c, m^(1−n), and exponent n of a form with the profile g(x) = c |x|ⁿ; `None` for a punch, waves and tables.
+    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent profile g(x) = c |x|ⁿ. `None` for
+    /// a punch, waves and tables.
     ///
     /// ```
     /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 0.5 }.power_law(), Some((2.0, 2.0)));
@@ -221,7 +225,7 @@ impl Form {
         }
     }
 
-    /// Upper bound of the contribution of the waves to the profile at a distance from the axis, m: π A √(r/λ).
+    /// Returns an upper bound π A √(r/λ), in m, of the depth that the waves add to the profile at a distance r (m) from the axis.
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {
@@ -232,21 +236,21 @@ impl Form {
     }
 }
 
-/// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor between a power law rⁿ and its equivalent profile.
+/// Returns κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor between a power law rⁿ and its equivalent profile κₙ |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // Logarithms of Γ: the quotient remains finite where its parts would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
     PI.sqrt() / 2.0 * exponent * quotient
 }
 
-/// Argument above which the asymptotic series of H₀ is accurate to rounding: its smallest term is about e^−z.
+/// Argument above which the asymptotic series of H₀ is accurate to rounding. Its smallest term is about e^−z.
 const LARGE: f64 = 40.0;
-/// Number of quadrature nodes for H₀: enough for the oscillations of the integrand for arguments up to `LARGE`.
+/// Number of quadrature nodes for H₀, enough for the oscillations of the integrand for arguments up to `LARGE`.
 const NODES: usize = 56;
 
 static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
-/// Struve function H₀(z), z ≥ 0.
+/// Computes the Struve function H₀(z) for z ≥ 0.
 pub fn struve_0(z: f64) -> f64 {
     if z < LARGE {
         let terms = RULE.iter().map(|&(angle, weight)| weight * (z * angle.cos()).sin());

@@ -1,5 +1,5 @@
-//! Measured surfaces as roughness: the measured profile itself, or the equivalent line with the measured spectrum and
-//! random phases.
+//! Measured surfaces as roughness: the measured profile itself, or the equivalent line with the measured spectrum and random
+//! phases.
 
 use super::spectrum::Amplitude;
 use crate::error::{Place, SurfaceError, refused};
@@ -11,14 +11,14 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Limit of the memory of the transform and its arrays, bytes per point: an odd number of points is transformed at twice
-/// the length.
+/// Upper bound of the memory of the transform and its arrays in bytes per point. An odd number of points is transformed at
+/// twice the length.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
-/// Options of a scene for its measured surface.
+/// Options of a scene for its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// Polynomial removed from a measured profile that is itself the line; `None` for an equivalent line.
+    /// Polynomial removed from a measured profile that is itself the rigid profile; `None` for an equivalent line.
     pub as_line: Option<Detrend>,
     /// Options for reading the files.
     pub reading: ReadOptions,
@@ -26,21 +26,21 @@ pub struct MeasuredOptions {
     pub spectrum: AnalysisOptions,
 }
 
-/// A measured profile.
+/// A measured profile: the heights of points at ascending positions.
 ///
-/// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are centres of cells: N points cover N Δx from x = 0, and
-/// the outer half cells have the height of the nearest point. Any other profile covers the distance from its first to its
-/// last point, and on request, if equally spaced, half a distance more at each end.
+/// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are centres of cells. N such points cover the length N Δx from
+/// x = 0, and the outer half cells have the height of the nearest point. Any other profile covers the distance from its first
+/// to its last point. If its points are equally spaced, it can also cover half a distance more at each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
-    /// Positions x, m, ascending; at least two.
+    /// Positions x in m, ascending; at least two.
     pub positions: Vec<f64>,
-    /// Heights z, m, as measured, one for each position.
+    /// Heights z in m as measured, one for each position.
     pub heights: Vec<f64>,
 }
 
 impl MeasuredProfile {
-    /// Reads a profile, or a row or column of a map, from the content of a file. Removing a polynomial requires equally
+    /// Reads a profile, or a row or column of a map, from the content of a file. A polynomial can be removed only from equally
     /// spaced points.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
@@ -52,7 +52,7 @@ impl MeasuredProfile {
         Ok(MeasuredProfile { positions, heights })
     }
 
-    /// Length covered, m.
+    /// Returns the length in m that the profile covers.
     pub fn length(&self) -> f64 {
         self.cell().map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
     }
@@ -61,13 +61,14 @@ impl MeasuredProfile {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
 
-    /// Distance between points, m, if the points are centres of cells that begin at x = 0.
+    /// Returns the distance between points in m, if the points are centres of cells that begin at x = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
         first_uneven(&self.positions, 0.5 * cell, cell).is_none().then_some(cell)
     }
 
-    /// Root mean square height (m) about the mean and root mean square gradient of the polyline through the measured points.
+    /// Computes the root mean square height (m) about the mean and the root mean square gradient of the polyline through the
+    /// measured points.
     fn rms_height_and_gradient(&self) -> (f64, f64) {
         let length = self.span();
         // Differences of heights, not heights: an offset may be far larger than the roughness.
@@ -85,9 +86,9 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Roughness amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the periodically
-    /// continued profile. If the ends do not meet, the straight line between them is subtracted first, because a step has
-    /// energy in every wave and a tilt has none.
+    /// Computes the roughness amplitude of the profile. The mean wave number is Σ q_k A_k²/2h² over the modes of the
+    /// periodically continued profile. If the ends do not meet, the straight line between them is subtracted first, because a
+    /// step has energy in every wave and a tilt has none.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
@@ -110,12 +111,13 @@ impl MeasuredProfile {
         Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 
-    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
-    /// point the measured height, bit for bit. If all heights are between half and twice the first one, the first is
-    /// subtracted: the differences are then exact, and roughness with a large offset keeps its digits.
+    /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation. Here L
+    /// is `length` in m and N is `points`. A measured point keeps its measured height, bit for bit. If all heights are between
+    /// half and twice the first one, the first is subtracted. The differences are then exact, and roughness with a large offset
+    /// keeps its digits.
     ///
     /// # Errors
-    /// A profile shorter than `length` (m).
+    /// The profile is shorter than `length`.
     ///
     /// ```
     /// use asperity_surface::{MeasuredOptions, MeasuredProfile};
@@ -135,8 +137,8 @@ impl MeasuredProfile {
         Ok(self.heights_from(begins, length / points as f64, points, shift)?)
     }
 
-    /// Heights, m, at the centres of `points` cells of this width (m), the first of which begins at `begins` (m), displaced
-    /// by `shift` cells.
+    /// Computes the heights in m at the centres of `points` cells of this width (m), displaced by `shift` cells. The first cell
+    /// begins at `begins` in m.
     fn heights_from(
         &self,
         begins: f64,
@@ -148,8 +150,8 @@ impl MeasuredProfile {
         gathered(points, interpolated(&self.positions, &self.heights, self.level(), places))
     }
 
-    /// Position, m, at which a line of this length (m) begins on the profile; if the profile is too short, the error is the
-    /// length that it covers, m.
+    /// Returns the position in m at which a line of this length (m) begins on the profile. If the profile is too short, the
+    /// error is the length that it covers in m.
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
@@ -168,7 +170,7 @@ impl MeasuredProfile {
         if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
     }
 
-    /// Height, m, to subtract from all heights: the first one, if all differences from it are exact, else 0.
+    /// Returns the height in m to subtract from all heights: the first one, if all differences from it are exact, else 0.
     fn level(&self) -> f64 {
         let first = self.heights[0];
         let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());
@@ -178,15 +180,14 @@ impl MeasuredProfile {
     }
 }
 
-/// Root mean square curvature, 1/m, of heights at this spacing (m), by second differences.
+/// Computes the root mean square curvature in 1/m of heights at this spacing in m, from second differences.
 fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     let squares = heights.windows(3).map(|z| ((z[0] - z[1]) + (z[2] - z[1])).powi(2)).sum::<f64>();
     let count = heights.len().saturating_sub(2).max(1);
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
-/// Subtracts the straight line after which the step from the last height back to the first is the mean of the steps next to
-/// it.
+/// Subtracts a straight line. The step from the last height back to the first is then the mean of the steps next to it.
 fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
@@ -194,7 +195,7 @@ fn join_ends(heights: &mut [f64]) {
     (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
-/// Files of one face, each with its content: samples of the same roughness.
+/// Files of one face with their contents. All of them are samples of the same roughness.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
 /// Reads the files of one or two faces.
@@ -210,7 +211,7 @@ impl MeasuredOptions {
     /// Analyses the files of one face.
     ///
     /// # Errors
-    /// A file that cannot be read or has no spectrum.
+    /// A file cannot be read or has no spectrum.
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let (mut surfaces, mut files) = (Vec::new(), Vec::new());
         for (path, content) in face {

@@ -1,5 +1,5 @@
-//! Random phases of modes, independent of the grid, the number of modes and the platform; and Fourier coefficients of a
-//! self-affine profile, 64 modes at a time, in loops without branches, so that the compiler computes several modes in one
+//! Random phases of modes, which do not depend on the grid, the number of modes or the platform. The Fourier coefficients of a
+//! self-affine profile are computed 64 at a time in loops without branches, so that the compiler computes several in one
 //! instruction.
 
 use super::spectrum::SelfAffine;
@@ -7,16 +7,16 @@ use asperity_fourier::Complex64;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Number of modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, whichever mode is drawn first, so that no
-/// result depends on the number of threads.
+/// Number of modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, whichever mode is drawn first. So no result
+/// depends on the number of threads.
 const BLOCK: usize = 64;
 
-/// Number of terms of the series (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term is below 1e-18; for |x|
-/// ≤ 1/1024 6 terms suffice.
+/// Number of terms of the series (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term is below 1e-18. For |x| ≤
+/// 1/1024 six terms suffice.
 const TERMS: usize = 10;
 
-/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first.
-/// Minimax approximations: errors of sine and cosine at most 4e-18 in addition to rounding.
+/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first. These are minimax
+/// approximations. The errors of sine and cosine are at most 4e-18 in addition to rounding.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_418,
@@ -39,7 +39,7 @@ const COSINE: [f64; 6] = [
 pub(super) struct Modes {
     spectrum: SelfAffine,
     seed: u64,
-    /// Half the amplitude of mode 1, since each cosine is a pair of exponentials.
+    /// Half the amplitude of mode 1, because each cosine is a pair of exponentials.
     half_amplitude: f64,
     /// Phase of mode 1 at the first point of the grid, in turns.
     advance: f64,
@@ -48,7 +48,7 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// The modes of a profile of rms height 1 with this spectrum and seed, on `points` points, the first of which is
+    /// Creates the modes of a profile of rms height 1 with this spectrum and seed, on `points` points. The first point lies
     /// `start` cells along the profile.
     pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
@@ -66,8 +66,8 @@ impl Modes {
         }
     }
 
-    /// Fills the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the phases φ at the first
-    /// point of the grid.
+    /// Fills in the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the phases φ at the first point of
+    /// the grid.
     pub fn draw(&self, first: u64, mut coefficients: &mut [Complex64]) {
         let mut generator = phase_words(self.seed, first);
         let mut words = [0; BLOCK];
@@ -97,7 +97,7 @@ impl Modes {
         }
     }
 
-    /// Half the amplitudes of the block that follows the mode `before`.
+    /// Returns half the amplitudes of the block that follows the mode `before`.
     fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
         // Below a roll-off each mode is computed by itself.
         match if (before as f64) < self.spectrum.roll_off_mode { 0 } else { before } {
@@ -108,8 +108,8 @@ impl Modes {
         }
     }
 
-    /// Half the amplitudes of the block that follows the mode `before`, each expanded about the middle of its `SPAN` modes
-    /// with the first `COUNT` terms of the series.
+    /// Returns half the amplitudes of the block that follows the mode `before`. Each is expanded about the middle of its `SPAN`
+    /// modes with the first `COUNT` terms of the series.
     #[inline(always)]
     fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(&self, before: u64) -> [f64; BLOCK] {
         let mut amplitudes = [0.0; BLOCK];
@@ -130,7 +130,7 @@ impl Modes {
     }
 }
 
-/// Sine and cosine of 2π `turns`, for `turns` from 0 to 2.
+/// Computes the sine and the cosine of 2π `turns`, for `turns` from 0 to 2.
 #[inline(always)]
 fn sine_and_cosine(turns: f64) -> (f64, f64) {
     // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits. So the nearest
@@ -151,8 +151,8 @@ fn sine_and_cosine(turns: f64) -> (f64, f64) {
     (f64::from_bits(chosen(sine, cosine) ^ sine_sign), f64::from_bits(chosen(cosine, sine) ^ cosine_sign))
 }
 
-/// Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the two sums do not
-/// wait for each other.
+/// Computes Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the two sums do
+/// not wait for each other.
 #[inline(always)]
 fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     let square = x * x;
@@ -165,7 +165,7 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     even + x * odd
 }
 
-/// 1, 2, … as floating-point numbers, since conversions would not be vectorised.
+/// 1, 2, … as floating-point numbers, because conversions would not be vectorised.
 const COUNTS: [f64; BLOCK] = {
     let mut counts = [0.0; BLOCK];
     let mut lane = 0;
@@ -179,18 +179,17 @@ const COUNTS: [f64; BLOCK] = {
 /// Separates this use of the random generator from other uses; a change in how phases are drawn must change this text.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
-/// Phases φ_k of the modes k = `first`, `first` + 1, … of a seed, rad, uniform in [0, 2π).
+/// Returns the phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed, uniform in [0, 2π).
 ///
-/// The generator is ChaCha with 8 rounds. Its 32-byte key is the seed, little-endian, followed by the
-/// 24 ASCII bytes `asperity-line-phases-v1` and a zero; φ_k is the k-th 64-bit word of its stream,
-/// counted from k = 1, of which the upper 53 bits are the fraction of 2π. So mode k of a seed has one
-/// phase, bit for bit, for every number of springs and of modes and on every platform.
+/// The generator is ChaCha with 8 rounds. Its key of 32 bytes is the seed, little-endian, followed by the 24 ASCII bytes
+/// `asperity-line-phases-v1` and a zero. φ_k is the k-th 64-bit word of its stream, counted from k = 1; the upper 53 bits are the
+/// fraction of 2π. So mode k of a seed has one phase, bit for bit, for every number of springs and modes and on every platform.
 pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     let mut generator = phase_words(seed, first);
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Random generator whose next 64-bit words belong to the modes `first`, `first` + 1, … of a seed.
+/// Returns the random generator whose next 64-bit words belong to the modes `first`, `first` + 1, … of a seed.
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -201,10 +200,10 @@ pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     generator
 }
 
-/// Phase of a mode over 2π, in [0, 1): the upper 53 bits of its random word.
+/// Returns the phase of a mode over 2π, in [0, 1): the upper 53 bits of its random word.
 ///
-/// 52 bits become the digits of a number from 1 to 2, and the last bit adds half a digit. Every processor does this for
-/// several words in one instruction, whereas few can convert several integers at once.
+/// 52 bits become the digits of a number from 1 to 2, and the last bit adds half a digit. Every processor does this for several
+/// words in one instruction, whereas few can convert several integers at once.
 #[inline(always)]
 pub(super) fn fraction(word: u64) -> f64 {
     const ONE: u64 = 1.0_f64.to_bits();

@@ -5,32 +5,32 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 use std::sync::Arc;
 
-/// The rigid profile above springs at x = (i + ½)Δx.
+/// A rigid profile above springs at the positions x = (i + ½)Δx.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Gaps c_i = max z − z_i ≥ 0, m, of the springs under the body.
+    /// Gaps c_i = max z − z_i in m of the springs under the body, each at least 0.
     pub gaps: Arc<Vec<f64>>,
-    /// Index along the foundation of the first spring under the body: above zero only under a punch.
+    /// Index along the foundation of the first spring under the body. It is above zero only under a punch.
     pub first: usize,
     /// Number of springs N of the whole foundation.
     pub points: usize,
-    /// Length L of the whole foundation, m.
+    /// Length L of the whole foundation in m.
     pub length: f64,
-    /// Distance Δx = L/N between springs, m.
+    /// Distance Δx = L/N between springs in m.
     pub spacing: f64,
-    /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
+    /// Height of the highest point in m, above the apex of the form and the mean of the roughness.
     pub summit: f64,
-    /// Largest gap, m.
+    /// Largest gap in m.
     pub deepest: f64,
 }
 
 impl Line {
-    /// Creates the profile of a form (`None`: flat) plus roughness: one height for each point, in units of `scale` (m), or
-    /// `None` for a smooth profile. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 for odd N and half a cell further
-    /// for even N; roughness has to be sampled with the same [`Form::shift`]. See [`Form::springs_under`] for a punch.
+    /// Creates the profile of a form (`None`: flat) plus roughness (`None`: smooth). The roughness has one height for each
+    /// point, in units of `scale` (m). The axis of the form is on the spring ⌊N/2⌋, at x = L/2 for odd N and half a cell
+    /// further for even N. Roughness has to be sampled with the same [`Form::shift`]. For a punch see [`Form::springs_under`].
     ///
     /// # Errors
-    /// Too little memory, a height that is not finite, or no spring under a punch.
+    /// The memory is too small, a height is not finite, or no spring lies under a punch.
     ///
     /// ```
     /// use asperity_surface::{Form, Line};
@@ -54,7 +54,7 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// Creates the profile as [`Line::new`] does, from roughness whose memory becomes the memory of the gaps.
+    /// Creates the profile as [`Line::new`] does. The gaps take the memory of the given roughness.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
@@ -89,12 +89,12 @@ impl Line {
         Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
     }
 
-    /// Heights z, m, of the points under the body; `summit` − z is their gap, bit for bit.
+    /// Returns the heights z in m of the points under the body. The gap of a point is `summit` − z, bit for bit.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps.iter().map(|gap| self.height(*gap))
     }
 
-    /// Height, m, of a point with this gap (m).
+    /// Returns the height in m of a point with this gap in m.
     fn height(&self, gap: f64) -> f64 {
         let height = self.summit - gap;
         // The gap of the rounded height may be one digit off; then that of a neighbouring number is exact.
@@ -102,18 +102,18 @@ impl Line {
         nearby.into_iter().find(|height| self.summit - height == gap).unwrap_or(height)
     }
 
-    /// Position x, m, of the spring number `index` under the body, from 0.
+    /// Returns the position x in m of the spring number `index` under the body, from 0.
     pub fn position(&self, index: usize) -> f64 {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
-    /// Height of the lowest point of the profile, m.
+    /// Returns the height of the lowest point of the profile in m.
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
     }
 }
 
-/// Largest value; the error is the index of the first value that is not finite.
+/// Returns the largest value. The error is the index of the first value that is not finite.
 fn largest(values: &[f64]) -> Result<f64, usize> {
     // In parallel: a sequence of comparisons would wait for each one.
     let mut largest = [f64::NEG_INFINITY; 8];
@@ -133,20 +133,20 @@ fn largest(values: &[f64]) -> Result<f64, usize> {
     Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// Numbers of heights in equal bins from the lowest to the highest height.
+/// Numbers of heights in bins of equal width, from the lowest to the highest height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
-    /// Lower end of the first bin, m.
+    /// Lower end of the first bin in m.
     pub low: f64,
-    /// Upper end of the last bin, m.
+    /// Upper end of the last bin in m.
     pub high: f64,
     /// Number of heights in each bin.
     pub counts: Vec<u64>,
 }
 
 impl Histogram {
-    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included; heights outside are
-    /// omitted. For a range of zero width all heights are in the first bin.
+    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included. Heights outside are left
+    /// out. If `low` equals `high`, all heights are in the first bin.
     ///
     /// ```
     /// let histogram = asperity_surface::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
@@ -164,13 +164,13 @@ impl Histogram {
     }
 }
 
-/// No spring lies under the punch, whose diameter is rounded to whole cells of this width, m.
+/// Returns the error of a punch without a spring below it. Its diameter is rounded to whole cells of this width in m.
 fn no_springs(spacing: f64) -> SurfaceError {
     let allowed = format!("at least a quarter of the spacing, {:e} m", spacing / 4.0);
     refused(Place::Field("form.radius"), "no spring lies under the punch", allowed)
 }
 
-/// The height at this spring, by index, is not finite; earlier ones are.
+/// Returns the error of the first height that is not finite, at the spring with this index.
 fn not_finite(spring: usize) -> SurfaceError {
     let allowed = "a form and roughness whose heights are finite";
     refused(Place::Point(spring + 1), "the line has a height that is not finite", allowed)

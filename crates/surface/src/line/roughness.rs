@@ -1,4 +1,4 @@
-//! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse Fourier transform.
+//! Synthesis of a self-affine profile of rms height 1 with random phases, by one inverse Fourier transform.
 
 use super::modes::{Modes, phases};
 use super::spectrum::SelfAffine;
@@ -12,17 +12,16 @@ use std::sync::Arc;
 /// Number of modes below which another thread takes longer to start than it saves.
 const MANY_MODES: usize = 1 << 16;
 
-/// Largest number of springs for which the planned transform is kept for the next profile. It takes 20 bytes per spring,
-/// which on longer profiles are worth more than the time saved.
+/// Largest number of springs for which the planned transform is kept for the next profile. It takes 20 bytes per spring, which
+/// on longer profiles are worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Synthesises profiles one after the other, and keeps the planned transform and its memory between them.
+/// Synthesises random profiles one after the other. The planned Fourier transform and its memory are kept for the next profile.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
 }
 
-/// A planned inverse transform with its memory.
 struct Transform {
     points: usize,
     plan: Arc<dyn ComplexToReal<f64>>,
@@ -41,8 +40,8 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs, in `memory`:
-    /// heights at x = (i + ½ − `shift`)L/N.
+    /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs: heights at x = (i + ½
+    /// − `shift`)L/N. The heights are stored in the memory of `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -65,8 +64,8 @@ impl Synthesizer {
         self.transform((spectrum.first, spectrum.last), points, memory, draw)
     }
 
-    /// Sum of the cosines of the modes `first..=last`, with these amplitudes (m) and the phases of the seed; `last` is at
-    /// most `points`/2. Positions are as in [`Self::synthesize`].
+    /// Sums the cosines of the modes `first..=last` with these amplitudes in m and the phases of the seed. `last` is at most
+    /// `points`/2. Positions are as in [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
@@ -85,7 +84,8 @@ impl Synthesizer {
         })
     }
 
-    /// Heights of the modes `first..=last`; `draw` fills in their coefficients ½ A_k e^(iφ), from the mode `first` on.
+    /// Computes the heights of the modes `first..=last`. `draw` fills in their coefficients ½ A_k e^(iφ), from the mode `first`
+    /// on.
     fn transform(
         &mut self,
         (first, last): (u64, u64),
@@ -122,11 +122,12 @@ impl Synthesizer {
 }
 
 impl SelfAffine {
-    /// Synthesises heights in units of the rms height, eqs. (8) and (9), on `points` springs at x = (i + ½)L/N, at least
-    /// twice the last mode. They depend only on spectrum, seed, and number and position of the points, not on the length.
+    /// Synthesises heights in units of the rms height on `points` springs at x = (i + ½)L/N, eqs. (8) and (9) of Popov and
+    /// Filippov (2012). `points` is at least twice the last mode. The heights depend only on the spectrum, the seed, and the
+    /// number and positions of the points, not on the length.
     ///
-    /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile to within
-    /// the rounding of the transform.
+    /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile to within the
+    /// rounding of the transform.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };

@@ -1,10 +1,11 @@
-//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), and roughness amplitudes of profiles.
+//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9) of Popov and Filippov (2012), and roughness amplitudes of
+//! profiles.
 
 use asperity_data::{integral_of_power, sum_of_powers};
 use std::f64::consts::TAU;
 
-/// A self-affine spectrum over the modes k = `first` … `last`, wave vectors q_k = 2πk/L:
-/// A_k ∝ k^(−H−1/2), and below the roll-off, where the spectrum of the surface C₂D is flat, A_k ∝ √k by eq. (8).
+/// Self-affine spectrum of the modes k = `first` … `last`, whose wave numbers are q_k = 2πk/L. The amplitudes are A_k ∝
+/// k^(−H−1/2). Below the roll-off the spectrum C₂D of the surface is flat, and by eq. (8) of Popov and Filippov (2012) A_k ∝ √k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
@@ -13,13 +14,13 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, at least `first`.
     pub last: u64,
-    /// Mode of the roll-off, in waves per length: L over the roll-off wavelength, which need not be a whole number. Any
-    /// value up to `first`, such as 0, means no roll-off.
+    /// Mode of the roll-off: the length L over the roll-off wavelength, which need not be a whole number. Any value up to
+    /// `first`, such as 0, means no roll-off.
     pub roll_off_mode: f64,
 }
 
 impl SelfAffine {
-    /// Amplitude of mode k over the amplitude that mode 1 has in the same spectrum without a roll-off.
+    /// Returns the amplitude of mode k over A₁, the amplitude of mode 1 without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
@@ -27,15 +28,16 @@ impl SelfAffine {
         if mode < self.roll_off_mode { decay * (mode / self.roll_off_mode).sqrt() } else { decay }
     }
 
-    /// Exponent −H − 1/2 of the amplitudes.
+    /// Returns the exponent −H − 1/2 of the amplitudes.
     #[inline]
     pub(super) fn amplitude_exponent(&self) -> f64 {
         -self.hurst - 0.5
     }
 
-    /// Share of a wave of k waves per length in the mean square height of the surface whose equivalent profile has this
-    /// spectrum, over A₁²: A_k²/(4πk), since C₁D = πq C₂D. The waves of a surface lie in all directions, and k need not be
-    /// a whole number; zero half a wave beyond the first and the last mode.
+    /// Returns the part of one wave in the mean square height of a surface, over A₁²: A_k²/(4πk). The wave has k = `waves`
+    /// waves per length, not always a whole number, because waves of a surface lie in all directions. The equivalent profile of
+    /// the surface has this spectrum C₁D = πq C₂D, with the spectrum C₂D of the surface. The part is zero more than half a wave
+    /// beyond the first and the last mode.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -45,15 +47,16 @@ impl SelfAffine {
         square / (4.0 * std::f64::consts::PI * waves)
     }
 
-    /// Root mean square of the sum of cosines with the relative amplitudes: √(Σ A_k²/2).
+    /// Returns the root mean square √(Σ A_k²/2) of the sum of cosines with the amplitudes of [`Self::relative_amplitude`].
     pub fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()
     }
 
-    /// Rms gradient over rms height, 1/m, of a profile of length L (m): ⟨∇z⟩/h = √(Σ A_k² q_k² / Σ A_k²), summed over the
-    /// modes of the profile.
+    /// Returns the rms gradient over the rms height, ⟨∇z⟩/h in 1/m, of a profile of length L in m. It is √(Σ A_k² q_k² / Σ
+    /// A_k²), summed over the modes of the profile.
     ///
-    /// As these are finite sums of positive terms, H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
+    /// These sums are finite and have positive terms. So H → 1 is no special case, unlike in the integrals of eqs. (12) and
+    /// (13) of Popov and Filippov (2012).
     ///
     /// ```
     /// use asperity_surface::SelfAffine;
@@ -67,7 +70,8 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Roughness amplitude of a profile of rms height 1 m and length L (m), by the sums of [`Self::gradient_per_height`].
+    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m, by the sums of
+    /// [`Self::gradient_per_height`].
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 512, roll_off_mode: 0.0 };
@@ -84,11 +88,11 @@ impl SelfAffine {
         }
     }
 
-    /// The same ratio as [`Self::gradient_per_height`] by the integrals of eqs. (5)–(7) and (12) over a continuum
-    /// of modes: ⟨∇z⟩²/h² = ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
+    /// Returns the ratio ⟨∇z⟩/h in 1/m for a continuum of modes. By eqs. (5)–(7) and (12) of Popov and Filippov (2012) its
+    /// square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
     ///
-    /// It differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. Zero for a
-    /// single mode.
+    /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. It is zero
+    /// for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
         let between = self.roll_off_mode.max(low).min(high);
@@ -106,7 +110,8 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (integral(2) / height).sqrt()
     }
 
-    /// Σ k^power A_k² over the modes with the relative amplitudes, with a relative error of a few units in the last place.
+    /// Computes Σ k^power A_k² over the modes with the relative amplitudes, with a relative error of a few units in the last
+    /// place.
     fn moment(&self, power: i32) -> f64 {
         let begins = (self.roll_off_mode.ceil() as u64).max(self.first).min(self.last.saturating_add(1));
         let decays = sum_of_powers(self.exponent(power), begins, self.last);
@@ -116,32 +121,32 @@ impl SelfAffine {
         decays + self.flat_level() * sum_of_powers(f64::from(power) + 1.0, self.first, begins - 1)
     }
 
-    /// Exponent of k in k^power A_k² for modes above the roll-off.
+    /// Returns the exponent of k in k^power A_k² for modes above the roll-off.
     fn exponent(&self, power: i32) -> f64 {
         f64::from(power) - 1.0 - 2.0 * self.hurst
     }
 
-    /// A_k²/k for modes below the roll-off.
+    /// Returns A_k²/k for modes below the roll-off.
     fn flat_level(&self) -> f64 {
         self.roll_off_mode.powf(-2.0 - 2.0 * self.hurst)
     }
 }
 
-/// Roughness amplitude of a profile.
+/// Roughness amplitude of a profile: rms height, gradient and curvature, and the mean wave number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amplitude {
-    /// Root mean square height h, m.
+    /// Root mean square height h in m.
     pub rms_height: f64,
     /// Root mean square gradient ⟨∇z⟩.
     pub rms_gradient: f64,
-    /// Root mean square curvature, 1/m.
+    /// Root mean square curvature in 1/m.
     pub rms_curvature: f64,
-    /// Mean wave number Σ q_k A_k²/Σ A_k², rad/m; 0 for a flat profile.
+    /// Mean wave number Σ q_k A_k²/Σ A_k² in rad/m; 0 for a flat profile.
     pub mean_wave_number: f64,
 }
 
 impl Amplitude {
-    /// Amplitude of the profile with all heights multiplied by a factor.
+    /// Returns the amplitude of the profile whose heights are all multiplied by a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
@@ -151,7 +156,7 @@ impl Amplitude {
         }
     }
 
-    /// Amplitude of the profile stretched to `times` its length.
+    /// Returns the amplitude of the profile that is stretched to `times` its length.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,
@@ -161,7 +166,8 @@ impl Amplitude {
         }
     }
 
-    /// Amplitude of modes k with these mean squares A_k²/2 (m²) on a length (m); the smallest come first, for accuracy.
+    /// Computes the amplitude of modes k with these mean squares A_k²/2 (m²) on a length in m. The smallest come first, for
+    /// accuracy.
     pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
         let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
         for (mode, square) in squares {
@@ -180,8 +186,8 @@ impl Amplitude {
         }
     }
 
-    /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of
-    /// effective modulus E* (Pa) in full contact with an isotropic surface with the rms height, rms gradient and
+    /// Returns the elastic energy of conformity per area in J/m²: e_el = (E*/8) Σ q_k A_k². It is the energy of a half-space of
+    /// effective modulus E* (Pa) in full contact with an isotropic surface. The surface has the rms height, rms gradient and
     /// mean wave number of the profile (Persson and Tosatti, 2001).
     ///
     /// ```

@@ -1,7 +1,7 @@
-//! A body of revolution from a table of radii and depths, and its MDR transform.
+//! A body of revolution from a table of radii and depths, and its equivalent profile.
 //!
-//! Between two rows the depth is a cubic with limited slopes at the rows, so that f′ = a + b s + c s² at the distance s
-//! behind a row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is a sum over the intervals between rows.
+//! Between two rows the depth is a cubic with limited slopes at the rows. So f′ = a + b s + c s² at the distance s behind a
+//! row. The profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum over the intervals between rows.
 
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::Unit;
@@ -17,7 +17,7 @@ use std::sync::{Arc, LazyLock, OnceLock};
 const NODES: usize = 20;
 /// Number of points at which the equivalent profile is searched for its falling part.
 const STEPS: usize = 1024;
-/// Smallest allowed distance of two rows over the radius of the last row: the digits of a file resolve no smaller one.
+/// Smallest allowed distance of two rows over the radius of the last row. The digits of a file resolve no smaller one.
 const CLOSEST: f64 = 1e-9;
 
 /// Sine of the angle of an interval between rows below which power series are accurate to rounding.
@@ -35,7 +35,7 @@ const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0
 /// Quadrature over the angle of a wider interval, in which f′ is a polynomial of the sine of the angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
-/// A form f(r) given by rows (r, f), with r ascending from 0.
+/// A body of revolution f(r), given by rows of a radius r and a depth f. The radii ascend from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormTable {
     radii: Vec<f64>,
@@ -43,7 +43,7 @@ pub struct FormTable {
     slopes: Vec<[f64; 3]>,
 }
 
-/// The rows of a form, shared by its clones, once they are read. Forms whose rows are not read are equal.
+/// Rows of a form, which its clones share once the rows are read. In a comparison, rows that are not read equal all others.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -66,10 +66,10 @@ impl FormTable {
         FormTable::new(radii, &depths)
     }
 
-    /// Creates a form of depths (m) at two or more radii (m), ascending from 0.
+    /// Creates a form from depths in m at two or more radii in m, ascending from 0.
     ///
     /// # Errors
-    /// The row at fault and the allowed values.
+    /// The error names the row at fault and the allowed values.
     ///
     /// ```
     /// let cone = asperity_surface::FormTable::new(vec![0.0, 1e-6, 2e-6], &[0.0, 1e-7, 2e-7])?;
@@ -116,12 +116,12 @@ impl FormTable {
         Ok(FormTable { radii, slopes })
     }
 
-    /// Radius of the last row, m.
+    /// Returns the radius of the last row in m.
     pub fn reach(&self) -> f64 {
         self.radii[self.radii.len() - 1]
     }
 
-    /// Depth f(r), m, at a radius, m; beyond the last row the body goes on with its last slope.
+    /// Returns the depth f(r) in m at a radius in m. Beyond the last row the body goes on with its last slope.
     pub(super) fn depth(&self, radius: f64) -> f64 {
         let along = |row: usize, distance: f64| {
             let [a, b, c] = self.slopes[row];
@@ -136,18 +136,18 @@ impl FormTable {
         before + along(row, width) + beyond * (a + width * (b + width * c))
     }
 
-    /// Curvature at the summit, 1/m; `None` for a pointed tip.
+    /// Returns the curvature at the summit in 1/m; `None` for a pointed tip.
     pub(super) fn summit_curvature(&self) -> Option<f64> {
         let [slope, curvature, _] = self.slopes[0];
         let is_round = slope.abs() <= 0.1 * (curvature * self.radii[1]).abs();
         Some(curvature).filter(|curvature| is_round && *curvature >= 0.0)
     }
 
-    /// Contribution of the interval behind a row to g(x)/x, up to the radius `end` (m) in it, at most x: ∫ f′(r)/√(x² − r²)
-    /// dr.
+    /// Computes the contribution of the interval behind a row to g(x)/x: ∫ f′(r)/√(x² − r²) dr up to the radius `end` (m) in
+    /// the interval, which is at most x.
     ///
-    /// With δ the difference of the angles arcsin(r/x) of r and of the row, r = u + c sin δ − u (1 − cos δ), where u is the
-    /// radius of the row and c = √(x² − u²): no term cancels, however close the rows.
+    /// Let δ be the difference of the angles arcsin(r/x) of r and of the row. Then r = u + c sin δ − u (1 − cos δ), where u is
+    /// the radius of the row and c = √(x² − u²). No term cancels, however close the rows.
     fn part(&self, row: usize, x: f64, end: f64) -> f64 {
         let (u, [a, b, c]) = (self.radii[row], self.slopes[row]);
         // Of a point on the row, rounding may leave x below u.
@@ -177,21 +177,22 @@ impl FormTable {
         angle * RULE.iter().map(slope).sum::<f64>()
     }
 
-    /// Contribution of the intervals behind these rows to g(x)/x; all of them end at x or below (m).
+    /// Computes the contribution of the intervals behind these rows to g(x)/x. All of them end at x or below, in m.
     fn parts(&self, rows: Range<usize>, x: f64) -> f64 {
         rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
     }
 
-    /// Depth g, m, of the equivalent profile at a distance from the axis, m.
+    /// Returns the depth g in m of the equivalent profile at a distance from the axis in m.
     pub(super) fn mdr_profile(&self, x: f64) -> f64 {
         let gap = self.radii[1..self.slopes.len()].partition_point(|&r| r <= x);
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Depths g, m, at `count` multiples of `spacing` (m) from the axis, beginning on it.
+    /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing` (m) from the axis, the first
+    /// on the axis.
     ///
-    /// One depth takes a square root for each row below it. Where many points lie between two
-    /// rows, a polynomial therefore interpolates the contribution of all rows at least one interval away.
+    /// One depth takes a square root for each row nearer the axis. Where many points lie between two rows, a polynomial
+    /// therefore interpolates the contribution of all rows at least one interval away.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {
@@ -228,8 +229,8 @@ impl FormTable {
         Ok(depths)
     }
 
-    /// Distance from the axis, m, at which the equivalent profile begins to fall, within a radius (m); `None` if it never
-    /// falls.
+    /// Finds the distance from the axis in m at which the equivalent profile begins to fall, within a radius in m. `None` if it
+    /// never falls.
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;
@@ -239,9 +240,9 @@ impl FormTable {
     }
 }
 
-/// Slope of the form at a row, from the secants between rows: the slope of the parabola through three rows, at most three times
-/// the smaller secant beside the row, and zero where the secants differ in sign. Between two rows the cubic then stays between
-/// their depths. Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
+/// Returns the slope of the form at a row, from the secants between rows. It is the slope of the parabola through three rows,
+/// at most three times the smaller secant beside the row, and zero where the secants differ in sign. Between two rows the cubic
+/// then stays between their depths. Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
 fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {
     let last = secants.len() - 1;
     let one = row.saturating_sub(1).min(last.saturating_sub(1));

@@ -1,4 +1,4 @@
-//! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and their limits.
+//! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and the limits of all three.
 
 use super::fit::{Model, SelfAffineFit, fit_power_law};
 use super::interlaced;
@@ -17,7 +17,7 @@ const LEAST_POINTS: usize = 32;
 /// Share of the squared gradient that waves beyond the end of the spectrum may have.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// The last 1/`FLOOR` of the waves give the noise floor of interpolated points; `CHANCE` is the share of the floor that is
+/// The last 1/`FLOOR` of the waves give the noise floor of interpolated points. `CHANCE` is the share of the floor that is
 /// attributed to chance.
 const FLOOR: usize = 8;
 const CHANCE: f64 = 0.25;
@@ -31,63 +31,64 @@ const NARROW: f64 = 2.0;
 /// Number of waves before an end inside the scan that the self-affine fit leaves out.
 const BEFORE_END: f64 = 4.0;
 
-/// Relative difference within which lengths, or distances between points, of two scans count as equal.
+/// Relative difference within which lengths of two scans, or their distances between points, count as equal.
 const SAME: f64 = 1e-6;
 
 /// Largest ratio of the wave number up to which a spectrum may be continued to the last resolved wave number.
 const CONTINUED: f64 = 4.0;
 
-/// Options of an analysis.
+/// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. `None`: as a container states, else the tilt, or only the mean of a periodic
-    /// surface, where removing a plane would leave a step at the borders.
+    /// Polynomial removed before the analysis. With `None` it is the one that a container states, or else the tilt. From a
+    /// periodic surface only the mean is removed, because removing a plane would leave a step at the borders.
     pub detrend: Option<Detrend>,
-    /// True for a surface that continues periodically at its borders, for which no window is used. A container may state it
-    /// too.
+    /// True for a surface that continues periodically at its borders. No window function is used for it. A container may also
+    /// state this.
     pub periodic: bool,
-    /// Where the spectrum ends.
+    /// End of the spectrum: whether waves continue beyond the last resolved one.
     pub end: End,
-    /// Radius of the tip that measured the surface, m.
+    /// Radius in m of the tip that measured the surface.
     pub tip_radius: Option<f64>,
 }
 
-/// Statistics, spectra and equivalent line of measured surfaces.
+/// Result of [`analyse`]: statistics, spectra and equivalent line of measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Analysis {
     /// Statistics of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height of each surface, m.
+    /// Rms height of each surface in m.
     pub rms_heights: Vec<f64>,
     /// Spectra of the measured surfaces by direction, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
-    /// Isotropic spectrum C2D of which the surfaces are samples.
+    /// Isotropic spectrum of which the surfaces are samples.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine fit; `None` if it does not converge or fits no exponent between 0 and 1.
+    /// Self-affine fit; `None` if the fit does not converge or finds no Hurst exponent between 0 and 1.
     pub power_law: Option<SelfAffineFit>,
-    /// Moments of the equivalent line.
+    /// Moments of the equivalent line, such as its rms height.
     pub line: LineMoments,
-    /// Shortest wavelength that the tip resolves reliably, m; the largest of all surfaces.
+    /// Shortest wavelength in m that the tip resolves reliably; of several surfaces the largest. `None` without a tip radius,
+    /// or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
-    /// Number of profiles.
+    /// Number of profiles among the surfaces.
     pub profiles: u64,
-    /// Number of maps.
+    /// Number of maps among the surfaces.
     pub maps: u64,
-    /// Largest length along a row of all surfaces, m.
+    /// Length of the longest row of all surfaces in m.
     pub length: f64,
-    /// Where the spectrum ends.
+    /// End of the spectrum, as the options state it.
     pub end: End,
     /// True if the spectrum ends before the last resolved wave.
     pub ends_inside: bool,
-    /// True if the waves parallel to one axis of a map are left out, because its rows or columns are offset against each
-    /// other or were levelled one by one.
+    /// True if the waves parallel to one axis of a map are left out. The rows or columns of such a map are offset against each
+    /// other, or were levelled one by one.
     pub offsets: bool,
-    /// Share of the squared gradient by which waves parallel to an axis differ from waves in neighbouring directions, if they
-    /// are not left out; 0 if the difference may be chance.
+    /// Difference between waves parallel to an axis of a map and waves in neighbouring directions, as a share of the squared
+    /// gradient. It is 0 if such waves are left out, or if the difference is small or may be chance.
     pub apart: f64,
-    /// Distance, m, by which odd rows of a map are displaced against even rows, as if they were from two scans; the largest
-    /// of all maps.
+    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. Of several
+    /// maps it is the largest; `None` if no map has such a displacement.
     pub displaced: Option<f64>,
 }
 
@@ -96,7 +97,7 @@ pub struct Analysis {
 struct Powers {
     profiles: Vec<ProfilePower>,
     maps: Vec<MapPower>,
-    /// Power spectra along long and narrow maps, with the wave number, rad/m, below which they replace the spectrum of the
+    /// Power spectra along long and narrow maps. Each has the wave number in rad/m below which it replaces the spectrum of the
     /// map.
     strips: Vec<(ProfilePower, f64)>,
     /// Power spectra along the rows and along the columns of maps, for display.
@@ -106,7 +107,8 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// [`SurfaceError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
+/// Returns an error for a surface with uneven or few points or without roughness, and for an [`End::Continues`] that the
+/// surfaces already resolve.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};
@@ -249,8 +251,8 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SurfaceError> {
 }
 
 impl Powers {
-    /// Power spectra of surfaces after removal of a polynomial. The heights are from [`Topography::copied_heights`];
-    /// `check` receives them with the distances between the points (m).
+    /// Computes the power spectra of surfaces after removal of a polynomial. The heights are from [`Topography::copied_heights`].
+    /// `check` receives them with the distances between the points in m.
     fn of(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -325,8 +327,8 @@ impl Powers {
             .collect()
     }
 
-    /// Range of wave numbers, rad/m, from wave 1 of the longest surface to the last wave of the finest surface, for
-    /// profiles half a wave further; `last` returns the number of the last wave of a spectrum.
+    /// Returns the range of wave numbers in rad/m, from wave 1 of the longest surface to the last wave of the finest surface, for
+    /// profiles half a wave further. `last` returns the number of the last wave of a spectrum.
     fn range(&self, last: impl Fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let count = last(&power.waves);
@@ -358,10 +360,9 @@ impl Powers {
     }
 }
 
-/// Finds the end of a spectrum of waves (wave number, power): returns the number of waves after which the rest has a
-/// negligible share of the squared gradient and far smaller power, or the number of all waves if the spectrum has no end.
-/// With `has_floor` only the power above the level of the last waves counts: errors of single interpolated points add the
-/// same power to all waves.
+/// Finds the end of a spectrum of waves (wave number, power). Returns the number of waves after which the rest has a negligible
+/// share of the squared gradient and far smaller power, or the number of all waves if there is no end. With `has_floor` only the
+/// power above the level of the last waves counts, because errors of single interpolated points add the same power to all waves.
 fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     let sum = |waves: &[(f64, f64)]| waves.iter().map(square).sum::<f64>();
     let squares = |waves: &[(f64, f64)]| waves.iter().map(|(q, _)| q * q).sum::<f64>();
@@ -381,7 +382,7 @@ fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { waves.len() }
 }
 
-/// The power spectrum of profiles with this number and spacing of points; a new one if there is none yet.
+/// Returns the power spectrum of profiles with this number and spacing of points, a new one if there is none yet.
 fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: bool) -> &mut ProfilePower {
     let same = |power: &ProfilePower| power.points == points && (power.spacing / spacing - 1.0).abs() < SAME;
     let index = powers.iter().position(same).unwrap_or_else(|| {
@@ -392,7 +393,7 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Share of the squared height that lies in waves longer than a quarter of the scan, of which there are few.
+    /// Returns the share of the squared height that lies in waves longer than a quarter of the scan. There are few such waves.
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

@@ -4,7 +4,7 @@ use crate::topography::surface::Detrend;
 use asperity_data::Cholesky;
 
 impl Detrend {
-    /// Exponents of x and y of the monomials that are removed from a profile or a map.
+    /// Returns the exponents of x and y of the monomials that are removed from a profile or a map.
     fn monomials(self, is_map: bool) -> Vec<[i32; 2]> {
         let degrees = match self {
             Detrend::None => 0..0,

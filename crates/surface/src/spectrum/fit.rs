@@ -1,9 +1,9 @@
-//! The spectrum of largest penalised likelihood (Whittle): powers of waves are exponentially distributed about their means.
+//! The spectrum of largest penalised likelihood (Whittle). The powers of waves are exponentially distributed about their means.
 //!
-//! Over the values x = ln C2D at the nodes, Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised, with the
-//! observed powers P of w waves each and their means m(x). Steps follow Fisher's scoring and are halved until the sum falls.
+//! The sum Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised over the values x = ln C2D at the nodes. P are the
+//! observed powers of w waves each, and m(x) their means. Steps follow Fisher's scoring and are halved until the sum falls.
 //!
-//! Also the self-affine fit: C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
+//! In the self-affine fit C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
 
 use super::isotropic::{End, IsotropicSpectrum, Nodes, Term, ValueWithError, cut};
 use super::observation::Observation;
@@ -15,7 +15,7 @@ const SMOOTHNESS: f64 = 1.0;
 
 const NODES_PER_DECADE: f64 = 6.0;
 
-/// Limit of the number of steps, and the decrease of the objective below which the search ends.
+/// Largest number of steps, and the decrease of the objective below which the search ends.
 const MOST_STEPS: usize = 200;
 const SMALL_DECREASE: f64 = 1e-9;
 
@@ -29,20 +29,20 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// Creates a model with nodes over the range of wave numbers of the observations, rad/m.
+    /// Creates a model with nodes over the range of wave numbers of the observations in rad/m.
     pub fn new(observations: &'a [Observation], [low, high]: [f64; 2], end: End) -> Self {
         let nodes = Nodes::new(low, high, NODES_PER_DECADE, end);
         let terms = observations.iter().map(|observation| observation.terms(&nodes)).collect();
         Model { observations, terms, nodes }
     }
 
-    /// Objective without the penalty, for given means of the powers.
+    /// Computes the objective without the penalty, for given means of the powers.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         let each = self.observations.iter().zip(means);
         each.map(|(observed, mean)| observed.waves * (observed.power / mean + mean.ln())).sum()
     }
 
-    /// Means of the observed powers for these values of ln C2D at the nodes.
+    /// Returns the means of the observed powers for these values of ln C2D at the nodes.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms.iter().map(|terms| terms.iter().map(|term| term.value(values)).sum::<f64>())
     }
@@ -52,7 +52,7 @@ impl<'a> Model<'a> {
         self.misfit(self.means(values)) + SMOOTHNESS * rough
     }
 
-    /// Gradient and information matrix of the objective at these values.
+    /// Computes the gradient and the information matrix of the objective at these values.
     fn linearise(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let count = values.len();
         let (mut gradient, mut information) = (vec![0.0; count], vec![0.0; count * count]);
@@ -87,7 +87,8 @@ impl<'a> Model<'a> {
         (gradient, information)
     }
 
-    /// Initial values: C2D from the powers as if it were a power law with the exponent −3, constant outside the observations.
+    /// Returns the initial values: C2D from the powers as if it were a power law with the exponent −3, constant outside the
+    /// observations.
     fn start(&self) -> Vec<f64> {
         let count = self.nodes.count;
         let mut sums = vec![(0.0, 0.0); count];
@@ -117,8 +118,8 @@ impl<'a> Model<'a> {
         (0..count).map(between).collect()
     }
 
-    /// Finds the spectrum of the smallest objective; `None` if the information matrix is not positive definite, as for
-    /// powers that are zero or not finite.
+    /// Finds the spectrum of the smallest objective. `None` if the information matrix is not positive definite, as for powers
+    /// that are zero or not finite.
     pub fn fit(&self) -> Option<IsotropicSpectrum> {
         let moved = |values: &Vec<f64>, step: &[f64], share: f64| {
             let largest = step.iter().fold(0.0_f64, |largest, change| largest.max(change.abs()));
@@ -136,8 +137,8 @@ impl<'a> Model<'a> {
         Some(found)
     }
 
-    /// Largest difference between the moments of the measured powers and the moments of the fitted means over the same
-    /// waves, relative to the moments of the whole spectrum, among profiles and maps of one kind. Of several kinds, only
+    /// Compares the moments of the measured powers with the moments of the fitted means over the same waves. Returns the largest
+    /// difference among profiles and maps of one kind, relative to the moments of the whole spectrum. With several kinds, only
     /// the excess over chance counts.
     fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
         let mut largest = [0.0_f64; 3];
@@ -164,9 +165,8 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Minimises an objective by Fisher's scoring: steps solve the linearised equations (gradient, information matrix) and are
-/// halved until the objective falls; `moved` makes a share of a step. `None` if an information matrix is not positive
-/// definite.
+/// Minimises an objective by Fisher's scoring. Steps solve the linearised equations (gradient, information matrix) and are halved
+/// until the objective falls. `moved` makes a share of a step. `None` if an information matrix is not positive definite.
 pub(super) fn descend<P>(
     start: P,
     most_steps: usize,
@@ -191,8 +191,8 @@ pub(super) fn descend<P>(
     least.is_finite().then_some((parameters, least))
 }
 
-/// Gain of the log-likelihood that justifies a roll-off: with one more parameter, chance exceeds this gain once in a
-/// hundred times.
+/// Gain of the log-likelihood that justifies a roll-off. With one more parameter, chance exceeds this gain once in a hundred
+/// times.
 const LEAST_GAIN: f64 = 3.3;
 
 /// Number of initial roll-off wave numbers per decade.
@@ -204,19 +204,20 @@ const MOST_SEARCHED: usize = 60;
 
 const HURST: [f64; 2] = [-0.5, 1.5];
 
-/// Self-affine spectrum fitted to observed powers.
+/// Self-affine spectrum fitted to the powers of measured waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffineFit {
     /// Hurst exponent H.
     pub hurst: ValueWithError,
-    /// Roll-off wave number, rad/m; `None` without a roll-off.
+    /// Roll-off wave number in rad/m; `None` without a roll-off.
     pub roll_off: Option<ValueWithError>,
-    /// C2D at the roll-off, or at the first wave number if there is no roll-off, m⁴.
+    /// Two-dimensional spectral density C2D in m⁴ at the roll-off, or at the first wave number if there is no roll-off.
     pub level: ValueWithError,
 }
 
 impl SelfAffineFit {
-    /// PSD of a cut through the surface, m³, at a wave number, for a spectrum between two wave numbers, all in rad/m.
+    /// Returns the power spectral density in m³ of a cut through the surface at a wave number, for a spectrum between two wave
+    /// numbers. All wave numbers are in rad/m.
     pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
         let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);
@@ -252,8 +253,8 @@ impl Parameters {
     }
 }
 
-/// Self-affine fit to the observations of a model; `spectrum` is the fit with nodes to the same observations. `None` if it
-/// does not converge or no exponent between 0 and 1 fits.
+/// Fits a self-affine spectrum to the observations of a model. `spectrum` is the fit with nodes to the same observations. `None`
+/// if the fit does not converge or no exponent between 0 and 1 fits.
 pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<SelfAffineFit> {
     let low = model.nodes.first;
     let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
@@ -324,7 +325,7 @@ fn search(
     descend(start, most_steps, misfit, linearise, moved)
 }
 
-/// Gradient and information matrix of the misfit with respect to the first `free` parameters.
+/// Computes the gradient and the information matrix of the misfit with respect to the first `free` parameters.
 fn linearise(model: &Model<'_>, parameters: &Parameters, free: usize) -> (Vec<f64>, Vec<f64>) {
     let (mut gradient, mut information) = (vec![0.0; free], vec![0.0; free * free]);
     for (observed, terms) in model.observations.iter().zip(&model.terms) {

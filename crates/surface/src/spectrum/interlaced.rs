@@ -1,7 +1,6 @@
 //! Maps whose rows alternate between two scans, trace and retrace, that are displaced against each other along the rows.
 
-/// Limit of the number of compared pairs of neighbouring rows, of each order; and the largest displacement searched, in
-/// points.
+/// Largest number of compared pairs of neighbouring rows, of each order, and the largest displacement searched, in points.
 const MOST_PAIRS: usize = 128;
 const REACH: usize = 16;
 
@@ -10,9 +9,9 @@ const LEFT: f64 = 0.75;
 
 /// Returns the number of points by which the odd rows are displaced against the even rows; `None` unless this is certain.
 ///
-/// Neighbouring rows of a surface are most alike without a displacement, or with the same displacement from each row to the
-/// next, as for a lay askew to the rows or a drift. A displacement whose sign alternates from row to row comes from two
-/// scans.
+/// Neighbouring rows of a surface are most alike without a displacement, or with the same displacement from each row to the next.
+/// The latter results from a lay askew to the rows or from a drift. A displacement whose sign alternates from row to row comes
+/// from two scans.
 pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
     let rows = heights.len() / columns;
     let reach = REACH.min(columns / 8);
@@ -34,7 +33,7 @@ pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
     (one * other < 0.0 && (one + other).abs() <= 1.0).then_some(0.5 * (one - other).abs())
 }
 
-/// Sum of the squares of values about their mean, since rows may differ in their mean height.
+/// Sums the squares of values about their mean, because rows may differ in their mean height.
 fn variance(values: impl Iterator<Item = f64>) -> f64 {
     let (count, sum, squares) = values.fold((0.0, 0.0, 0.0), |(count, sum, squares), value| {
         (count + 1.0, sum + value, squares + value * value)

@@ -13,8 +13,8 @@ pub(super) use tests::known;
 /// Separates this use of the random generator from other uses.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
-/// The positive nodes of Gauss-Legendre quadrature on (−1, 1) with six nodes, and their weights: errors are below 1e-9 for
-/// the pieces used here.
+/// The positive nodes of Gauss-Legendre quadrature on (−1, 1) with six nodes, and their weights. Errors are below 1e-9 for the
+/// pieces used here.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
@@ -24,7 +24,7 @@ const GAUSS: [(f64, f64); 3] = [
 /// Number of quadrature pieces per unit of u in [`cut`].
 const CUT_PIECES: f64 = 8.0;
 
-/// Points and weights of the quadrature from `low` to `high`.
+/// Returns the points and weights of the quadrature from `low` to `high`.
 pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     GAUSS
@@ -32,8 +32,8 @@ pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
         .flat_map(move |(place, weight)| [-place, place].map(|place| (middle + half * place, half * weight)))
 }
 
-/// C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt, m³, of a spectrum that ends at the wave number `end`, rad/m, by the substitution
-/// t = k sinh u.
+/// Computes C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt in m³ by the substitution t = k sinh u. The spectrum ends at the wave number
+/// `end` in rad/m.
 pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     let last = (end / wave_number).max(1.0).acosh();
     let pieces = (CUT_PIECES * last).ceil();
@@ -43,22 +43,22 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     terms.sum::<f64>() * wave_number / PI
 }
 
-/// Whether a spectrum has waves beyond the last resolved wave.
+/// End of a spectrum: whether it has waves beyond the last resolved wave.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
     /// The surface has no waves beyond the last resolved one.
     #[default]
     Ends,
-    /// Waves continue up to this wave number, rad/m, by the power law of the last resolved part of a decade.
+    /// Waves continue up to this wave number in rad/m, by the power law between the last two nodes of the spectrum.
     Continues(f64),
 }
 
-/// Value with its standard error.
+/// A value with its standard error, in the same unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ValueWithError {
-    /// Value.
+    /// The value.
     pub value: f64,
-    /// Standard error.
+    /// Standard error of the value.
     pub error: f64,
 }
 
@@ -66,23 +66,22 @@ pub struct ValueWithError {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Moment {
-    /// Value.
+    /// Value of the moment.
     pub value: f64,
-    /// Standard error of likelihood and method together.
+    /// Standard error of the value, from `statistical` and `method` together.
     pub error: f64,
-    /// Standard error of the likelihood, since the number of measured waves is finite.
+    /// Standard error that results from the finite number of measured waves.
     pub statistical: f64,
-    /// Error of the method: difference between the fit and the moments of the measured powers, and the error of
+    /// Error of the method: the difference between the moments of the fit and of the measured powers, and the error of
     /// interpolated points.
     pub method: f64,
-    /// Largest change of the value if the spectrum continues as a power law down to a quarter of the last resolved
-    /// wavelength: short waves are then missing, and by aliasing they add to the power of longer waves. Zero for a spectrum
-    /// that ends inside the scan or is continued.
+    /// Largest change of the value if the spectrum continues as a power law down to a quarter of the last resolved wavelength.
+    /// Short waves are then missing, and by aliasing they add to the power of longer waves. The change is zero for a spectrum
+    /// that ends inside the scan, and with [`End::Continues`].
     pub missing_short_waves: f64,
 }
 
 impl Moment {
-    /// Creates a moment from its value and its relative errors.
     fn new(value: f64, statistical: f64, method: f64, missing_short_waves: f64) -> Self {
         let [statistical, method, missing_short_waves] =
             [statistical, method, missing_short_waves].map(|error| error * value);
@@ -105,17 +104,17 @@ impl Moment {
     }
 }
 
-/// Moments of the equivalent line, over all its waves.
+/// Moments of the equivalent line over all its waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineMoments {
-    /// Rms height h, m.
+    /// Rms height h in m.
     pub rms_height: Moment,
     /// Rms gradient ⟨∇z⟩.
     pub rms_gradient: Moment,
-    /// Product h⟨∇z⟩, m, to which κ² is proportional; its error accounts for the correlation of both factors.
+    /// Product h⟨∇z⟩ in m, to which κ² is proportional. Its error accounts for the correlation of both factors.
     pub height_gradient: Moment,
-    /// Elastic energy of conformity over the effective modulus, e_el/E*, m.
+    /// Elastic energy of conformity over the effective modulus, e_el/E* in m.
     pub energy_per_modulus: Moment,
 }
 
@@ -127,12 +126,12 @@ pub(super) struct Nodes {
     /// Distance between nodes in ln q.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum, rad/m; beyond the last node for a spectrum that is continued.
+    /// Largest wave number of the spectrum in rad/m; beyond the last node for a spectrum that is continued.
     pub end: f64,
 }
 
 impl Nodes {
-    /// Creates nodes between two wave numbers, rad/m, `per_decade` of them in a decade, for a spectrum with this end.
+    /// Creates nodes between two wave numbers in rad/m, `per_decade` of them in a decade, for a spectrum with this end.
     pub fn new(low: f64, high: f64, per_decade: f64, end: End) -> Self {
         let decades = (high / low).log10();
         let pieces = (per_decade * decades).ceil().max(2.0);
@@ -144,20 +143,21 @@ impl Nodes {
         Nodes { first, step: (high / low).ln() / pieces, count: pieces as usize + 1, end }
     }
 
-    /// Wave number of a node, rad/m.
+    /// Returns the wave number of a node in rad/m.
     pub fn wave_number(&self, index: usize) -> f64 {
         (self.first + index as f64 * self.step).exp()
     }
 
-    /// Index of the node below ln q, and the share of the way to the next node: a spectrum is constant below the first node
-    /// and extrapolated beyond the last.
+    /// Returns the index of the node below ln q, and the share of the way to the next node. A spectrum is constant below the
+    /// first node and extrapolated beyond the last.
     pub fn place(&self, ln_q: f64) -> (usize, f64) {
         let place = ((ln_q - self.first) / self.step).max(0.0);
         let index = (place as usize).min(self.count - 2);
         (index, place - index as f64)
     }
 
-    /// Intervals of the wave number, rad/m, from `low` to the end of the spectrum, in each of which it is a power law.
+    /// Returns the intervals of the wave number in rad/m, from `low` to the end of the spectrum, in each of which it is a power
+    /// law.
     pub fn pieces_from(self, low: f64) -> impl Iterator<Item = (f64, f64)> {
         let index = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
         // The logarithm of zero is below all nodes.
@@ -171,7 +171,7 @@ impl Nodes {
         })
     }
 
-    /// The term `weight` × C2D(q) of a sum over the spectrum, at a wave number q, rad/m.
+    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, at a wave number q in rad/m.
     pub fn term(&self, q: f64, weight: f64) -> Term {
         let ln_q = q.ln();
         let (index, share) = self.place(ln_q);
@@ -189,27 +189,28 @@ pub(super) struct Term {
 }
 
 impl Term {
-    /// Value of the term for these values of ln C2D at the nodes.
+    /// Returns the value of the term for these values of ln C2D at the nodes.
     pub fn value(&self, values: &[f64]) -> f64 {
         self.weight * ((1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]).exp()
     }
 }
 
-/// Values of a spectrum at a node.
+/// Values of an isotropic spectrum at one of the wave numbers at which it is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Node {
-    /// Wave number q of the node, rad/m.
+    /// Wave number q of the node in rad/m.
     pub wave_number: f64,
-    /// C2D(q), m⁴.
+    /// Two-dimensional spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
-    /// Standard error of ln C2D(q).
+    /// Standard error of ln C2D(q), about the relative error of C2D(q).
     pub relative_error: f64,
-    /// PSD of the equivalent line at q, m³.
+    /// Power spectral density of the equivalent line at q in m³.
     pub line: f64,
 }
 
-/// Isotropic spectrum C2D(q), m⁴; ln C2D is linear in ln q between nodes.
+/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at nodes; between these wave numbers
+/// ln C2D is linear in ln q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
@@ -217,45 +218,46 @@ pub struct IsotropicSpectrum {
     pub(super) values: Vec<f64>,
     /// Information matrix of `values`.
     pub(super) information: Cholesky,
-    /// Relative errors of ∫ q^power C2D dq for power = 1, 2, 3 that come from the method.
+    /// Relative errors of ∫ q^power C2D dq, for power = 1, 2, 3, that come from the method.
     pub(super) method: [f64; 3],
     /// Relative changes of the same integrals if short waves are missing.
     pub(super) missing: [f64; 3],
 }
 
 impl IsotropicSpectrum {
-    /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
+    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is constant below the first node
+    /// and zero beyond the end.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }
 
-    /// PSD of the equivalent line, m³, at a wave number, rad/m: q C2D/2.
+    /// Returns the power spectral density of the equivalent line, q C2D/2 in m³, at a wave number q in rad/m.
     pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
 
-    /// PSD of a cut through the surface, m³, at a wave number, rad/m.
+    /// Returns the power spectral density of a cut through the surface in m³ at a wave number in rad/m.
     pub fn cut(&self, wave_number: f64) -> f64 {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Last resolved wave number, rad/m: the last node.
+    /// Returns the last resolved wave number in rad/m, the last node.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
 
-    /// First and last wave number of the spectrum, rad/m.
+    /// Returns the first and the last wave number of the spectrum in rad/m.
     pub fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
     }
 
-    /// The same spectrum without the waves beyond a wave number, rad/m.
+    /// Returns the same spectrum without the waves beyond a wave number in rad/m.
     pub(crate) fn up_to(&self, wave_number: f64) -> IsotropicSpectrum {
         let nodes = Nodes { end: self.nodes.end.min(wave_number), ..self.nodes };
         IsotropicSpectrum { nodes, ..self.clone() }
     }
 
-    /// The nodes, with the spectrum and its error at each.
+    /// Returns the nodes with the spectrum and its error at each.
     pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {
             let wave_number = self.nodes.wave_number(index);
@@ -264,8 +266,8 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// The spectrum with ln C2D at the nodes changed by `share` of a random step, drawn from the normal distribution of the
-    /// fit's errors. `number` selects the step: equal numbers give equal steps.
+    /// Changes ln C2D at the nodes by `share` of a random step, drawn from the normal distribution of the errors of the fit.
+    /// `number` selects the step: equal numbers give equal steps.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&number.to_le_bytes());
@@ -287,8 +289,8 @@ impl IsotropicSpectrum {
         ((1.0 - share) * self.values[index] + share * self.values[index + 1]).exp()
     }
 
-    /// ∫ q^power C2D dq over waves from a wave number (rad/m) on, and its derivatives with respect to the values at the
-    /// nodes.
+    /// Computes ∫ q^power C2D dq over the waves from a wave number (rad/m) on, and its derivatives with respect to the values at
+    /// the nodes.
     pub(super) fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
         let (mut sum, mut gradient) = (0.0, vec![0.0; self.values.len()]);
         for (low, high) in self.nodes.pieces_from(from) {
@@ -303,20 +305,20 @@ impl IsotropicSpectrum {
         (sum, gradient)
     }
 
-    /// ∫ q^power C2D dq for power = 1, 2, 3 over the waves of the equivalent line.
+    /// Computes ∫ q^power C2D dq for power = 1, 2, 3 over the waves of the equivalent line.
     pub(super) fn integrals(&self) -> [f64; 3] {
         [1, 2, 3].map(|power| self.moment(power, 0.5 * self.nodes.wave_number(0)).0)
     }
 
-    /// Relative differences of these integrals in another spectrum.
+    /// Returns the relative differences of these integrals in another spectrum.
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let (here, there) = (self.integrals(), other.integrals());
         [0, 1, 2].map(|index| there[index] / here[index] - 1.0)
     }
 
-    /// Adds to the errors of the method by how much the rms height of the line departs from the measured height, if that is
-    /// known, and its rms gradient by more than three standard errors from the gradient of the measured points, as after a
-    /// spike that the window hides.
+    /// Adds to the errors of the method the departure of the rms height of the line from the measured height, if this is known.
+    /// Also adds the departure of its rms gradient from the gradient of the measured points beyond three standard errors, as
+    /// after a spike that the window hides.
     pub(super) fn check_identities(&mut self, height: Option<f64>, measured: &PointStatistics) {
         let resolved = line_moments(std::slice::from_ref(self));
         let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
@@ -334,8 +336,8 @@ impl IsotropicSpectrum {
     }
 }
 
-/// Moments of the equivalent line of faces with independent spectra, whose sum it has. The waves begin at half the first
-/// wave number known for all faces, since wave 1 of a length represents the range from ½ to 1½.
+/// Computes the moments of the equivalent line of faces with independent spectra, whose sum is its spectrum. Its waves begin at
+/// half the first wave number known for all faces, because wave 1 of a length represents the range from ½ to 1½.
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
     let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();

@@ -7,17 +7,17 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Number of waves of a profile that are single observations; shorter waves are averaged in bands.
 const SINGLE: usize = 32;
 
-/// Number of bands per decade: within a band a power law with the exponent −3 departs from its mean by 0.1 %.
+/// Number of bands per decade. Within a band a power law with the exponent −3 departs from its mean by 0.1 %.
 const BANDS_PER_DECADE: f64 = 60.0;
 
-/// Number of waves under a Hann window that count as one independent wave: powers at distances of 1 and 2 waves are
-/// correlated with the squares of 2/3 and 1/6.
+/// Number of waves under a Hann window that count as one independent wave. Powers at distances of 1 and 2 waves are correlated
+/// with the squares of 2/3 and 1/6.
 const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
-/// Distance of waves, and the share of the power of each that the mean power of a wave has under a Hann window.
+/// Distance of waves, and the share that the power of each has in the mean power of a wave under a Hann window.
 const HANN_SHARES: [(f64, f64); 3] = [(-1.0, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.0, 1.0 / 6.0)];
 
-/// Limit of the number of aliases of a wave whose powers are added one by one.
+/// Largest number of aliases of a wave whose powers are added one by one.
 const MOST_ALIASES: u32 = 4;
 
 /// Mean power of the waves in a band of wave numbers.
@@ -27,13 +27,13 @@ pub(super) struct Observation {
     /// Mean power: C1D in m³ or C2D in m⁴.
     pub power: f64,
     pub waves: f64,
-    /// Width of the band, rad/m: power times width times q^p is the contribution to a moment of the equivalent line.
+    /// Width of the band in rad/m. Power times width times q^p is the contribution to a moment of the equivalent line.
     pub range: f64,
     pub windowed: bool,
     pub kind: Kind,
 }
 
-/// Kind of the observed power, with the wave number of wave 1 (step) and of the sampling, rad/m: waves that differ by the
+/// Kind of the observed power, with the wave number of wave 1 (step) and of the sampling in rad/m. Waves that differ by the
 /// latter are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
@@ -43,7 +43,7 @@ pub(super) enum Kind {
     Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
-/// Observations of the spectrum of profiles, from wave 1 on, or under a window from wave 2 on, since removing a polynomial
+/// Returns the observations of the spectrum of profiles, from wave 1 on, or under a window from wave 2 on. Removing a polynomial
 /// reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut { step: power.step, sampling: TAU / power.spacing };
@@ -72,8 +72,8 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     observed
 }
 
-/// Smallest wave number of a map that is used, rad/m: under a window, removing a polynomial reduces the waves around wave
-/// 1.
+/// Returns the smallest wave number of a map that is used, in rad/m. Under a window, removing a polynomial reduces the waves
+/// around wave 1.
 pub(super) fn least_of_map(power: &MapPower) -> f64 {
     if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 }
 }
@@ -104,9 +104,9 @@ pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
     observed.collect()
 }
 
-/// Variance of the powers in a band over the square of their mean, averaged over the waves: 1 for a surface that is equal
-/// in all directions, more for an anisotropic one, whose mean powers are less certain. A band is its number of waves and
-/// the sums of their wave numbers, powers and squared powers.
+/// Computes the variance of the powers in a band over the square of their mean, averaged over the waves. It is 1 for a surface
+/// that is equal in all directions, and more for an anisotropic one, whose mean powers are less certain. A band is its number of
+/// waves and the sums of their wave numbers, powers and squared powers.
 fn dispersion(bands: &[[f64; 4]]) -> f64 {
     let many = bands.iter().filter(|[count, _, power, _]| *count > 8.0 && *power > 0.0);
     let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), [n, _, power, squares]| {
@@ -118,16 +118,16 @@ fn dispersion(bands: &[[f64; 4]]) -> f64 {
 }
 
 impl Observation {
-    /// Contribution of this mean power to the moments ∫ q^(p+1) C2D dq/2π of the equivalent line, p = 0, 1, 2. The moments
-    /// of a cut are 1, 2/π and 1/2 times these.
+    /// Computes the contribution of this mean power to the moments ∫ q^(p+1) C2D dq/2π of the equivalent line, p = 0, 1, 2. The
+    /// moments of a cut are 1, 2/π and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let (first, second) = if let Kind::Cut { .. } = self.kind { (FRAC_PI_2, 2.0) } else { (1.0, 1.0) };
         let q = self.wave_number;
         [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
     }
 
-    /// Terms whose sum is the expected mean power for a spectrum with these nodes, including aliases of waves that the
-    /// points do not resolve.
+    /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes, including aliases of waves that
+    /// the points do not resolve.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         let mut terms = Vec::new();
         let shares: &[(f64, f64)] = if self.windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
@@ -169,8 +169,8 @@ impl Observation {
     }
 }
 
-/// Adds the aliases of the waves of a map at a wave number (rad/m), averaged over all directions: C2D at the distances of
-/// the reciprocal lattice of the sampling. Distant aliases are replaced by an integral.
+/// Adds the aliases of the waves of a map at a wave number (rad/m), averaged over all directions. They are C2D at the distances
+/// of the reciprocal lattice of the sampling. Distant aliases are replaced by an integral.
 fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [f64; 2]) {
     let most = f64::from(MOST_ALIASES);
     let mut add = |q: f64, weight: f64| {
@@ -195,8 +195,8 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
     }
 }
 
-/// Adds `factor` times (1/π) ∫ C2D(√(k² + t²)) dt, piece by piece between the nodes. With t as the variable the integrand
-/// has no pole.
+/// Adds `factor` times (1/π) ∫ C2D(√(k² + t²)) dt, piece by piece between the nodes. With t as the variable the integrand has no
+/// pole.
 fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
     for (low, high) in nodes.pieces_from(k) {
         let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();

@@ -10,23 +10,23 @@ use std::ops::RangeInclusive;
 /// Number of bins per decade of wave numbers, for display.
 const BINS_PER_DECADE: f64 = 10.0;
 
-/// Direction of the waves of a spectrum, and the quantity it shows.
+/// Direction of the waves of a spectrum. Each direction has its own spectral density in m³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Along the rows of a map, or along a profile: C1D, m³.
+    /// Waves along a profile or along the rows of a map, with the one-dimensional spectral density C1D.
     X,
-    /// Between the rows of a map: C1D, m³.
+    /// Waves between the rows of a map, with the one-dimensional spectral density C1D.
     Y,
-    /// All directions of a map: q C2D/π, m³.
+    /// Waves in all directions of a map, with q C2D/π at the wave number q. C2D is the two-dimensional spectral density.
     Radial,
 }
 
 /// Mean power of the waves within a range of wave numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bin {
-    /// Mean wave number of the waves, rad/m.
+    /// Mean wave number of the waves in rad/m.
     pub wave_number: f64,
-    /// Mean power, m³.
+    /// Mean power spectral density in m³.
     pub power: f64,
     /// Number of waves averaged in the bin.
     pub waves: u64,
@@ -40,9 +40,9 @@ pub(super) struct ProfilePower {
     pub windowed: bool,
     /// Number of summed profiles.
     pub profiles: u64,
-    /// Wave number of wave 1, rad/m.
+    /// Wave number of wave 1 in rad/m.
     pub step: f64,
-    /// Wave number, rad/m, and summed C1D, m³, of the waves 1, 2, … below half the number of points.
+    /// Wave number in rad/m and summed C1D in m³ of the waves 1, 2, … below half the number of points.
     pub waves: Vec<(f64, f64)>,
 }
 
@@ -53,7 +53,7 @@ impl ProfilePower {
         ProfilePower { points, spacing, windowed, profiles: 0, step, waves }
     }
 
-    /// Adds the power spectra of profiles with equal points: the rows of one surface.
+    /// Adds the power spectra of profiles with equal points, which are the rows of one surface.
     pub fn add(&mut self, rows: impl Iterator<Item = impl Iterator<Item = f64>>) -> Result<(), SurfaceError> {
         let scale = self.spacing / self.points as f64;
         transform(rows, self.points, self.windowed, |coefficients| {
@@ -65,7 +65,8 @@ impl ProfilePower {
     }
 }
 
-/// Spectrum C1D, m³, of the heights (m) of a line, averaged in bins. `windowed` for a line that is not periodic.
+/// Computes the one-dimensional power spectral density C1D in m³ of heights (m) at equal distances `spacing` (m), averaged in
+/// bins of the wave number. `windowed` is true for heights that are not periodic; a window function is then applied.
 ///
 /// ```
 /// use asperity_surface::line_spectrum;
@@ -89,33 +90,33 @@ pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Ve
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapPower {
     pub windowed: bool,
-    /// Wave number of wave 1 along and between the rows, rad/m.
+    /// Wave number of wave 1 along and between the rows in rad/m.
     pub steps: [f64; 2],
-    /// Wave number of the sampling along and between the rows, rad/m.
+    /// Wave number of the sampling along and between the rows in rad/m.
     pub sampling: [f64; 2],
-    /// Wave number, rad/m, and C2D, m⁴, of the waves in half of the plane, up to the smaller Nyquist wave number, sorted by
+    /// Wave number in rad/m and C2D in m⁴ of the waves in half of the plane, up to the smaller Nyquist wave number, sorted by
     /// wave number.
     pub waves: Vec<(f64, f64)>,
     /// True if the waves parallel to one axis are left out, because rows or columns are offset against each other or were
     /// levelled one by one.
     pub offsets: bool,
-    /// Largest share of the squared gradient by which waves parallel to an axis, which are not left out, depart from
-    /// neighbouring waves.
+    /// Largest departure of waves parallel to an axis from neighbouring waves, as a share of the squared gradient. Waves that
+    /// are left out do not count.
     pub apart: f64,
 }
 
 /// Smallest number of a wave along an axis that is compared with its neighbours, over the number of points.
 const COMPARED: f64 = 1.0 / 8.0;
 
-/// Smallest number of a wave that may be left out, over the number of points: longer waves have more power than offsets.
+/// Smallest number of a wave that may be left out, over the number of points. Longer waves have more power than offsets.
 const LEFT_OUT: f64 = 1.0 / 32.0;
 
-/// Relative difference of the mean power of n waves along an axis from the mean power of their neighbours, times √n, above
-/// which it is not chance: about four standard deviations under a window.
+/// Relative difference of the mean power of n waves along an axis from the mean power of their neighbours, times √n, above which
+/// it is not chance: about four standard deviations under a window.
 const NO_CHANCE: f64 = 12.0;
 
-/// Distances from the axis, in waves, of the two groups of neighbouring waves. The power is an even function of the
-/// distance x, also on an anisotropic surface, so that both groups together extrapolate it to the axis as a + bx².
+/// Distances from the axis, in waves, of the two groups of neighbouring waves. The power is an even function of the distance x,
+/// also on an anisotropic surface. Both groups together therefore extrapolate it to the axis as a + bx².
 const NEAR: [RangeInclusive<f64>; 2] = [3.0..=5.0, 6.0..=8.0];
 const EXTRAPOLATED: f64 = 0.486;
 
@@ -146,7 +147,8 @@ impl AxisPower {
         }
     }
 
-    /// Excess of the squared gradient of the waves parallel to the axis over their neighbours; zero if that may be chance.
+    /// Returns the excess of the squared gradient of the waves parallel to the axis over their neighbours; zero if it may be
+    /// chance.
     fn departure(&self) -> f64 {
         let [near, farther] = self.near.map(|(sum, waves)| sum / waves);
         let expected = (near + EXTRAPOLATED * (near - farther)) * self.on.1;
@@ -156,8 +158,8 @@ impl AxisPower {
 }
 
 impl MapPower {
-    /// Power spectrum of heights (m) in rows of `columns` points. If the rows were levelled one by one (`aligned`), the
-    /// waves between the rows are left out.
+    /// Computes the power spectrum of heights (m) in rows of `columns` points. If the rows were levelled one by one (`aligned`),
+    /// the waves between the rows are left out.
     pub fn new(
         heights: &[f64],
         columns: usize,
@@ -250,7 +252,7 @@ fn transform(
     Ok(())
 }
 
-/// Hann window with a mean square of 1, or ones for a periodic profile.
+/// Returns a Hann window with a mean square of 1, or ones for a periodic profile.
 fn window(points: usize, windowed: bool) -> Vec<f64> {
     if !windowed {
         return vec![1.0; points];
@@ -261,7 +263,7 @@ fn window(points: usize, windowed: bool) -> Vec<f64> {
     (0..points).map(|index| scale * hann(index)).collect()
 }
 
-/// Mean powers in 10 bins per decade of the wave number, of waves given as (wave number, power, number of waves).
+/// Averages the powers of waves, given as (wave number, power, number of waves), in 10 bins per decade of the wave number.
 pub(super) fn bins(waves: impl Iterator<Item = (f64, f64, u64)>) -> Vec<Bin> {
     let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> = std::collections::BTreeMap::new();
     for (wave_number, power, count) in waves {

@@ -11,10 +11,10 @@ use std::collections::HashMap;
 use std::io::Cursor;
 use zip::ZipArchive;
 
-/// Limit of the size of a file, bytes.
+/// Largest size of a file in bytes.
 pub const MOST_BYTES: usize = 1 << 30;
 
-/// Number of decompressed bytes allowed per byte of the file where no header states their number: numbers as text expand by
+/// Number of decompressed bytes allowed for each byte of the file where no header states their number. Numbers as text expand by
 /// factors of three to six.
 pub(super) const MOST_EXPANSION: usize = 32;
 
@@ -32,8 +32,7 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     str::from_utf8(text).map_or_else(other, Cow::Borrowed)
 }
 
-/// Returns the size in bytes of compressed points of `size` bytes from their number in a header; refuses a size above the
-/// limits.
+/// Returns the size in bytes of compressed points of `size` bytes from their number in a header. Refuses a size above the limits.
 pub(super) fn unpacked_size(points: usize, size: usize, place: Place) -> Result<usize, SurfaceError> {
     let bytes = points.saturating_mul(size);
     if points <= MOST_POINTS && bytes <= MOST_BYTES {
@@ -118,7 +117,7 @@ impl<'a> Bytes<'a> {
         Bytes { bytes, at: 0, order }
     }
 
-    /// Place of the next byte in the file.
+    /// Returns the place of the next byte in the file.
     pub fn place(&self) -> Place {
         Place::Byte(self.at)
     }
@@ -205,8 +204,8 @@ impl<'a> Archive<'a> {
         Ok(Archive { archive, places, folder: String::new(), most: most_expanded(bytes.len()) })
     }
 
-    /// Returns the one of `names` that is the index of the archive, the file of such a name nearest to the root. Names of
-    /// other files are then relative to its folder.
+    /// Returns the one of `names` that is the index of the archive, the file of such a name nearest to the root. Names of other
+    /// files are then relative to its folder.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let of_path = |path: &String| {
             let (folder, file) = path.rsplit_once('/').unwrap_or(("", path));
@@ -227,7 +226,7 @@ impl<'a> Archive<'a> {
         }))
     }
 
-    /// Names of all files in one spelling.
+    /// Returns the names of all files in one spelling.
     pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.places.keys().map(String::as_str)
     }

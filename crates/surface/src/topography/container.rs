@@ -77,7 +77,7 @@ enum Mode {
     Curvature,
 }
 
-/// Returns the measurements of the surface with this name, or the measurement with this name; without a name, the
+/// Returns the measurements of the surface with this name, or the measurement with this name. Without a name, returns the
 /// measurements of the only surface.
 pub(super) fn measurements(
     index: &str,
@@ -119,7 +119,8 @@ pub(super) fn measurements(
 }
 
 impl Measurement {
-    /// Name of the file with the scaled heights, whose format is always the same; if there is none, of the measured file.
+    /// Returns the name of the file with the scaled heights, whose format is always the same; if there is none, of the measured
+    /// file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let names = self.datafile.squeezed.as_deref().or(self.datafile.original.as_deref());
         names.ok_or_else(|| {
@@ -128,7 +129,7 @@ impl Measurement {
         })
     }
 
-    /// Message on the radius of the tip that the index states.
+    /// Returns a message about the radius of the tip that the index states.
     pub fn tip_radius(&self) -> Option<String> {
         let Radius { value, unit } = self.instrument.as_ref()?.parameters.as_ref()?.tip_radius.as_ref()?;
         let unit = unit.parse::<Unit>().ok()?;
@@ -139,7 +140,7 @@ impl Measurement {
         self.datafile.squeezed.is_none()
     }
 
-    /// Polynomial that the container removes from the heights; `None` if it removes only the mean, its default.
+    /// Returns the polynomial that the container removes from the heights; `None` if it removes only the mean, its default.
     pub fn detrend(&self) -> Option<Detrend> {
         match self.detrend_mode? {
             Mode::Center => None,

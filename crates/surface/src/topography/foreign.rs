@@ -1,10 +1,6 @@
-//! Names of formats that are not read, by their first bytes or the files of an archive, so that a message can state the way out.
+//! Names of formats that are not read, by their first bytes or the files of an archive. A message can then state the way out.
 
 use crate::error::{Place, SurfaceError, refused};
-
-/// Formats that are read, for messages.
-pub(super) const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
-                                  or X3P in Gwyddion";
 
 const GWYDDION: &str = "the same saved as GWY or X3P in Gwyddion";
 const PICTURE: &str = "the heights as text, X3P, SUR or GWY, from the program that drew them";
@@ -71,7 +67,7 @@ fn unread(name: &str, allowed: &str) -> SurfaceError {
     refused(Place::File, format!("{name} is not read"), allowed)
 }
 
-/// Error for an archive with files of these names, none of which is an index.
+/// Returns the error for an archive with files of these names, none of which is an index.
 pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     [x3p, in_json, in_yaml]: [&str; 3],

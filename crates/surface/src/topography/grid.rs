@@ -4,16 +4,16 @@ use super::surface::{UNEVEN, first_uneven};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 
-/// Smallest number of positions whose digits show an even grid: fewer may be uneven by intention.
+/// Smallest number of positions whose digits show an even grid. Fewer may be uneven by intention.
 const LEAST_PRINTED: usize = 32;
 
 /// Share of the largest distance between positions below which two positions are on the same line of a grid.
 const SAME_LINE: f64 = 0.05;
 
-/// Limit of the number of lines of a grid over the number of lines that have points.
+/// Largest number of lines of a grid over the number of lines that have points.
 const MOST_LINES: f64 = 1.25;
 
-/// Limit of the number of cells of a grid over the number of points: half of the points may be missing.
+/// Largest number of cells of a grid over the number of points: half of the points may be missing.
 const MOST_CELLS: usize = 2;
 
 /// Relative difference between the distance of points and the last printed digit below which a missing point looks like a
@@ -31,7 +31,6 @@ pub(super) struct Digits {
 }
 
 impl Digits {
-    /// Digits of binary numbers of 64 bits.
     pub const EXACT: Digits = Digits { decimals: 400, significant: 15 };
 
     pub fn take(&mut self, cell: &str) {
@@ -55,7 +54,7 @@ impl Digits {
         self.significant = self.significant.max(significant);
     }
 
-    /// Half of the last printed digit of a number, plus some rounding errors.
+    /// Returns half of the last printed digit of a number, plus some rounding errors.
     fn half(self, value: f64) -> f64 {
         let before = if value == 0.0 { i32::MIN / 2 } else { value.abs().log10().floor() as i32 + 1 };
         let digit = (before - self.significant).max(-self.decimals);
@@ -63,8 +62,8 @@ impl Digits {
     }
 }
 
-/// First position and distance of an even grid that agrees with all positions, given as (number, position) in the order of
-/// the numbers, to within half a printed digit.
+/// Returns the first position and the distance of an even grid that agrees with all positions to within half a printed digit.
+/// Positions are given as (number, position) in the order of the numbers.
 fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
     let [(_, first), .., (last_number, last)] = points else { return None };
     if points.len() < LEAST_PRINTED {
@@ -106,7 +105,7 @@ fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
     None
 }
 
-/// Moves positions onto an even grid if that changes none by more than its printed digits; otherwise they stay.
+/// Moves positions onto an even grid if that changes none by more than its printed digits. Otherwise they remain unchanged.
 pub(super) fn move_to_printed_grid(positions: &mut [f64], digits: Digits) -> Result<(), SurfaceError> {
     let [first, .., last] = positions else { return Ok(()) };
     let (first, distance) = (*first, (*last - *first) / (positions.len() - 1) as f64);
@@ -131,7 +130,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Lines through the positions, some of which may be missing; the inner error is a position that lies off the even grid.
+    /// Finds the lines through the positions, some of which may be missing. The inner error is a position that lies off the even
+    /// grid.
     pub fn of(positions: &[f64], digits: Digits) -> Result<Result<Axis, f64>, SurfaceError> {
         let mut sorted = gathered(positions.len(), positions.iter().copied())?;
         sorted.sort_unstable_by(f64::total_cmp);
@@ -180,7 +180,7 @@ impl Axis {
         Ok(Ok(Axis { first, distance, count }))
     }
 
-    /// Number of the line through a position; `None` if it lies off the grid.
+    /// Returns the number of the line through a position; `None` if it lies off the grid.
     fn line(self, position: f64, digits: Digits) -> Option<usize> {
         if self.count == 1 {
             return Some(0);
@@ -203,7 +203,7 @@ pub(super) struct Map {
     pub distances: Option<[f64; 2]>,
 }
 
-/// The map of points in any order. Points of the grid that are not listed are missing.
+/// Makes the map of points in any order. Points of the grid that are not listed are missing.
 pub(super) fn map_of(
     [x, y]: [&[f64]; 2],
     heights: &[f64],

@@ -9,8 +9,8 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field `/N/data` of the channel with number N; without a number, of the only channel whose heights are in
-/// a unit of length, or if there is none, the only channel without a unit.
+/// Reads the data field `/N/data` of the channel with number N. Without a number, reads the only channel whose heights are in a
+/// unit of length, or if there is none, the only channel without a unit.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     let mut file = Bytes::new(bytes, Order::Little);
     file.take(SIGNATURE.len())?;

@@ -1,9 +1,9 @@
 //! Measured surfaces: files of instruments and programs, read into heights in m.
 //!
-//! [`read`](crate::read) recognises the format by the content, not by the name. Units are never guessed: if a file states
-//! none, [`ReadOptions`](crate::ReadOptions) has to. Every error names the place in the file and what is allowed there. A
-//! file of n bytes after decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes
-//! for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
+//! [`read`](crate::read) recognises the format by the content, not by the name. Units are never guessed: if a file states none,
+//! [`ReadOptions`](crate::ReadOptions) has to state one. Every error names the place in the file and what is allowed there. A
+//! file of n bytes after decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes for
+//! each byte of the file, or at the number of heights that a header states, at most 1 GiB.
 
 pub(crate) mod bytes;
 pub(crate) mod container;
@@ -28,7 +28,7 @@ use asperity_data::shown;
 use std::fmt;
 use std::str::FromStr;
 
-/// Name, other spellings, and number per metre of each unit: exact powers of ten, so that a division rounds once.
+/// Name, other spellings, and number per metre of each unit. The numbers are exact powers of ten, so that a division rounds once.
 const UNITS: [(&str, &str, f64); 7] = [
     ("m", "meter metre meters metres", 1.0),
     ("cm", "centimeter centimetre", 1e2),
@@ -39,7 +39,7 @@ const UNITS: [(&str, &str, f64); 7] = [
     ("pm", "picometer picometre", 1e12),
 ];
 
-/// Unit of length.
+/// A unit of length, such as µm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     name: &'static str,
@@ -47,10 +47,10 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Names of the units that are read.
+    /// Names of the units of length that can be read.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 
-    /// Metre.
+    /// The unit metre.
     pub const METRE: Unit = Unit { name: "m", per_metre: 1.0 };
 
     /// Returns true for the name of a unit of length.
@@ -58,7 +58,7 @@ impl Unit {
         text.parse::<Unit>().is_ok()
     }
 
-    /// Usual name of the unit.
+    /// Returns the usual name of the unit.
     pub fn name(self) -> &'static str {
         self.name
     }
@@ -80,7 +80,7 @@ impl Unit {
         unit.ok_or_else(refused)
     }
 
-    /// Converts a value in this unit to m.
+    /// Converts a length in this unit to m.
     ///
     /// ```
     /// let micrometres: asperity_surface::Unit = "um".parse()?;
@@ -96,7 +96,7 @@ impl Unit {
 impl FromStr for Unit {
     type Err = SurfaceError;
 
-    /// Parses the name of a unit. Symbols are case-sensitive, since `Mm` is not `mm`; words are not.
+    /// Reads the name of a unit. Symbols are case-sensitive, because `Mm` is not `mm`; words are not.
     fn from_str(text: &str) -> Result<Unit, SurfaceError> {
         Unit::named(text, Place::File)
     }

@@ -1,7 +1,7 @@
 //! NumPy arrays: a header in Python's notation, then the numbers.
 //!
-//! An array of n heights is a profile; an array of n × 2 numbers, or of n pairs of fields, holds the columns x and z of a
-//! profile; any other array with two axes is a map, row by row. The header is parsed here: the parser of the crate npyz
+//! An array of n heights is a profile. An array of n × 2 numbers, or of n pairs of fields, holds the columns x and z of a
+//! profile. Any other array with two axes is a map, row by row. The header is parsed here, because the parser of the crate npyz
 //! takes seconds for 20 nested brackets, and twice as long for each further one.
 
 use super::bytes::{Bytes, Number, Order};
@@ -38,7 +38,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Reads the columns of an array with at least two, and their names: the fields of the points, or the shorter of two axes.
+/// Reads the columns of a NumPy array with at least two columns, and their names. Columns are the fields of the points, or the
+/// shorter of two axes.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;
@@ -127,7 +128,7 @@ impl Header {
         Ok(Header { fields, order, is_column_major: is_column_major && !is_list, shape })
     }
 
-    /// The columns of the array: the fields of the points, or the shorter of two axes.
+    /// Returns the columns of the array: the fields of the points, or the shorter of two axes.
     fn columns(&self, mut data: Bytes<'_>) -> Result<Vec<Vec<f64>>, SurfaceError> {
         match (&self.fields[..], &self.shape[..]) {
             (&[(_, number)], &[rows, of_row]) => {

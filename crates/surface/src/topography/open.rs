@@ -14,7 +14,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, SurfaceError>;
 
-/// First bytes of the binary formats, with their readers. All other formats but SDF and archives are text.
+/// First bytes of the binary formats, with their readers. All other formats except SDF and archives are text.
 const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (asperity_data::SIGNATURE, |bytes, _| npy::read(bytes)),
     (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
@@ -25,10 +25,10 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
 
-/// Reads a surface, or all measurements of a surface in a container, from a regular file of at most 1 GiB.
+/// Reads a surface from a regular file of at most 1 GiB. From a container it reads all measurements of a surface.
 ///
 /// # Errors
-/// [`SurfaceError`] if the file cannot be read or holds no surface.
+/// Returns [`SurfaceError`] if the file cannot be read or holds no surface.
 ///
 /// ```
 /// use asperity_surface::{Cut, ReadOptions, read};
@@ -52,7 +52,7 @@ pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
 /// Reads the only surface from the content of a file.
 ///
 /// # Errors
-/// As for [`read`], and for several measurements.
+/// Returns the errors of [`read`], and an error for a file with several measurements.
 ///
 /// ```
 /// use asperity_surface::{ReadOptions, parse};
@@ -74,7 +74,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceE
     }
 }
 
-/// Reads a surface, or all measurements of a surface in a container, from the content of a file.
+/// Reads a surface from the content of a file. From a container it reads all measurements of a surface.
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {
@@ -143,7 +143,7 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError>
     reader.map_or_else(|| text::read(&content, options.channel), |(_, read)| read(&content, options))
 }
 
-/// The surface in m, or the row or column of it that the options choose.
+/// Returns the surface in m, or the row or column of it that the options choose.
 fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, SurfaceError> {
     let mut surface = reading.resolve(options)?;
     if let Some(cut) = options.cut {
@@ -152,7 +152,7 @@ fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, Surfa
     if options.resample { surface.resampled() } else { Ok(surface) }
 }
 
-/// The content of a file, decompressed if it is gzip.
+/// Returns the content of a file, decompressed if it is gzip.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());

@@ -6,33 +6,33 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 use std::ops::Range;
 
-/// Limit of the number of points of a surface: 2 GiB of heights.
+/// Largest number of points of a surface: 2 GiB of heights.
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
-/// What the user states about a file, since the file may omit it.
+/// Options for reading a surface: what the user states about a file, because the file may omit it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states none; `None`: the same as `unit`.
+    /// Unit of the heights if the file states none; `None` means the unit in `unit`.
     pub height_unit: Option<Unit>,
     /// Unit to assume if neither the file nor the user states one.
     pub convention: Option<Unit>,
-    /// Distance between points, m, if the file states none.
+    /// Distance between points in m if the file states none.
     pub spacing: Option<f64>,
-    /// True if missing heights are interpolated from their neighbours; otherwise a missing height is an error.
+    /// True if missing heights are interpolated from their neighbours. Otherwise a missing height is an error.
     pub interpolate: bool,
-    /// Number of the channel to read in a file with several.
+    /// Number of the channel to read from a file with several channels.
     pub channel: Option<u32>,
     /// Row or column of a map to read as a profile.
     pub cut: Option<Cut>,
-    /// True if a profile with uneven spacing is resampled at its mean spacing.
+    /// True if a profile with uneven distances between points is interpolated at evenly spaced points.
     pub resample: bool,
-    /// True if the median of each row of a map is subtracted, for rows that are offset against each other.
+    /// True if the median height of each row of a map is subtracted, for rows that are offset against each other.
     pub align_rows: bool,
     /// True if outliers are replaced by heights interpolated from their neighbours.
     pub robust: bool,
-    /// Name of the surface to read in a container with several, or of one measurement.
+    /// Name of the surface, or of one measurement, to read from a container.
     pub surface_name: Option<String>,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Reading {
     pub format: &'static str,
     /// Heights row by row; a missing point is not finite.
     pub heights: Vec<f64>,
-    /// Number of points of a row; of all points for a profile.
+    /// Number of points of a row, or of all points for a profile.
     pub columns: usize,
     /// Positions of a profile, ascending; `None` for evenly spaced points.
     pub positions: Option<Vec<f64>>,
@@ -52,12 +52,12 @@ pub(super) struct Reading {
     pub units: [Option<Unit>; 3],
     /// Place of the first missing point, if the reader can name it better than by its number.
     pub first_missing: Option<Place>,
-    /// Messages on oddities of the file.
+    /// Messages about oddities of the file.
     pub warnings: Vec<String>,
 }
 
 impl Reading {
-    /// Evenly spaced heights in rows of `columns` points; a single row or column is a profile.
+    /// Creates evenly spaced heights in rows of `columns` points. A single row or column is a profile.
     pub fn even(
         format: &'static str,
         heights: Vec<f64>,
@@ -76,7 +76,7 @@ impl Reading {
         Reading { format, heights, columns, positions, spacing, units, first_missing, warnings }
     }
 
-    /// A profile at positions in the order of the file; a profile scanned backwards is reversed.
+    /// Creates a profile at positions in the order of the file. A profile scanned backwards is reversed.
     pub fn profile(
         format: &'static str,
         mut positions: Vec<f64>,
@@ -91,7 +91,7 @@ impl Reading {
         Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
     }
 
-    /// Multiplies the heights by `scale`; heights for which `is_missing` is true become missing.
+    /// Multiplies the heights by `scale`. Heights for which `is_missing` is true become missing.
     pub fn scaled(mut self, is_missing: impl Fn(f64) -> bool, scale: f64) -> Reading {
         for height in &mut self.heights {
             *height = if is_missing(*height) { f64::NAN } else { *height * scale };
@@ -205,7 +205,7 @@ impl Reading {
         Cropped { before: [across.start, down.start], after: [columns - across.end, rows - down.end] }
     }
 
-    /// Returns true if points are missing; an error if they are not to be interpolated and are part of what is read.
+    /// Returns true if points are missing. Returns an error if they are part of what is read and are not to be interpolated.
     fn has_missing(&self, cropped: &Cropped, options: &ReadOptions) -> Result<bool, SurfaceError> {
         let is_missing = |index: &usize| !self.heights[*index].is_finite();
         let is_read = |index: &usize| {
@@ -233,10 +233,10 @@ impl Reading {
 }
 
 impl Topography {
-    /// A profile of heights (m) at equal distances (m).
+    /// Creates a profile from heights in m at equal distances `spacing` in m.
     ///
     /// # Errors
-    /// Fewer than two points, a height that is not finite, and a distance that is not above 0.
+    /// There are fewer than two points, a height is not finite, or the distance is not above 0.
     ///
     /// ```
     /// let profile = asperity_surface::Topography::from_profile(&[1e-8, 3e-8, 2e-8], 1e-7)?;
@@ -249,11 +249,11 @@ impl Topography {
         Topography::from_map(heights, heights.len(), [spacing; 2])
     }
 
-    /// A map of heights (m), row by row in rows of `columns` points, with these distances (m) along and between rows. A map of
-    /// a single row or a single column is a profile.
+    /// Creates a map from heights in m, row by row in rows of `columns` points. `spacing` has the distances in m along and
+    /// between rows. A map of a single row or a single column is a profile.
     ///
     /// # Errors
-    /// As for [`Topography::from_profile`], and a number of heights that is no multiple of the columns.
+    /// Returns the errors of [`Topography::from_profile`], and an error for a number of heights that is no multiple of `columns`.
     ///
     /// ```
     /// let map = asperity_surface::Topography::from_map(&[0.0, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9], 3, [1e-6, 2e-6])?;
@@ -293,8 +293,8 @@ fn check_positions(positions: &[f64]) -> Result<(), SurfaceError> {
     Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"))
 }
 
-/// Returns the unit of a quantity: as the file states, else as the user states, else by convention. `beside` is a unit that
-/// the file states for the positions alone.
+/// Returns the unit of a quantity: as the file states, else as the user states, else by convention. `beside` is a unit that the
+/// file states for the positions alone.
 fn unit(
     name: &str,
     stated: Option<Unit>,

@@ -8,8 +8,8 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 use std::ops::RangeInclusive;
 
-/// Types of heights, indexed by their number in the header: name in BCR, type, and the smallest and largest value, for real
-/// numbers to the digits that texts have.
+/// Types of heights, indexed by their number in the header. Each has its name in BCR, the type, and the smallest and largest
+/// value, for real numbers to the digits that texts have.
 const TYPES: [(&str, Number, [f64; 2]); 8] = [
     ("UCHAR", Number::U8, [0.0, 255.0]),
     ("UINTEGER", Number::U16, [0.0, 65_535.0]),
@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     if bytes[0].eq_ignore_ascii_case(&b'a') { read_text(bytes, version) } else { read_binary(bytes, version) }
 }
 
-/// Heights in rows of `columns` points, with distances along and between rows and the unit of the heights, m.
+/// Creates heights in rows of `columns` points, with the distances along and between rows and the unit of the heights in m.
 fn reading(
     heights: Vec<f64>,
     columns: usize,
@@ -68,8 +68,8 @@ fn reading(
     reading.scaled(|height| missing.contains(&height), unit)
 }
 
-/// Returns the type with this number or name, and the range of heights that mark missing points: around the smallest value
-/// in ISO, around the largest one in BCR and in types without negative values.
+/// Returns the type with this number or name, and the range of heights that mark missing points. The range is around the smallest
+/// value in ISO, around the largest one in BCR and in types without negative values.
 fn data_type(
     name: &str,
     version: Version,
@@ -198,7 +198,7 @@ impl Entries {
         }
     }
 
-    /// Positive integer of a key. The error for a missing key lists all `required` keys.
+    /// Returns the positive integer of a key. The error for a missing key lists all `required` keys.
     pub fn count(&self, key: &str, required: &str) -> Result<usize, SurfaceError> {
         let Some((value, place)) = self.text(key) else { return Err(missing(key, required)) };
         match value.parse::<f64>() {

@@ -6,8 +6,8 @@ use asperity_data::{between, gathered};
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
-/// Largest allowed position and height, m, and largest slope between neighbours: beyond them, lengths and mean squares
-/// could overflow.
+/// Largest allowed position and height in m, and largest slope between neighbours. Beyond them, lengths and mean squares could
+/// overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Share of the spacing by which points of an even grid may be displaced because of rounding.
@@ -20,16 +20,16 @@ pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Opti
     positions.iter().enumerate().position(|point| !is_even(point))
 }
 
-/// Row or column of a map, counted from 1.
+/// A row or a column of a map, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
-    /// A row.
+    /// The row with this number.
     Row(u64),
-    /// A column.
+    /// The column with this number.
     Column(u64),
 }
 
-/// Positions of the points of a surface, m.
+/// Positions of the points of a surface in m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Layout {
     /// Positions of the points of a profile, ascending.
@@ -38,8 +38,8 @@ pub(super) enum Layout {
     Even([f64; 2]),
 }
 
-/// Numbers of columns and of rows without a measured point that are left out at the borders of a map, before and after its
-/// measured part; for a profile numbers of points at its ends.
+/// Borders of a map without a measured point, which are left out: numbers of columns and rows before and after the measured
+/// part. For a profile they are numbers of points at its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -47,47 +47,47 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Numbers of columns and of rows left out, before and after together.
+    /// Returns the number of columns and the number of rows left out, before and after together.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Index in the file of a remaining point, whose `index` is in rows of `columns` points.
+    /// Returns the index in the file of a remaining point. `index` counts the remaining points in rows of `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let (row, column) = (index / columns + self.before[1], index % columns + self.before[0]);
         row * (columns + self.counts()[0]) + column
     }
 }
 
-/// Measured heights of a profile or a map.
+/// Measured heights of a profile or a map, with the positions of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
     /// Name of the format of the file.
     pub format: &'static str,
-    /// Heights, m, row by row.
+    /// Heights in m, row by row.
     pub heights: Vec<f64>,
-    /// Number of points of a row; of all points for a profile.
+    /// Number of points of a row, or of all points for a profile.
     pub columns: usize,
     pub(super) layout: Layout,
     /// Empty rows and columns at the borders of the file that are left out.
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
-    /// Positions before resampling, m; empty for a surface that was not resampled.
+    /// Positions before resampling in m; empty for a surface that was not resampled.
     pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
-    /// Name of the measurement in a container; empty if the surface is from a file of its own.
+    /// Name of the measurement in a container; empty if the surface has a file of its own.
     pub name: String,
     /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
-    /// Messages on oddities of the file.
+    /// Messages about oddities of the file.
     pub warnings: Vec<String>,
 }
 
 impl Topography {
-    /// Returns the surface; an error if it has a slope above 1e9.
+    /// Returns the surface, or an error if it has a slope above 1e9.
     pub(super) fn checked(self) -> Result<Self, SurfaceError> {
         let slope = |index: usize| {
             let distance = match &self.layout {
@@ -104,12 +104,12 @@ impl Topography {
         Err(refused(place, found, format!("at most {LARGEST:e}")))
     }
 
-    /// Number of points with interpolated heights, including replaced outliers.
+    /// Returns the number of points with interpolated heights, including replaced outliers.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
 
-    /// Index in the file of the first missing point of a profile, from 0.
+    /// Returns the index in the file of the first missing point of a profile, from 0.
     pub(crate) fn first_missing(&self) -> Option<usize> {
         let Cropped { before: [before, _], after: [after, _] } = self.cropped;
         let inside = self.interpolated.first().copied().or((after > 0).then_some(self.columns));
@@ -120,9 +120,9 @@ impl Topography {
         !self.resampled.is_empty()
     }
 
-    /// Copies the heights, m. With `quarters` above zero the copy differs by an estimate of the error of interpolation:
-    /// points at this number of quarters of length and width from the interpolated points are interpolated too, and a
-    /// resampled profile gets back what resampling to its former positions and back would take.
+    /// Copies the heights in m. With `quarters` above zero the copy differs by an estimate of the error of interpolation. Points
+    /// at this number of quarters of length and width from the interpolated points are then interpolated too. A resampled profile
+    /// gets back what resampling to its former positions and back would take.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
@@ -151,15 +151,15 @@ impl Topography {
         Ok(heights)
     }
 
-    /// Number of rows; 1 for a profile.
+    /// Returns the number of rows; 1 for a profile.
     pub fn rows(&self) -> usize {
         self.heights.len() / self.columns
     }
 
-    /// Positions and heights of a profile, m; equally spaced points begin at x = 0.
+    /// Returns the positions and heights of a profile in m. Equally spaced points begin at x = 0.
     ///
     /// # Errors
-    /// For a map.
+    /// The surface is a map.
     ///
     /// ```
     /// use asperity_surface::Topography;
@@ -185,7 +185,7 @@ impl Topography {
         Ok((positions, self.heights))
     }
 
-    /// The row or column `cut` of a map, as a profile.
+    /// Returns the row or column `cut` of a map as a profile.
     pub(super) fn cut(self, cut: Cut) -> Result<Self, SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         let (Layout::Even([along, between]), 2..) = (&self.layout, rows) else {
@@ -223,11 +223,11 @@ impl Topography {
         })
     }
 
-    /// Distances between points along and between rows, m; both are equal for a profile.
+    /// Returns the distances between points in m, along and between rows. Both are equal for a profile.
     ///
     /// # Errors
-    /// For a profile with uneven spacing, the first point that lies off the even grid from the first to the last point by
-    /// more than 0.1 % of the mean distance.
+    /// The profile has uneven spacing. The error names the first point that is off an even grid by more than 0.1 % of the mean
+    /// distance. This grid runs from the first to the last point.
     ///
     /// ```
     /// use asperity_surface::{ReadOptions, parse};
@@ -255,8 +255,7 @@ impl Topography {
         }
     }
 
-    /// The profile resampled at its mean spacing by linear interpolation. An equally spaced profile and a map stay as they
-    /// are.
+    /// Resamples the profile at its mean spacing by linear interpolation. An equally spaced profile and a map remain unchanged.
     pub(super) fn resampled(mut self) -> Result<Self, SurfaceError> {
         if self.spacing().is_ok() {
             return Ok(self);
@@ -270,8 +269,8 @@ impl Topography {
     }
 }
 
-/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between at least two points; at a
-/// point its own height, bit for bit, and beyond the first and last point the height of that point.
+/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between at least two points. At a point
+/// it is its own height, bit for bit. Beyond the first and the last point it is the height of that point.
 pub(crate) fn interpolated(
     positions: &[f64],
     heights: &[f64],
@@ -299,20 +298,20 @@ fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
-/// Polynomial removed from a surface before analysis.
+/// Polynomial removed from a surface before the analysis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
-    /// Nothing; written `Nothing` in scenes, since `None` omits a field.
+    /// Nothing is removed. Scenes write `Nothing`, because `None` omits a field.
     #[serde(rename = "Nothing")]
     #[strum(serialize = "Nothing")]
     None,
-    /// Mean height.
+    /// The mean height is removed.
     Mean,
-    /// Mean height and tilt.
+    /// The mean height and the tilt are removed.
     #[default]
     Tilt,
-    /// Mean height, tilt and the curvatures of a paraboloid.
+    /// The mean height, the tilt and the curvatures of a paraboloid are removed.
     Curvature,
 }
 

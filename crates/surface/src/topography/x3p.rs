@@ -60,9 +60,8 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 3]))
 }
 
-/// How an axis is stored.
 struct Axis<'a> {
-    /// True if each point has its own coordinate, else the distance is the increment.
+    /// True if each point has its own coordinate; otherwise the distance is the increment.
     is_absolute: bool,
     increment: Option<f64>,
     offset: f64,
@@ -93,7 +92,7 @@ impl<'a> Axis<'a> {
     }
 }
 
-/// Reads x, y and z of each point, m, from a binary file or a list in the index; without an axis that has no coordinates.
+/// Reads x, y and z of each point in m, from a binary file or a list in the index. An axis without coordinates remains empty.
 fn coordinates(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,
@@ -112,7 +111,7 @@ fn coordinates(
     Ok(found)
 }
 
-/// The points of a list without an order, by y and then by x.
+/// Sorts the points of a list without an order by y and then by x.
 fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
     let [x, y, _] = &found;
     let mut order = gathered(x.len(), 0..x.len())?;
@@ -121,8 +120,8 @@ fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
     Ok([x?, y?, heights?])
 }
 
-/// The profile, in one row of points with the same y, or the map of points with positions of their own. A point without a
-/// position is left out.
+/// Returns the profile, if the points are in one row with the same y, or else the map of points with positions of their own. A
+/// point without a position is left out.
 fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, SurfaceError> {
     let is_one_row = columns == found[2].len();
     let [x, y, _] = &found;
@@ -141,7 +140,7 @@ fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, Surfac
     Ok(Reading::even("X3P", map.heights, map.columns, map.distances, units))
 }
 
-/// Encoding that the XML declaration states, if it is one that contains ASCII.
+/// Returns the encoding that the XML declaration states, if it is one that contains ASCII.
 fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
     let declaration = content.strip_prefix(b"<?xml")?.split(|byte| *byte == b'>').next()?;
     let (_, rest) = str::from_utf8(declaration).ok()?.split_once("encoding")?;
@@ -167,7 +166,7 @@ fn wrong(fault: impl std::fmt::Display, allowed: &str) -> SurfaceError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
-/// Reads the coordinates of a binary file of an archive, point by point; points marked invalid in the bit field are missing.
+/// Reads the coordinates of a binary file of an archive, point by point. Points marked invalid in the bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,
@@ -216,7 +215,8 @@ fn linked(
     Ok(found)
 }
 
-/// Reads the coordinates of a list in the index: the last number of each entry is a height; an empty entry is a missing point.
+/// Reads the coordinates of a list in the index. The last number of each entry is a height, and an empty entry is a missing
+/// point.
 fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
     let list =
         find(root, "DataList").ok_or_else(|| wrong("neither PointDataLink nor DataList", "one of them"))?;

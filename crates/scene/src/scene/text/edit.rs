@@ -1,27 +1,27 @@
-//! Edits of one entry in a text, which keep every comment.
+//! Edits of one value in a text, which keep every comment.
 
 use std::ops::Range;
 
 use super::index::{Text, TextSpan};
 
-/// Message for a text that is more than one value, or less than a whole one.
+/// Message for a text that is not exactly one value.
 pub(in crate::scene) const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
 impl Text {
-    /// The text with another value at a path.
+    /// Returns the text with another value at a path.
     ///
     /// # Errors
-    /// There is no entry with this path, or `value` is not exactly one value.
+    /// Returns an error if the text has no value at the path, or if `value` is not exactly one value.
     pub fn replace(&self, path: &str, value: &str) -> Result<Text, String> {
         let entry = self.span(path).ok_or("there is no such element")?;
         self.spliced(vec![(entry.value.clone(), value.to_string())], path, value)
     }
 
-    /// The text with the entry `name: value` added to the group at a path (empty for the whole): after the last entry that
-    /// precedes `name` in `order`.
+    /// Returns the text with a new entry `name: value` in the group at a path; an empty path is the whole text. The entry
+    /// comes after the entries whose names precede `name` in `order`.
     ///
     /// # Errors
-    /// There is no group with this path, or `value` is not exactly one value.
+    /// Returns an error if there is no group at the path, or if `value` is not exactly one value.
     pub fn insert(&self, group: &str, name: &str, value: &str, order: &[&str]) -> Result<Text, String> {
         let inside = self.span(group).and_then(|entry| entry.inside.clone());
         let inside = inside.ok_or_else(|| format!("{group} has no fields here"))?;
@@ -42,9 +42,9 @@ impl Text {
         self.spliced(splices, &path, value)
     }
 
-    /// The text with other elements in the list at a path. An element that is kept has its index, and keeps the comments
-    /// before it and on its line; a new one is inserted as written. `None` for an empty list, or where a comment would make
-    /// the text unreadable.
+    /// Returns the text with other elements in the list at a path. An element with an index keeps the text and the comments
+    /// of that element in the present list. An element without an index is new, with the given text. Returns `None` for an
+    /// empty list, or if a comment would make the text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
         let (old, mut start) = (self.inside(list), inside.start);
@@ -76,8 +76,8 @@ impl Text {
         Text::new(source).ok()
     }
 
-    /// Insertions that put an entry after another one in the same style: on a line of its own, after the comment on the
-    /// line before, or on the same line.
+    /// Returns the insertions that put an entry after another one in the same style: on its own line, after the comment on
+    /// the line before, or on the same line.
     fn splices_after(&self, anchor: &TextSpan, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
         let comma = if anchor.comma.is_some() { "," } else { "" };
         match (indentation(&self.source, anchor.entry.start), self.line_break_in(gap.clone())) {
@@ -95,15 +95,15 @@ impl Text {
         }
     }
 
-    /// The first line break in a stretch of blanks and comments that is not inside a block comment.
+    /// Returns the first line break outside block comments, in a stretch of blanks and comments.
     fn line_break_in(&self, gap: Range<usize>) -> Option<usize> {
         let mut breaks = self.source[gap.clone()].match_indices('\n').map(|(at, _)| gap.start + at);
         let is_outside = |at: &usize| !self.comments.iter().any(|comment| comment.contains(at));
         breaks.find(is_outside)
     }
 
-    /// The text with splices in ascending order; an error unless the value at the path is then exactly `value`, since a
-    /// comment in it must not swallow the text behind it.
+    /// Returns the text after replacements in ascending order. Returns an error unless the value at the path is then exactly
+    /// `value`; a comment inside it could hide the text behind it.
     fn spliced(&self, splices: Vec<(Range<usize>, String)>, path: &str, value: &str) -> Result<Text, String> {
         let mut source = self.source.clone();
         for (range, new) in splices.into_iter().rev() {
@@ -114,7 +114,7 @@ impl Text {
     }
 }
 
-/// The blanks before an offset in its line; `None` on the first line, or if anything else precedes it in the line.
+/// Returns the blanks before an offset in its line; `None` on the first line, or if other characters precede it in the line.
 fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];

@@ -1,17 +1,17 @@
-//! Places of the values in RON text: one flat list, made in one pass over the tokens.
+//! Places of the values in RON text, as one list.
 //!
-//! Paths consist of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`, `roughness.modes.1`; the
-//! whole text has the empty path. Names of structs and variants and `Some(…)` do not count: `roughness:
-//! Some(SelfAffine(hurst: 0.7))` has its 0.7 at `roughness.hurst`.
+//! A path consists of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`, `roughness.modes.1`. The
+//! whole text has the empty path. Names of structs and variants do not count, and neither does `Some(…)`: in `roughness:
+//! Some(SelfAffine(hurst: 0.7))` the number 0.7 has the path `roughness.hurst`.
 
 use std::ops::Range;
 
 use super::scan::{Kind, Scan, Token, Unreadable, scan};
 
-/// Length of a path below which values are not indexed: no scene has a longer one.
+/// Length of a path from which on values are not indexed. No scene has a longer path.
 const LONGEST_PATH: usize = 100;
 
-/// RON text whose brackets and quotes match, with the places of its values.
+/// RON text with matching brackets and quotes, and the places of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub(super) source: String,
@@ -20,24 +20,24 @@ pub struct Text {
     pub(super) comments: Vec<Range<usize>>,
 }
 
-/// Place of a value, as byte ranges of the text.
+/// Place of a value in a text, in bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextSpan {
-    /// Path of the value.
+    /// Path of the value, such as `roughness.hurst`.
     pub path: String,
-    /// The whole entry, `name: value`; equal to `value` in a list.
+    /// Bytes of the whole entry `name: value`; in a list the same as `value`.
     pub entry: Range<usize>,
-    /// The value alone.
+    /// Bytes of the value alone.
     pub value: Range<usize>,
-    /// The value, without `Some(…)` around it.
+    /// Bytes of the value without `Some(…)` around it.
     bare: Range<usize>,
-    /// The text between the brackets of the value.
+    /// Bytes between the brackets of the value.
     pub(super) inside: Option<Range<usize>>,
-    /// Offset of the byte after the comma that follows.
+    /// Offset of the byte after the comma that follows the entry.
     pub(super) comma: Option<usize>,
 }
 
-/// Line and column of a byte offset, both from 1, columns counted in characters.
+/// Returns line and column of a byte offset in a text, both from 1, the column in characters.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let ends = |offset: &usize| text.is_char_boundary(*offset);
     let before = &text[..(0..=offset.min(text.len())).rev().find(ends).unwrap_or(0)];
@@ -45,7 +45,7 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// Byte offset of a line and column; of the end of the line or text if that comes before.
+/// Returns the byte offset of a line and column, or of the end of the line or the text if that comes first.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut lines = text.split_inclusive('\n');
     let start: usize = lines.by_ref().take(line.saturating_sub(1)).map(str::len).sum();
@@ -59,10 +59,10 @@ pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
 }
 
 impl Text {
-    /// Reads a text and indexes its values.
+    /// Reads a text and finds the places of its values.
     ///
     /// # Errors
-    /// A bracket, quote or comment is not closed.
+    /// Returns an error if brackets do not match, or if a quote or a comment is not closed.
     pub fn new(source: impl Into<String>) -> Result<Text, Unreadable> {
         let source = source.into();
         let Scan { tokens, comments } = scan(&source)?;
@@ -74,17 +74,17 @@ impl Text {
         Ok(Text { source, spans, comments })
     }
 
-    /// The text.
+    /// Returns the whole text.
     pub fn as_str(&self) -> &str {
         &self.source
     }
 
-    /// Place of the value at a path.
+    /// Returns the place of the value at a path; `None` if there is no such value.
     pub fn span(&self, path: &str) -> Option<&TextSpan> {
         self.spans.iter().find(|span| span.path == path)
     }
 
-    /// Offset of the first byte of the value at a path, or of the nearest group around it.
+    /// Returns the offset of the first byte of the value at a path, or of the nearest group around it.
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
         let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
         let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
@@ -92,23 +92,23 @@ impl Text {
         found.map(|span| span.value.start).or_else(opening).unwrap_or(0)
     }
 
-    /// The value at a path as written, including `Some(…)` around it.
+    /// Returns the value at a path as written, including `Some(…)` around it.
     pub(in crate::scene) fn written(&self, path: &str) -> Option<&str> {
         self.source.get(self.span(path)?.value.clone())
     }
 
-    /// The value at a path, without `Some(…)` around it.
+    /// Returns the value at a path, without `Some(…)` around it.
     pub(in crate::scene) fn value(&self, path: &str) -> Option<&str> {
         self.source.get(self.span(path)?.bare.clone())
     }
 
-    /// Name of the variant at a path: `Cone` for `Some(Cone(angle: 0.1))`.
+    /// Returns the name of the variant at a path: `Cone` for `Some(Cone(angle: 0.1))`.
     pub(in crate::scene) fn variant(&self, path: &str) -> Option<&str> {
         let name = self.value(path)?.split(['(', '[', '{', '"']).next()?.trim();
         Some(name.strip_prefix("r#").unwrap_or(name)).filter(|name| !name.is_empty())
     }
 
-    /// Values directly inside the group or list at a path, in order.
+    /// Returns the values directly inside the group or list at a path, in order.
     pub(super) fn inside(&self, path: &str) -> Vec<&TextSpan> {
         let group = |path: &str| path.rfind('.').unwrap_or(0);
         let is_inside = |span: &&TextSpan| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
@@ -119,7 +119,7 @@ impl Text {
         self.comments.len()
     }
 
-    /// Path of the innermost value whose entry contains a byte offset; empty if there is none.
+    /// Returns the path of the innermost value whose entry contains a byte offset; empty if there is none.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
         let around = self.spans.iter().filter(|span| span.entry.contains(&offset));
         around.max_by_key(|span| span.entry.start).map_or("", |span| &span.path)
@@ -173,7 +173,7 @@ impl Tokens<'_> {
         Some(end)
     }
 
-    /// Index of the token with which the whole value starts, after attributes such as `#![enable(…)]`.
+    /// Returns the index of the token with which the whole value starts, after attributes such as `#![enable(…)]`.
     fn root(&self) -> Option<usize> {
         let mut index = 0;
         loop {
@@ -189,7 +189,7 @@ impl Tokens<'_> {
         }
     }
 
-    /// Index of the token after the value that starts at this token.
+    /// Returns the index of the token after the value that starts at this token.
     fn value_end(&self, first: usize) -> Option<usize> {
         match (self.tokens.get(first)?.kind, self.tokens.get(first + 1).map(|token| token.kind)) {
             (Kind::Open(_, close), _) | (Kind::Word, Some(Kind::Open('(', close))) => Some(close + 1),
@@ -198,7 +198,7 @@ impl Tokens<'_> {
         }
     }
 
-    /// Index of the token with which the value inside any number of `Some(…)` starts.
+    /// Returns the index of the token with which the value inside any number of `Some(…)` starts.
     fn inside_some(&self, mut first: usize) -> usize {
         while self.word(first) == Some("Some")
             && matches!(self.tokens.get(first + 1), Some(Token { kind: Kind::Open('(', _), .. }))
@@ -215,7 +215,7 @@ impl Tokens<'_> {
         self.tokens.get(index).is_some_and(|token| token.kind == kind)
     }
 
-    /// The word at a token, without the mark `r#` of a raw identifier.
+    /// Returns the word at a token, without the mark `r#` of a raw identifier.
     fn word(&self, index: usize) -> Option<&str> {
         let token = self.tokens.get(index).filter(|token| token.kind == Kind::Word)?;
         let word = &self.source[token.start..token.end];

@@ -1,7 +1,7 @@
-//! Tokens of RON text, in no more detail than finding values needs.
+//! Tokens of RON text, in no more detail than is needed to find values.
 //!
-//! The `ron` package reports invalid text; this scanner finds the places of values, so that messages can name them and
-//! edits can replace them without touching comments. Nesting of any depth is scanned without recursion.
+//! The package `ron` reports invalid text. This scanner finds the places of values, for messages and for edits that keep
+//! comments. Brackets may be nested to any depth.
 
 use std::ops::Range;
 
@@ -26,12 +26,12 @@ pub(super) struct Token {
     pub(super) end: usize,
 }
 
-/// Reason why text cannot be divided into tokens, and where.
+/// Reason why a text cannot be divided into tokens, and its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unreadable {
-    /// Offset of the bracket, quote or comment that is not closed.
+    /// Byte offset of the bracket, quote or comment without its counterpart.
     pub offset: usize,
-    /// The reason.
+    /// Reason in words, such as `this bracket is not closed`.
     pub reason: &'static str,
 }
 
@@ -99,7 +99,7 @@ fn closing(bracket: char) -> char {
     }
 }
 
-/// Offset of the first byte at or after `at` that is neither white space nor comment. Records the comments in between.
+/// Returns the offset of the first byte from `at` on that is neither blank nor comment, and records the comments before it.
 fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result<usize, Unreadable> {
     let mut at = at;
     loop {
@@ -115,8 +115,8 @@ fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result
     }
 }
 
-/// End of the comment that starts at this byte: for `//` the line break, for `/* */` the byte after it; `None` if no
-/// comment starts there. Block comments may be nested.
+/// Returns the end of the comment that starts at this byte: the line break after `//`, the byte after `/* */`. Returns `None`
+/// if no comment starts there. Block comments may be nested.
 fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     let rest = &text[at..];
     if rest.starts_with("//") {
@@ -146,7 +146,7 @@ fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     Err(Unreadable { offset: at, reason: "this comment is not closed" })
 }
 
-/// End of the string or character that starts at this byte; `None` if none starts there.
+/// Returns the end of the string or character that starts at this byte; `None` if none starts there.
 fn quoted_end(text: &str, at: usize) -> Option<Result<usize, &'static str>> {
     let rest = &text[at..];
     let unprefixed = rest.strip_prefix('b').unwrap_or(rest);
@@ -179,7 +179,7 @@ fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static
     Err("this string is not closed")
 }
 
-/// End of the identifier or number that starts at this byte.
+/// Returns the end of the identifier or number that starts at this byte.
 fn word_end(text: &str, at: usize) -> usize {
     let rest = &text[at..];
     let mut characters = rest.char_indices().skip(1);

@@ -1,8 +1,8 @@
 //! Meaning of the columns of a table: heights alone, a profile, points of a map, or rows of a map.
 
-use super::names::{Role, TextColumn};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
+use asperity_data::text_table::{Role, TextColumn};
 
 /// Limit of the number of columns of positions and heights; more columns are rows of a map, unless their names say otherwise.
 const MOST_NAMED: usize = 3;
@@ -17,7 +17,7 @@ pub(super) struct List {
     pub valid: Option<usize>,
 }
 
-/// The columns of a list of points; `None` if the columns are rows of a map.
+/// Finds the columns of a list of points; `None` if the columns are rows of a map.
 pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceError> {
     let places = |role: Role| columns.iter().enumerate().filter(move |(_, column)| column.role == role);
     // `point 1`, `point 2` … are names of other things.
@@ -70,12 +70,12 @@ pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceErr
 #[cfg(test)]
 mod tests {
     use super::super::super::Unit;
-    use super::super::header::TextHeader;
-    use super::super::layout::Separator;
     use super::*;
+    use asperity_data::text_table::HeadLines;
+    use asperity_data::text_table::Separator;
 
     fn list(names: &str) -> Result<Option<[Option<usize>; 4]>, String> {
-        let mut header = TextHeader::default();
+        let mut header = HeadLines::default();
         header.take(names);
         let (separator, count) = (Separator::of(names), names.split(',').count());
         let found = list_of(&header.columns(count, count, separator, Unit::is_name))

@@ -1,13 +1,10 @@
 //! Header before the numbers of a text: units, sizes, and the lines that may name columns.
 
 use super::super::Unit;
-use super::layout::{COMMENT, Decimal, Separator, TextCell};
-use super::names::{IsUnit, TextColumn, columns_of, is_one_of};
-use std::collections::VecDeque;
+use asperity_data::text_table::{COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, is_one_of};
 
-/// Limit of the length of a header line that is examined, bytes, and the number of last lines that may name columns.
+/// Largest length in bytes of a header line that is examined.
 const LONGEST: usize = 4096;
-const LAST_LINES: usize = 64;
 
 /// Keys of sizes, channels and units in English and in the other languages of Gwyddion.
 const WIDTH: &str = "width x-length šířka breite anchura largeur larghezza 幅 폭 largura ширина";
@@ -27,21 +24,20 @@ const SPACING_OF_AXIS: [&str; 2] = ["scale x", "scale y"];
 /// Keys of the number of columns and of rows.
 const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
 
-/// First words of the header of Wyko, whose rows run along y, and whose heights are in nm or, by its second number, in
-/// wavelengths.
+/// First words of the header of Wyko. Its rows run along y, and its heights are in nm or, by its second number, in wavelengths.
 const WYKO: &str = "wyko ascii data file format";
 
 /// Unit of lengths in headers of SPIP and Wyko.
 const NANOMETRE: &str = "nm";
 const MILLIMETRE: &str = "mm";
 
-/// A length with its unit, if it has one of its own.
+/// A length, with its unit if it has one of its own.
 type Length = (f64, Option<Unit>);
 
-/// The lines above the numbers of a text.
+/// Header of a text: the lines above its numbers, with the units, sizes and names that they state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextHeader {
-    /// Name of the channel.
+    /// Name of the channel, if the header states it.
     pub channel: Option<String>,
     /// Units of x, y and heights, from keys that name them.
     units: [Option<Unit>; 3],
@@ -53,7 +49,7 @@ pub struct TextHeader {
     sizes: [Option<Length>; 2],
     /// Distances between points of a map along and between rows.
     spacing: [Option<Length>; 2],
-    /// Number of columns and number of rows.
+    /// Number of columns and number of rows, if the header states them.
     pub counts: [Option<usize>; 2],
     /// Factor of the heights.
     factor: Option<f64>,
@@ -66,26 +62,23 @@ pub struct TextHeader {
     /// True if heights are in wavelengths.
     is_in_wavelengths: bool,
     /// The last lines that are no such entries and may name columns.
-    lines: VecDeque<String>,
+    pub lines: HeadLines,
 }
 
 impl TextHeader {
-    /// A header that states a unit of all lengths.
+    /// Creates a header that states a unit of all lengths.
     pub fn in_unit(unit: Option<Unit>) -> TextHeader {
         TextHeader { unit, ..TextHeader::default() }
     }
 
-    /// Reads a line: `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may name
-    /// columns.
+    /// Reads a line. It may be `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may
+    /// name columns.
     pub fn take(&mut self, line: &str) {
         let line = line.trim_start_matches(COMMENT).trim();
         if line.len() <= LONGEST && self.take_entry(line) {
             return;
         }
-        if self.lines.len() == LAST_LINES {
-            self.lines.pop_front();
-        }
-        self.lines.push_back(line.to_owned());
+        self.lines.take(line);
     }
 
     fn take_entry(&mut self, line: &str) -> bool {
@@ -170,7 +163,7 @@ impl TextHeader {
         true
     }
 
-    /// Distances along and between rows of a map of so many columns and rows, m.
+    /// Returns the distances in m along and between the rows of a map with these numbers of columns and rows.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         let metres = |lengths: &[Option<Length>; 2], axis: usize, usual: Option<Unit>| {
             let (length, unit) = lengths[axis]?;
@@ -185,40 +178,23 @@ impl TextHeader {
         })
     }
 
-    /// Factor of the heights.
+    /// Returns the factor by which the heights are multiplied.
     pub fn scale(&self) -> f64 {
         let of_unit = self.nanometres.filter(|_| self.units[2].is_none());
         let of_data = self.data_scale.0.filter(|_| self.data_scale.1);
         [self.factor, of_unit, of_data].into_iter().flatten().product()
     }
 
-    /// Unit of x (0), y (1) or heights (2): as the column states, else as a key states.
+    /// Returns the unit of x (0), y (1) or heights (2): as the column states, else as a key states.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
         let of_axis =
             self.units[axis].or_else(|| self.nanometres.filter(|_| axis == 2).and(NANOMETRE.parse().ok()));
         of_column.or(of_axis).or(self.unit)
     }
-
-    /// Names and units of the columns, from the last line with a name for each of `count` columns, and a row of units. Lines
-    /// of numbers may end with further separators, up to `cells` cells. Without such a line nothing is known of the columns.
-    pub fn columns(
-        &self,
-        count: usize,
-        cells: usize,
-        separator: Separator,
-        is_unit: IsUnit,
-    ) -> Vec<TextColumn> {
-        columns_of(&self.lines, (count, cells), separator, is_unit)
-    }
-
-    /// Returns true if one of the last lines that are no entries equals this text.
-    pub fn has_line(&self, text: &str) -> bool {
-        self.lines.iter().any(|line| line == text)
-    }
 }
 
-/// Key in lower case and value of a line.
+/// Returns the key of a line in lower case, and its value.
 fn entry(line: &str) -> Option<(String, String)> {
     let bare = |text: &str| text.trim_matches(['"', ',', ';', ' ', '\t']).to_owned();
     if let Some((key, value)) = line.split_once([':', '=', '：']) {
@@ -230,7 +206,8 @@ fn entry(line: &str) -> Option<(String, String)> {
     Some((key, bare(&value.join(" ")))).filter(|(_, value)| !value.is_empty())
 }
 
-/// The axes whose unit a key states: x (0), y (1) and heights (2); empty for the unit of all lengths; `None` for another key.
+/// Returns the axes whose unit a key states: x (0), y (1) and heights (2). The list is empty for the unit of all lengths, and
+/// `None` for another key.
 fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     let words = || key.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     if !words().any(|word| is_one_of(word, UNIT)) {
@@ -249,7 +226,7 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     if key == "値の単位" { Some(vec![2]) } else { Some(axes) }
 }
 
-/// Number of a text in any notation.
+/// Reads a number in any notation.
 fn number(text: &str) -> Option<f64> {
     match Decimal::default().read(text, Separator::SPACE) {
         TextCell::Number(value) if value.is_finite() => Some(value),
@@ -257,7 +234,7 @@ fn number(text: &str) -> Option<f64> {
     }
 }
 
-/// Length and unit of a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
+/// Reads a length and its unit from a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
 fn length(text: &str) -> Option<Length> {
     let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
     let (value, unit) = text.split_at(end);
@@ -267,8 +244,8 @@ fn length(text: &str) -> Option<Length> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::names::Role;
     use super::*;
+    use asperity_data::text_table::Role;
 
     fn header(lines: &[&str]) -> TextHeader {
         let mut header = TextHeader::default();
@@ -279,7 +256,7 @@ mod tests {
     /// Units of positions and heights of a table of x and height.
     fn units(lines: &[&str]) -> [Option<&'static str>; 2] {
         let header = header(lines);
-        let columns = header.columns(2, 2, Separator::SPACE, Unit::is_name);
+        let columns = header.lines.columns(2, 2, Separator::SPACE, Unit::is_name);
         [(0, 0), (2, 1)].map(|(axis, column)| header.unit(axis, Some(&columns[column])).map(Unit::name))
     }
 
@@ -337,8 +314,8 @@ mod tests {
         ] {
             let count = roles.len();
             let mut header = TextHeader::default();
-            header.lines.push_back(line.to_owned());
-            let found = header.columns(count, count, Separator::of(line), Unit::is_name);
+            header.lines.take(line);
+            let found = header.lines.columns(count, count, Separator::of(line), Unit::is_name);
             assert_eq!(found.iter().map(|column| column.role).collect::<Vec<_>>(), roles, "{line}");
         }
     }

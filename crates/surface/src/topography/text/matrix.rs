@@ -5,11 +5,10 @@ use super::super::surface::first_uneven;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
-/// Smallest number of evenly spaced numbers that are taken for positions, if the numbers along the other axis are not
-/// evenly spaced.
+/// Smallest number of evenly spaced numbers that count as positions, if the numbers along the other axis are not evenly spaced.
 const LEAST_STEPS: usize = 8;
 
-/// First number and step of numbers that rise or fall in even steps.
+/// Returns the first number and the step of numbers that rise or fall in even steps.
 fn even_steps(
     count: usize,
     numbers: impl Iterator<Item = f64>,
@@ -25,9 +24,9 @@ fn even_steps(
     Ok(first_uneven(&numbers, first, distance).is_none().then_some([first, distance]))
 }
 
-/// The map in rows of `columns` numbers, without its positions and with its distances if the first row and column hold
-/// positions. If these only count from 0 or 1, the distances stay unknown. `digits` are the printed digits of the first row
-/// and column.
+/// Returns the map in rows of `columns` numbers. If the first row and column hold positions, they are removed and give the
+/// distances. If these positions only count from 0 or 1, the distances remain unknown. `digits` are the printed digits of the
+/// first row and column.
 pub(super) fn without_positions(
     mut numbers: Vec<f64>,
     columns: usize,

@@ -1,35 +1,29 @@
 //! Surfaces in text: columns of heights, positions and heights, or rows of a map, of one channel or several.
 //!
 //! Lines before the first line of numbers are a header ([`header::TextHeader`]). The first line of numbers fixes the separator
-//! ([`layout::Separator::of`]) and the number of columns ([`table::Table`]), which are heights, positions and heights, or rows
+//! ([`Separator::of`](asperity_data::text_table::Separator::of)) and the number of columns ([`table::Table`]), which are heights, positions and heights, or rows
 //! of a map ([`columns::list_of`]). A header, or in rows of a map an empty line, amid the numbers begins another channel.
 
 pub(crate) mod columns;
 pub(crate) mod header;
-pub(crate) mod layout;
 pub(crate) mod matrix;
-pub(crate) mod names;
 pub(crate) mod table;
 pub(crate) mod warnings;
 use header::TextHeader;
 
 use super::Unit;
-use super::foreign::FORMATS;
 use super::reading::Reading;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::PROVENANCE;
-use asperity_data::check_room;
 use asperity_data::shown;
-use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
-use layout::COMMENT;
-use std::borrow::Cow;
+use asperity_data::text_table::{COMMENT, each_line};
 use std::ops::Range;
 use table::{Table, is_header};
 
-/// Limit of the number of headers with numbers behind them.
+/// Largest number of headers with numbers behind them.
 const MOST_PARTS: usize = 256;
 
-/// Limit of the number of channels that a message lists.
+/// Largest number of channels that a message lists.
 const MOST_LISTED: usize = 8;
 
 /// Numbers of a text, with the header before them.
@@ -39,14 +33,14 @@ struct Part {
     table: Option<Table>,
 }
 
-/// Reads the channel with this number, from 0, of a text with several; without a number, the only channel whose heights are
+/// Reads the channel with this number, from 0, of a text with several. Without a number, reads the only channel whose heights are
 /// lengths.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     // Tables of results are in SI units.
     let metre = bytes.starts_with(PROVENANCE.as_bytes()).then_some(Unit::METRE);
     let mut parts = vec![Part { header: TextHeader::in_unit(metre), table: None }];
     let (mut before, mut last_line) = (None::<(usize, String)>, 0);
-    each_text(bytes, |number, line| {
+    each_line(bytes, |number, line| {
         last_line = number;
         let is_comment = line.starts_with(COMMENT);
         if is_new_part(&parts, line, is_comment) {
@@ -97,8 +91,8 @@ fn no_numbers() -> SurfaceError {
     refused(Place::File, "no line of numbers", "a line of numbers for each point or row")
 }
 
-/// Index of the part and the rows of the channel with this number; without a number, of the only channel, or the only one
-/// whose heights are lengths.
+/// Returns the index of the part and the rows of the channel with this number. Without a number, chooses the only channel, or the
+/// only one whose heights are lengths.
 fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), SurfaceError> {
     let with_numbers =
         parts.iter().enumerate().filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
@@ -132,56 +126,6 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
     let none = channel.map(|channel| format!("no lengths in channel {channel} of ")).unwrap_or_default();
     let fault = format!("{none}{} channels: {}", channels.len(), listed.join(", "));
     Err(refused(Place::File, fault, "--channel with the number of one, in a scene roughness.channel"))
-}
-
-/// Calls `take` for each line of a text with its number, without white space around it. The scene in a table of results is
-/// skipped, since its words may look like units.
-pub fn each_text(
-    bytes: &[u8],
-    mut take: impl FnMut(usize, &str) -> Result<(), SurfaceError>,
-) -> Result<(), SurfaceError> {
-    let mut in_provenance = false;
-    let text = decoded(bytes)?;
-    let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
-    for (index, line) in text.split(|byte| *byte == end).enumerate() {
-        let line = line_text(line, &Place::Line(index + 1))?;
-        if !line.is_empty() {
-            in_provenance = line.starts_with(COMMENT) && (in_provenance || line.starts_with(PROVENANCE));
-        }
-        if !in_provenance {
-            take(index + 1, &line)?;
-        }
-    }
-    Ok(())
-}
-
-/// Limit of the length of a line, bytes: enough for a row of a large matrix.
-const LONGEST_LINE: usize = 1 << 24;
-
-/// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
-fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
-    let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
-    let text = &bytes[mark..];
-    if encoding == UTF_8 {
-        return Ok(Cow::Borrowed(text));
-    }
-    check_room(2 * text.len() as u64)?;
-    Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
-}
-
-/// Returns a line without white space around it, as UTF-8, or if that is invalid as Windows-1252, in which older programs
-/// write µ and °.
-fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, SurfaceError> {
-    let (fault, allowed) = if line.len() > LONGEST_LINE {
-        (format!("longer than {LONGEST_LINE} bytes"), format!("at most {LONGEST_LINE} bytes"))
-    } else if let Some(at) = line.iter().position(|byte| *byte == 0) {
-        (format!("byte {at} of the line is zero, so this is no text"), FORMATS.to_owned())
-    } else {
-        let line = line.trim_ascii();
-        let other = |_| WINDOWS_1252.decode_without_bom_handling(line).0;
-        return Ok(str::from_utf8(line).map_or_else(other, Cow::Borrowed));
-    };
-    Err(refused(place.clone(), fault, allowed))
 }
 
 #[cfg(test)]
@@ -432,15 +376,5 @@ mod tests {
         let fill = rows.replacen("1e-9", "-9999", 1);
         let warnings = text(&fill).unwrap().warnings;
         assert!(warnings[0].starts_with("line 1: the height -9.999e3 is "), "{warnings:?}");
-    }
-
-    #[test]
-    fn binary_content_and_endless_lines_are_refused() {
-        let error = |line: &[u8]| line_text(line, &Place::Line(2)).unwrap_err().to_string();
-        assert!(error(b"b\0").starts_with("line 2: byte 1 of the line is zero"));
-        let mut long = vec![b'1'; LONGEST_LINE];
-        assert_eq!(line_text(&long, &Place::File).unwrap().len(), LONGEST_LINE);
-        long.push(b'1');
-        assert!(error(&long).starts_with("line 2: longer than 16777216 bytes"));
     }
 }

@@ -6,18 +6,17 @@ use super::super::reading::Reading;
 use super::super::surface::LARGEST;
 use super::columns::{List, list_of};
 use super::header::TextHeader;
-use super::layout::{Decimal, ONE_MARK, Separator, TextCell};
-use super::names::{Role, TextColumn};
 use super::{matrix, warnings};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
+use asperity_data::text_table::{Decimal, ONE_MARK, Role, Separator, TextCell, TextColumn};
 use asperity_data::{gathered, push, reserve};
 use std::ops::Range;
 
-/// Number of first columns whose printed digits are recorded, since they may be positions.
+/// Number of first columns whose printed digits are recorded, because they may be positions.
 const FEW_COLUMNS: usize = 4;
 
-/// Limit of the number of lines, and of numbers in a line, that count the rows and columns that follow.
+/// Largest number of lines, and of numbers in a line, that count the rows and columns that follow.
 const MOST_COUNTS: usize = 3;
 
 /// Lines of numbers of a text, in the units of the file.
@@ -25,7 +24,7 @@ const MOST_COUNTS: usize = 3;
 pub(super) struct Table {
     separator: Separator,
     decimal: Decimal,
-    /// Number of cells of a line, empty ones at its end included, and number of cells up to the last one that is not empty.
+    /// Number of cells of a line, including empty ones at its end, and number of cells up to the last one that is not empty.
     cells: usize,
     width: usize,
     values: Vec<f64>,
@@ -43,7 +42,7 @@ pub(super) struct Table {
     counts: Option<(usize, Vec<f64>)>,
 }
 
-/// Number of cells of a line, and number of cells up to the last one that is not empty.
+/// Returns the number of cells of a line, and the number of cells up to the last one that is not empty.
 fn widths(separator: Separator, line: &str) -> (usize, usize) {
     let count = |(_, width), (index, cell): (usize, &str)| {
         (index + 1, if cell.is_empty() { width } else { index + 1 })
@@ -62,7 +61,7 @@ fn is_word(cell: &str) -> bool {
     cell.contains(char::is_alphabetic) && !cell.contains(|c: char| c.is_ascii_digit())
 }
 
-/// Returns true for a line before the numbers: its first cell is no number, another cell is a word, or all cells are empty.
+/// Returns true for a line before the numbers. Its first cell is no number, another cell is a word, or all cells are empty.
 pub(super) fn is_header(line: &str) -> bool {
     let separator = Separator::of(line);
     let is_none = |cell: &str| Decimal::default().read(cell, separator) == TextCell::NoNumber;
@@ -73,7 +72,7 @@ pub(super) fn is_header(line: &str) -> bool {
 }
 
 impl Table {
-    /// An empty table with the layout of this first line.
+    /// Creates an empty table with the layout of this first line.
     fn empty(line: &str) -> Self {
         let separator = Separator::of(line);
         let (cells, width) = widths(separator, line);
@@ -93,8 +92,8 @@ impl Table {
         }
     }
 
-    /// Begins a table with its first line of numbers. The line before belongs to the table if it has as many cells, most of
-    /// them numbers: positions after a word, as in `y\x 0 1 2`.
+    /// Begins a table with its first line of numbers. The line before belongs to the table if it has as many cells, most of them
+    /// numbers: positions after a word, as in `y\x 0 1 2`.
     pub fn new(before: Option<(usize, &str)>, number: usize, line: &str) -> Result<Self, SurfaceError> {
         let mut table = Table::empty(line);
         if let Some((number, before)) = before {
@@ -118,18 +117,15 @@ impl Table {
         self.values.len() / self.cells
     }
 
-    /// Line number of the last row.
     pub fn last_line(&self) -> usize {
         self.line(self.rows() - 1)
     }
 
-    /// Line number of a row.
     pub fn line(&self, row: usize) -> usize {
         let run = self.lines.partition_point(|(first, _)| *first <= row).saturating_sub(1);
         self.lines.get(run).map_or(0, |(first, line)| line + row - first)
     }
 
-    /// Records an empty line.
     pub fn pause(&mut self) {
         self.is_paused = true;
     }
@@ -219,13 +215,13 @@ impl Table {
         Err(refused(Place::Line(number), fault, allowed))
     }
 
-    /// Number of columns up to the last one with a cell that is not empty.
+    /// Returns the number of columns up to the last one with a cell that is not empty.
     fn columns(&self) -> usize {
         self.is_filled.iter().rposition(|is_filled| *is_filled).map_or(1, |last| last + 1)
     }
 
-    /// Ranges of rows between empty lines where these separate channels; a single range if each row follows an empty line,
-    /// or the rows hold positions.
+    /// Returns the ranges of rows between empty lines where these separate channels. A single range is returned if each row
+    /// follows an empty line, or the rows hold positions.
     pub fn parts(&self) -> Vec<Range<usize>> {
         let (rows, columns) = (self.rows(), self.columns());
         let are_apart = (columns == 1 || columns >= FEW_COLUMNS) && self.breaks.len() + 1 < rows;
@@ -234,7 +230,7 @@ impl Table {
         starts.zip(ends).map(|(start, end)| start..end).collect()
     }
 
-    /// The surface in these rows. `is_open` is true if the last line has no line end.
+    /// Returns the surface in these rows. `is_open` is true if the last line has no line end.
     pub fn reading(
         mut self,
         header: &TextHeader,
@@ -249,7 +245,7 @@ impl Table {
             self.breaks.clear();
             self.lines = vec![(0, self.line(rows.start))];
         }
-        let columns = header.columns(self.columns(), cells, self.separator, Unit::is_name);
+        let columns = header.lines.columns(self.columns(), cells, self.separator, Unit::is_name);
         let Some(list) = list_of(&columns)? else {
             return Ok(self.map(header, is_open)?.scaled(|_| false, header.scale()));
         };
@@ -275,7 +271,6 @@ impl Table {
         Ok(Reading { first_missing, warnings, ..reading })
     }
 
-    /// The profile or map of a list of points.
     fn points(
         mut self,
         header: &TextHeader,
@@ -316,7 +311,6 @@ impl Table {
         }
     }
 
-    /// The map of rows of heights.
     fn map(mut self, header: &TextHeader, is_open: bool) -> Result<Reading, SurfaceError> {
         let (cells, columns) = (self.cells, self.columns());
         let mut index = 0;
@@ -366,7 +360,7 @@ impl Table {
         Ok(Reading { first_missing, warnings, ..reading })
     }
 
-    /// The positions in a column; they take the memory of all numbers, which are no longer needed.
+    /// Returns the positions in a column. They take the memory of all numbers, which are no longer needed.
     fn take_positions(&mut self, column: usize) -> Result<Vec<f64>, SurfaceError> {
         let (cells, mut index) = (self.cells, 0);
         let mut positions = std::mem::take(&mut self.values);
@@ -389,8 +383,8 @@ impl Table {
         Ok(gathered(self.rows(), values)?)
     }
 
-    /// Returns an error unless the numbers before the first row are the numbers of rows, of distances between them, of
-    /// columns or of points.
+    /// Returns an error unless the numbers before the first row are the numbers of rows, of distances between them, of columns or
+    /// of points.
     fn check_counts(&self, of_map: &[usize]) -> Result<(), SurfaceError> {
         let Some((line, counts)) = &self.counts else { return Ok(()) };
         let rows = if of_map.is_empty() { self.rows() } else { of_map[1] };

@@ -1,22 +1,19 @@
 //! Cells of a line of text: separators, decimal marks and marks that separate thousands.
 
-use crate::error::{Place, SurfaceError, refused};
+use crate::text_lines::TextFault;
 
-/// Characters that begin a comment.
-pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
-
-/// Separator of the columns of a text, determined from its first line of numbers: a semicolon, a tab, a comma, or a space
+/// Separator of the columns of a text, determined from its first line of numbers. It is a semicolon, a tab, a comma, or a space
 /// for any white space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
 impl Separator {
-    /// Blanks and tabs.
+    /// The separator of columns by blanks and tabs.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas are
-    /// decimal marks if semicolons or tabs separate, and if each word between spaces is a number with a comma inside, as in
-    /// `0,5 1,25`; `0.5, 1.25` and `0,5` are two columns each.
+    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas are
+    /// decimal marks if semicolons or tabs separate, or if each word between spaces is a number with a comma inside, as in
+    /// `0,5 1,25`. `0.5, 1.25` and `0,5` are two columns each.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -24,8 +21,8 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line without spaces around it into columns; separators within quotation marks do not count. A separator
-    /// other than spaces has a column on both sides, which may be empty.
+    /// Splits a line into columns; the line has no spaces at its ends. Separators within quotation marks do not count. A
+    /// separator other than spaces has a column on both sides, which may be empty.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -36,7 +33,7 @@ impl Separator {
     }
 }
 
-/// Function that returns, for each character of a line in turn, whether it is outside quotation marks.
+/// Returns a function that finds, for each character of a line in turn, whether it is outside quotation marks.
 fn outside_quotes() -> impl FnMut(char) -> bool {
     let mut is_inside = false;
     move |c| {
@@ -57,36 +54,36 @@ fn has_decimal_commas(line: &str) -> bool {
     line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
 }
 
-/// Content of a cell.
+/// Content of a cell of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextCell {
-    /// A number.
+    /// The cell is a number.
     Number(f64),
-    /// A mark of a missing point, or an empty column.
+    /// The cell is a mark of a missing point, or empty.
     Missing,
-    /// A number with a decimal comma, in a text with decimal points, or the other way round; a comma in a cell between commas
-    /// that may be a decimal mark or separate thousands.
+    /// The decimal mark of the cell differs from the mark of the text, such as a decimal comma among decimal points. The other
+    /// case is a comma that may separate thousands, in a text whose columns are separated by commas.
     OtherMark,
-    /// Text that is no number.
+    /// The cell is a text that is no number.
     NoNumber,
 }
 
 /// Marks of missing points, besides an empty column and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Numbers that a text may have, for a message on a cell with [`TextCell::OtherMark`].
+/// Numbers that a text may have, for a message about a cell with [`TextCell::OtherMark`].
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
 /// Characters that separate thousands; a comma or a point may also be a decimal mark.
 const GROUPING: [char; 8] = [',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}'];
 
-/// Marks of the numbers of a text, determined by the first ones read.
+/// Decimal mark and separator of thousands of the numbers of a text, determined by the first numbers read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark.
     mark: Option<char>,
-    /// Comma or point that separates thousands, known from a number with both marks, as `1,234.5`, or with two groups, as
+    /// Comma or point that separates thousands. It is known from a number with both marks, as `1,234.5`, or with two groups, as
     /// `1,234,567`.
     group: Option<char>,
     /// True after a number whose comma cannot separate thousands, as `0,5`, and after a number without a mark.
@@ -95,7 +92,7 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// Reads a cell; the first decimal mark of a text holds for all its numbers.
+    /// Reads a cell. The first decimal mark of a text holds for all its numbers.
     pub fn read(&mut self, cell: &str, separator: Separator) -> TextCell {
         // The minus sign of spreadsheets and papers.
         if cell.contains('\u{2212}') {
@@ -136,18 +133,11 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if each comma of the numbers read may be a decimal mark or separate thousands: all have three digits
-    /// behind the comma, and others have no comma.
-    pub fn check(&self) -> Result<(), SurfaceError> {
-        if self.mark == Some(',') && self.has_whole && !self.is_certain {
-            let fault = "each comma in a number may be a decimal mark or separate thousands, as in 1,234";
-            return Err(refused(
-                Place::File,
-                fault,
-                "numbers with decimal points, or without separators of thousands",
-            ));
-        }
-        Ok(())
+    /// Returns an error if the commas of the numbers read are ambiguous: each may be a decimal mark or separate thousands. Then
+    /// all commas have three digits behind them, and other numbers have no comma.
+    pub fn check(&self) -> Result<(), TextFault> {
+        let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
+        if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }
     }
 }
 
@@ -156,8 +146,8 @@ fn may_be_grouped(cell: &str) -> bool {
     ungrouped(cell, Some(',')).is_some_and(|(_, mark)| mark == Some(','))
 }
 
-/// A number without the marks that separate its thousands, and this mark. A single comma or point is such a mark where it is
-/// the one that is `known`, or where a decimal mark follows.
+/// Returns a number without the marks that separate its thousands, and this mark. A single comma or point is such a mark where it
+/// is the one that is `known`, or where a decimal mark follows.
 fn ungrouped(cell: &str, known: Option<char>) -> Option<(String, Option<char>)> {
     let unsigned = cell.trim_start_matches(['+', '-']);
     let mark = unsigned.chars().find(|c| !c.is_ascii_digit()).filter(|mark| GROUPING.contains(mark))?;

@@ -1,26 +1,27 @@
 //! Names of columns: what each holds, and its unit.
 
-use super::layout::{Decimal, Separator, TextCell};
+use crate::text_cells::{Decimal, Separator, TextCell};
+use crate::text_lines::COMMENT;
 use std::collections::VecDeque;
 
 /// Limit of the number of characters of an unknown unit in round brackets.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column of a surface, by its name.
+/// Meaning of a column in a text file of a surface, by the name of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// The name says nothing.
+    /// The name states no meaning.
     #[default]
     Unknown,
-    /// Position along the first axis.
+    /// The column has positions along the first axis.
     X,
-    /// Position along the second axis.
+    /// The column has positions along the second axis.
     Y,
-    /// Height.
+    /// The column has heights.
     Height,
-    /// Number of the point.
+    /// The column has the number of each point.
     Number,
-    /// 0 for a point that was not measured.
+    /// The column has 0 for a point that was not measured.
     Valid,
 }
 
@@ -34,60 +35,81 @@ const ROLES: [(Role, &str); 6] = [
     (Role::Number, "index idx no nr number point points pt sample id"),
 ];
 
-/// Name of a column and, if the name states one, its unit.
+/// Name and meaning of a column, and its unit if the name states one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextColumn {
     /// Name of the column; empty if it has none.
     pub name: String,
-    /// What the column holds.
+    /// Meaning of the column.
     pub role: Role,
     /// Unit as the file writes it.
     pub unit: Option<String>,
 }
 
-/// Function that returns true for the unit of a quantity in the columns.
-pub(crate) type IsUnit = fn(&str) -> bool;
+/// Number of last lines that may name columns.
+const LAST_LINES: usize = 64;
 
-/// Names and units of the columns, from the last of these lines with a name for each of `count` columns, and a row of units.
-/// Lines may have further separators at their end, up to `cells` cells.
-pub(super) fn columns_of(
-    lines: &VecDeque<String>,
-    (count, cells): (usize, usize),
-    separator: Separator,
-    is_unit: IsUnit,
-) -> Vec<TextColumn> {
-    let mut units: Option<Vec<String>> = None;
-    for line in lines.iter().rev() {
-        let Some(found) = cells_of(line, count, cells, separator) else { continue };
-        let is_number =
-            |cell: &String| matches!(Decimal::default().read(cell, Separator::SPACE), TextCell::Number(_));
-        if found.iter().any(is_number) || !found.iter().any(|cell| cell.contains(char::is_alphanumeric)) {
-            continue;
+/// The last lines above the numbers of a text, of which one may name the columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HeadLines(VecDeque<String>);
+
+impl HeadLines {
+    /// Adds a line, without a sign of a comment before it.
+    pub fn take(&mut self, line: &str) {
+        if self.0.len() == LAST_LINES {
+            self.0.pop_front();
         }
-        let mut columns: Vec<TextColumn> = found.iter().map(|cell| column(cell, is_unit)).collect();
-        let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
-        let names = columns.iter().any(|column| column.role != Role::Unknown);
-        if units.is_none() && !names && bare.iter().any(|cell| is_unit(cell)) {
-            units = Some(bare);
-            continue;
-        }
-        // Numbers of points often have no name, or a sign that begins a comment.
-        if let [first, _, ..] = &mut columns[..]
-            && first.name.is_empty()
-            && names
-        {
-            first.role = Role::Number;
-        }
-        add_units(&mut columns, units.unwrap_or_default(), is_unit);
-        return columns;
+        self.0.push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
-    let mut columns = vec![TextColumn::default(); count];
-    add_units(&mut columns, units.unwrap_or_default(), is_unit);
-    columns
+
+    /// Names and units of the columns, from the last line with a name for each of `count` columns, and a row of units. Lines
+    /// of numbers may end with further separators, up to `cells` cells. Without such a line nothing is known of the columns.
+    pub fn columns(
+        &self,
+        count: usize,
+        cells: usize,
+        separator: Separator,
+        is_unit: fn(&str) -> bool,
+    ) -> Vec<TextColumn> {
+        let mut units: Option<Vec<String>> = None;
+        for line in self.0.iter().rev() {
+            let Some(found) = cells_of(line, count, cells, separator) else { continue };
+            let is_number = |cell: &String| {
+                matches!(Decimal::default().read(cell, Separator::SPACE), TextCell::Number(_))
+            };
+            if found.iter().any(is_number) || !found.iter().any(|cell| cell.contains(char::is_alphanumeric)) {
+                continue;
+            }
+            let mut columns: Vec<TextColumn> = found.iter().map(|cell| column(cell, is_unit)).collect();
+            let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
+            let names = columns.iter().any(|column| column.role != Role::Unknown);
+            if units.is_none() && !names && bare.iter().any(|cell| is_unit(cell)) {
+                units = Some(bare);
+                continue;
+            }
+            // Numbers of points often have no name, or a sign that begins a comment.
+            if let [first, _, ..] = &mut columns[..]
+                && first.name.is_empty()
+                && names
+            {
+                first.role = Role::Number;
+            }
+            add_units(&mut columns, units.unwrap_or_default(), is_unit);
+            return columns;
+        }
+        let mut columns = vec![TextColumn::default(); count];
+        add_units(&mut columns, units.unwrap_or_default(), is_unit);
+        columns
+    }
+
+    /// Returns true if one of the lines equals this text.
+    pub fn has_line(&self, text: &str) -> bool {
+        self.0.iter().any(|line| line == text)
+    }
 }
 
 /// Adds a row of units; a unit in it replaces the unit beside a name, if it is known.
-fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: IsUnit) {
+fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: fn(&str) -> bool) {
     for (column, unit) in columns.iter_mut().zip(units) {
         if is_unit(&unit) || column.unit.is_none() && !unit.is_empty() {
             column.unit = Some(unit);
@@ -96,12 +118,12 @@ fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: IsUnit) {
 }
 
 /// Returns true for one of these words.
-pub(super) fn is_one_of(word: &str, words: &str) -> bool {
+pub fn is_one_of(word: &str, words: &str) -> bool {
     words.split(' ').any(|one| one == word)
 }
 
-/// The cells of a line of names, if there are `count` of them, or with the separator of the numbers up to `most`. They are
-/// split at the separator of the numbers, else at the separator of the line, else after closing brackets.
+/// Returns the cells of a line of names, if there are `count` of them, or with the separator of the numbers up to `most`. They
+/// are split at the separator of the numbers, else at the separator of the line, else after closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = match line.split_once([':', '=']) {
         Some((key, cells)) if is_one_of(&key.trim().to_lowercase(), "columns names fields units") => cells,
@@ -135,10 +157,10 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// Name, role and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral
+/// Returns name, role and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral
 /// um`. An unknown unit is recognised in square brackets, behind a slash, or as a short word in round brackets: `height
 /// (measured)` is a name.
-fn column(cell: &str, is_unit: IsUnit) -> TextColumn {
+fn column(cell: &str, is_unit: fn(&str) -> bool) -> TextColumn {
     let bracket = |(at, mark): (usize, &str)| {
         let unit = bare(cell[at + 1..].split([']', ')']).next()?);
         Some((&cell[..at], unit, mark == "[" || unit.chars().count() < LONGEST_UNIT))

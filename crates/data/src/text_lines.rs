@@ -1,0 +1,105 @@
+//! Lines of a text in any usual encoding.
+
+use crate::PROVENANCE;
+use crate::memory::{OutOfMemory, check_room};
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use std::borrow::Cow;
+use thiserror::Error;
+
+/// Characters that begin a comment.
+pub const COMMENT: [char; 3] = ['#', '%', '!'];
+
+/// Reason why a text is not read as a table. Lines count from 1, bytes of a line from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TextFault {
+    /// A byte is zero, which no text has.
+    #[error("line {line}: byte {byte} of the line is zero, so this is no text")]
+    NotText {
+        /// Number of the line.
+        line: usize,
+        /// Offset of the byte in the line.
+        byte: usize,
+    },
+    /// A line is longer than [`TextFault::LONGEST_LINE`] bytes.
+    #[error("line {line}: longer than {} bytes", TextFault::LONGEST_LINE)]
+    LongLine {
+        /// Number of the line.
+        line: usize,
+    },
+    /// Each comma in a number may be a decimal mark or separate thousands.
+    #[error("each comma in a number may be a decimal mark or separate thousands, as in 1,234")]
+    DoubtfulCommas,
+    /// The text in another encoding does not fit into memory.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
+}
+
+impl TextFault {
+    /// Largest length of a line, bytes: enough for a row of a large matrix.
+    pub const LONGEST_LINE: usize = 1 << 24;
+}
+
+/// Calls `take` for each line of a text with its number, without white space around it. The scene in a table of results is
+/// skipped, because its words may look like units.
+///
+/// # Errors
+/// [`TextFault`] in the error of `take`, for bytes that are no text.
+pub fn each_line<E: From<TextFault>>(
+    bytes: &[u8],
+    mut take: impl FnMut(usize, &str) -> Result<(), E>,
+) -> Result<(), E> {
+    let mut in_provenance = false;
+    let text = decoded(bytes).map_err(TextFault::from)?;
+    let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
+    for (index, line) in text.split(|byte| *byte == end).enumerate() {
+        let line = line_text(line, index + 1)?;
+        if !line.is_empty() {
+            in_provenance = line.starts_with(COMMENT) && (in_provenance || line.starts_with(PROVENANCE));
+        }
+        if !in_provenance {
+            take(index + 1, &line)?;
+        }
+    }
+    Ok(())
+}
+
+/// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
+fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
+    let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
+    let text = &bytes[mark..];
+    if encoding == UTF_8 {
+        return Ok(Cow::Borrowed(text));
+    }
+    check_room(2 * text.len() as u64)?;
+    Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
+}
+
+/// Returns the line with this number without white space around it, as UTF-8, or if it is invalid as Windows-1252, in which
+/// older programs write µ and °.
+fn line_text(text: &[u8], line: usize) -> Result<Cow<'_, str>, TextFault> {
+    if text.len() > TextFault::LONGEST_LINE {
+        return Err(TextFault::LongLine { line });
+    }
+    if let Some(byte) = text.iter().position(|byte| *byte == 0) {
+        return Err(TextFault::NotText { line, byte });
+    }
+    let text = text.trim_ascii();
+    let other = |_| WINDOWS_1252.decode_without_bom_handling(text).0;
+    Ok(str::from_utf8(text).map_or_else(other, Cow::Borrowed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn binary_content_and_endless_lines_are_refused() {
+        assert_eq!(line_text(b"b\0", 2), Err(TextFault::NotText { line: 2, byte: 1 }));
+        let mut long = vec![b'1'; TextFault::LONGEST_LINE];
+        assert_eq!(line_text(&long, 1).unwrap().len(), TextFault::LONGEST_LINE);
+        long.push(b'1');
+        let error = line_text(&long, 2).unwrap_err();
+        assert_eq!(error.to_string(), "line 2: longer than 16777216 bytes");
+    }
+}
