@@ -10,8 +10,8 @@ mod peak;
 
 #[cfg(target_os = "linux")]
 fn main() {
-    use asperity::scene::Workload;
     use asperity::scene::open;
+    use asperity::scene::stages::Workload;
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 

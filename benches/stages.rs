@@ -7,13 +7,13 @@
 //! `--hurst 0.2` and `--kappa 100` take other lines and another adhesion, with ten times this κ beside it. Without
 //! `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
-use asperity::contact::ideal_adhesion_force;
-use asperity::contact::{
-    Body, Contact, ContactTree, Edges, Leg, LegRecord, Modulus, Move, MovingBody, Profile, Work,
-};
+use asperity::contact::closed_forms::ideal_adhesion_force;
+use asperity::contact::motion::{Body, ContactTree, Leg, MovingBody};
+use asperity::contact::{Contact, Edges, LegRecord, Modulus, Move, Profile, Work};
 use asperity::scene::Simulation;
 use asperity::scene::{Adhesion, CheckedScene, Document, RoughnessParameter};
-use asperity::surface::{Line, SelfAffine, Synthesizer};
+use asperity::surface::SelfAffine;
+use asperity::surface::lines::{Line, Synthesizer};
 use asperity_fourier::{Complex64, RealToComplex, plan_real_forward};
 use std::hint::black_box;
 use std::mem::take;

@@ -4,7 +4,8 @@
 
 use asperity::data::Control;
 use asperity::experiment::{CurveOptions, Fit, MeasuredCurve, Parameter};
-use asperity::scene::{displacements, open, run};
+use asperity::scene::instrument::displacements;
+use asperity::scene::{open, run};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // In place of a measurement: the curve of a sphere on a spring of 20 N/m, with noise of 50 nN.

@@ -6,11 +6,14 @@ mod allocations;
 #[path = "common/peak.rs"]
 mod peak;
 
-use asperity::contact::{Body, Contact, ContactTree, Modulus, Profile};
+use asperity::contact::motion::{Body, ContactTree};
+use asperity::contact::{Contact, Modulus, Profile};
 use asperity::contact::{Edges, Move};
+use asperity::scene::Simulation;
+use asperity::scene::stages::Workload;
 use asperity::scene::{Document, open};
-use asperity::scene::{Simulation, Workload};
-use asperity::surface::{Line, SelfAffine, Synthesizer};
+use asperity::surface::SelfAffine;
+use asperity::surface::lines::{Line, Synthesizer};
 use peak::{Changed, arguments, peak};
 use std::mem::take;
 use std::process::{Command, Stdio};

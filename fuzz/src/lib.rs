@@ -17,7 +17,9 @@ pub use quantity::quantity;
 pub use scene::scene;
 pub use surface::surface;
 
-use asperity::scene::{Document, Origin, SceneError, SceneErrors, Tree, to_ron};
+use asperity::scene::fields::Tree;
+use asperity::scene::text::to_ron;
+use asperity::scene::{Document, Origin, SceneError, SceneErrors};
 use std::borrow::Cow;
 
 /// A property of any bytes.

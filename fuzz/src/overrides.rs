@@ -1,7 +1,8 @@
 //! Overrides in the form of `--set`.
 
 use super::{assert_document, assert_errors, text};
-use asperity::scene::{DEFAULT, Document, Origin, SceneErrors, find_scene};
+use asperity::scene::library::{DEFAULT, find_scene};
+use asperity::scene::{Document, Origin, SceneErrors};
 
 /// Most overrides at a time; for each of them the whole text is read again.
 const MOST: usize = 16;

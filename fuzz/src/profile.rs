@@ -1,7 +1,8 @@
 //! Measured profiles.
 
 use super::{assert_message, text};
-use asperity::surface::{Amplitude, MeasuredOptions, MeasuredProfile};
+use asperity::surface::Amplitude;
+use asperity::surface::lines::{MeasuredOptions, MeasuredProfile};
 use asperity::surface::{ReadOptions, SurfaceError, Unit};
 
 /// An accepted profile has finite points in ascending order and can be sampled; a refusal is one line that states the

@@ -2,7 +2,7 @@
 
 use super::{assert_message, text};
 use asperity::data::{format_quantity, parse_quantity};
-use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION};
+use asperity::scene::fields::{FIELDS, LEG_FORCE, LEG_INDENTATION};
 
 /// The largest number allowed by any field.
 const LARGEST: f64 = 1.0e300;

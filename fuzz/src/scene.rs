@@ -1,8 +1,10 @@
 //! The text of a scene.
 
 use super::{assert_document, assert_errors, assert_place, text};
-use asperity::scene::Workload;
-use asperity::scene::{Document, Effect, LONGEST_TEXT, Origin};
+use asperity::scene::fields::Effect;
+use asperity::scene::stages::Workload;
+use asperity::scene::text::LONGEST_TEXT;
+use asperity::scene::{Document, Origin};
 
 const NAME: &str = "fuzzed.ron";
 

@@ -6,8 +6,8 @@
     loop = asp.load(ball, modulus="1 MPa", work="50 mJ/m²", stages="100 µN, separation")
     loop.pull_off                                     # N, (3/2)πγR by Johnson, Kendall and Roberts
 
-A quantity is a number in SI units, or a text with a unit such as "50 mJ/m²". Compressive forces are positive, and the indentation is
-0 at first touch. Long calls release the global lock of Python (GIL), and Ctrl-C stops them.
+A quantity is a number in SI units, or a text with a unit such as "50 mJ/m²". Compressive forces are positive, and the
+indentation is 0 at first touch. Long calls release the global lock of Python (GIL), and Ctrl-C stops them.
 """
 
 from ._errors import FieldError, LoadingError

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     _Curve: TypeAlias = AnyPath | tuple[npt.ArrayLike, npt.ArrayLike]
 
-#: Function that is called with the number of finished parts and the number of all parts. An exception in it stops the computation.
+#: Function that is called with the numbers of finished parts and of all parts. An exception in it stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
 #: Name of a built-in scene, path of a scene file, text of a scene, a Scene, or a Profile that was made of a form and a roughness.
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
@@ -95,9 +95,9 @@ def self_affine(
 ) -> Form:
     """Returns a random self-affine roughness with this Hurst exponent.
 
-    Its amplitude is given by `rms_height` in m or by `rms_gradient`. Its waves are given by `modes`, the first and the last number of
-    waves per length, or by `wavelengths`, the longest and the shortest one in m. Above the wavelength `roll_off` in m the spectrum of
-    the surface is flat.
+    Its amplitude is given by `rms_height` in m or by `rms_gradient`. Its waves are given by `modes`, the first and the last
+    number of waves per length, or by `wavelengths`, the longest and the shortest one in m. Above the wavelength `roll_off` in m
+    the spectrum of the surface is flat.
     """
     return Form(
         "SelfAffine",
@@ -151,12 +151,12 @@ def load(
 ) -> Loop:
     """Loads a separated body through loading stages, and returns its force loop.
 
-    `modulus` is the effective modulus E* in Pa. `work` is the work of adhesion in J/m² that opens the interface. `closing_work` in J/m²
-    is gained where the interface closes, by default the same. A stage ends at a force (`"10 µN"`, or a number in N), at an indentation
-    (`"200 nm"`), or at a displacement of the instrument (`"displacement 200 nm"`). It may also be `"touch"`, `"zero force"`,
-    `"separation"`, or `"3 loops 0 N to 10 µN"`. The instrument has the stiffness `loading_stiffness` in N/m, by default infinite.
-    `edges` is `"sub_cell"` for edges of contact patches between springs, or `"grid"` for whole springs. The force curve has `samples`
-    points on each stage. The smallest and the largest force do not depend on their number.
+    `modulus` is the effective modulus E* in Pa. `work` is the work of adhesion in J/m² that opens the interface. `closing_work`
+    in J/m² is gained where the interface closes, by default the same. A stage ends at a force (`"10 µN"`, or a number in N), at
+    an indentation (`"200 nm"`), or at a displacement of the instrument (`"displacement 200 nm"`). It may also be `"touch"`,
+    `"zero force"`, `"separation"`, or `"3 loops 0 N to 10 µN"`. The instrument has the stiffness `loading_stiffness` in N/m, by
+    default infinite. `edges` is `"sub_cell"` for edges of contact patches between springs, or `"grid"` for whole springs. The
+    force curve has `samples` points on each stage. The smallest and the largest force do not depend on their number.
     """
     modulus = quantity(modulus, "Pa", "modulus")
     work = quantity(work, "J/m²", "work")
@@ -191,8 +191,8 @@ def run(
 ) -> Outcome:
     """Computes a scene as `asperity run` does: on its own profile, and on `profiles` random profiles, by default 16.
 
-    `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number of
-    finished profiles and the number of all profiles.
+    `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number
+    of finished profiles and the number of all profiles.
     """
     call = _call(scene, fields, profiles, jobs, progress)
     loop = _native.Loop.of_scene(call[0], None)
@@ -220,8 +220,8 @@ def find(
 ) -> Found:
     """Finds the value of a field, or of the `preload`, that meets a condition such as `where="F_a/F_a,max = 20 %"`.
 
-    The value is found for each of several random profiles. `range` are its limits, by default a hundredth and a hundred times of the
-    value in the scene.
+    The value is found for each of several random profiles. `range` are its limits, by default a hundredth and a hundred times
+    of the value in the scene.
     """
     searched = None if range is None else _range(range)
     return Found(_native.find(_call(scene, fields, profiles, jobs, progress), field, where, searched))
@@ -239,7 +239,7 @@ def preloads(
     progress: Progress = None,
     **fields: Any,
 ) -> Preloads:
-    """Computes the adhesion force after `count` preloads between two forces in N, at equal distances, or with `log` at equal ratios."""
+    """Computes the adhesion force after each of `count` preloads between two forces in N, with `log` at equal ratios."""
     axis = f"{_range(between)}:{count}" + (":log" if log else "")
     return Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress), axis))
 
@@ -253,7 +253,10 @@ def reversals(
     progress: Progress = None,
     **fields: Any,
 ) -> Reversals:
-    """Computes the unloadings of a scene from `count` turning points between two forces in N, by default from first touch to its preload."""
+    """Computes the unloadings of a scene from `count` turning points between two forces in N.
+
+    By default the turning points lie between first touch and the preload of the scene.
+    """
     ends = None if between is None else _range(between)
     count = whole(count, "count", 2, 512)
     return Reversals(_native.reversals(_call(scene, fields, None, None, progress), ends, count))
@@ -270,7 +273,7 @@ def reference(
     progress: Progress = None,
     **fields: Any,
 ) -> Reference:
-    """Computes a scene in three dimensions on random squares with `grid` cells along a side, and on random profiles for comparison.
+    """Computes a scene in three dimensions on random squares of `grid` × `grid` cells, and on random profiles.
 
     `maps` is the number of squares, by default 24 without and 12 with adhesion.
     """
@@ -314,10 +317,10 @@ def surface(
 ) -> Surface:
     """Reads and analyses a measured surface: a file, several files with measurements of the same surface, or an array.
 
-    An array holds the heights of a profile or a map in m. `spacing` is the distance between its points in m, or the two distances along
-    a row and between rows. `opposite` is a file of the opposite surface. `asperity surface --help` lists the further options, for
-    example `unit="um"`, `detrend="tilt"`, `periodic=True`, `interpolate=True`, `channel=1`, `continue_to="10 nm"`,
-    `tip_radius="10 nm"` and `modulus="2.7 MPa"`.
+    An array holds the heights of a profile or a map in m. `spacing` is the distance between its points in m, or the two
+    distances along a row and between rows. `opposite` is a file of the opposite surface. `asperity surface --help` lists the
+    further options, for example `unit="um"`, `detrend="tilt"`, `periodic=True`, `interpolate=True`, `channel=1`,
+    `continue_to="10 nm"`, `tip_radius="10 nm"` and `modulus="2.7 MPa"`.
     """
     if isinstance(files, (str, os.PathLike)):
         files = [files]
@@ -348,9 +351,9 @@ def fit(
     """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
 
     A curve is a file, or a pair of arrays with displacements in m and forces in N. `free` names the parameters to fit: work,
-    closing_work, modulus, offset, zero, stiffness and radius. A dictionary gives their ranges as well. With `profiles`, one work of
-    adhesion is found for all curves of a rough body, by comparison with so many random profiles. `options` state how to read the
-    curves, as `asperity fit --help` lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
+    closing_work, modulus, offset, zero, stiffness and radius. A dictionary gives their ranges as well. With `profiles`, one
+    work of adhesion is found for all curves of a rough body, by comparison with so many random profiles. `options` state how to
+    read the curves, as `asperity fit --help` lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
     """
     is_single = isinstance(curves, (str, os.PathLike, tuple))
     given: list[Any] = [curves] if is_single else list(cast("Sequence[_Curve]", curves))
@@ -393,7 +396,8 @@ def press(
     """Presses a rigid square map of heights in m on an elastic half-space in three dimensions, without adhesion.
 
     The side of the map is in m, the effective modulus in Pa, the force in N. The map has 32, 64, 128 … cells along a side. The
-    conditions of contact are violated by at most `residual` rms heights. `pressure` in Pa and `gap` in m of the result are maps.
+    conditions of contact are violated by at most `residual` rms heights. `pressure` in Pa and `gap` in m of the result are
+    maps.
     """
     load = (quantity(side, "m", "side"), quantity(modulus, "Pa", "modulus"), quantity(force, "N", "force"))
     square = numbers(heights, "heights", (2,))

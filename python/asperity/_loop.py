@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 class Loop:
     """Force loop of a loading that begins with separated bodies. All numbers are in SI units.
 
-    Arrays have one value for each point of the curve, except for `released`. Forces are positive in compression, and the indentation
-    is 0 at first touch. A number that does not exist for the loop is None. `kappa`, `tabor`, `regime`, `share` and `pull_off_error` need
-    the form and the roughness of the body. They are None for a profile that is given by its heights.
+    Arrays have one value for each point of the curve, except for `released`. Forces are positive in compression, and the
+    indentation is 0 at first touch. A number that does not exist for the loop is None. `kappa`, `tabor`, `regime`, `share` and
+    `pull_off_error` need the form and the roughness of the body. They are None for a profile that is given by its heights.
     """
 
     #: Index of the loading stage of each point, from 0.
@@ -66,7 +66,7 @@ class Loop:
 
     @cached_property
     def pull_off_error(self) -> float | None:
-        """Estimated error of the pull-off force in N that results from the finite number of springs. It is computed at the first access."""
+        """Estimated error of the pull-off force in N by the finite number of springs, computed at the first access."""
         if self._scene is None:
             return None
         report = _native.run((self._scene, 1, None, None), self._native)

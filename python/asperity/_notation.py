@@ -62,7 +62,7 @@ def refusal(field: str, value: object, allowed: str) -> FieldError:
 
 
 def quantity(value: Quantity, unit: str, field: str) -> float:
-    """Converts a quantity to a number in the SI unit `unit`: `"2.7 MPa"` becomes 2.7e6 for `"Pa"`. Errors name the argument `field`."""
+    """Converts a quantity to a number in the SI unit `unit`: `"2.7 MPa"` is 2.7e6 for `"Pa"`. Errors name the argument `field`."""
     if isinstance(value, str):
         return parsed(value, unit, field)
     try:
@@ -85,7 +85,7 @@ def whole(value: Any, field: str, least: int, most: int) -> int:
 
 
 def numbers(values: npt.ArrayLike, field: str, dimensions: tuple[int, ...] = (1,)) -> npt.NDArray[np.float64]:
-    """Returns an array of finite numbers as contiguous float64, copied only if needed. `dimensions` are the allowed numbers of axes."""
+    """Returns an array of finite numbers as contiguous float64. `dimensions` are the allowed numbers of axes."""
     import numpy as np
 
     words = " or ".join({1: "one-dimensional", 2: "two-dimensional"}[count] for count in dimensions)

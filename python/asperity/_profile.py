@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 class Profile:
     """Profile of a rigid body: heights in m at equal distances, positive towards the half-space.
 
-    Given heights are used unchanged. The function `asperity.profile` makes a profile of a form and a roughness instead, and keeps both
-    in its `scene`. Only a loop of such a profile has a regime and a Tabor number.
+    Given heights are used unchanged. The function `asperity.profile` makes a profile of a form and a roughness instead, and
+    keeps both in its `scene`. Only a loop of such a profile has a regime and a Tabor number.
     """
 
     #: Scene with the form and the roughness of the profile; None if the heights were given.

@@ -75,7 +75,7 @@ class Result:
         return pd.DataFrame(self.to_numpy())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the result to a file. The ending of its name selects the format: json, csv, npy, txt, or svg, png, pdf for a figure."""
+        """Writes the result to a file. Its ending selects the format: json, csv, npy, txt, or svg, png, pdf for a figure."""
         written = self._report.write(os.path.splitext(os.fspath(path))[1].lstrip(".").lower())
         with open(path, "wb") as file:
             file.write(written)
@@ -178,7 +178,7 @@ class Fits(Drawn):
     """A scene fitted to each of several force curves. `curves` has one row for each curve."""
 
     def to_pandas(self) -> pd.DataFrame:
-        """Returns one row for each curve: values and intervals of the parameters, or the reason why the scene does not describe it."""
+        """Returns one row for each curve: values and intervals of the parameters, or the reason why there are none."""
         import pandas as pd
 
         return pd.DataFrame(self.curves)

@@ -5,10 +5,10 @@ use crate::failure::Failure;
 use crate::force_loop::Loop;
 use asperity::data::Control;
 use asperity::scene::{Document, Simulation, estimate};
-use asperity::study::{
-    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceEvent, ReferenceOptions,
-    Results, Staircase, compute, parse_condition, parse_preloads, parse_range,
-};
+use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
+use asperity::study::plans::{parse_condition, parse_preloads, parse_range};
+use asperity::study::trust::MeasuredAdhesion;
+use asperity::study::{Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport, RunReport,
     scene_provenance,

@@ -1,10 +1,11 @@
 //! Scenes: named, read from files or from text, with other values of their fields.
 
 use crate::failure::Failure;
-use asperity::scene::{Document, is_path, open};
+use asperity::scene::library::is_path;
+use asperity::scene::{Document, open};
 use pyo3::prelude::*;
 
-/// A checked scene: one problem with material, profile, adhesion, loading and numerics.
+/// A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of its computation.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Scene {
     pub document: Document,
@@ -12,7 +13,7 @@ pub struct Scene {
 
 #[pymethods]
 impl Scene {
-    /// Opens a built-in scene by its name, or the scene of a file.
+    /// Opens a built-in scene by its name, or a scene file by its path.
     #[staticmethod]
     fn open(name: &str) -> Result<Scene, Failure> {
         let document = open(name).map_err(|errors| match is_path(name) {
@@ -22,18 +23,18 @@ impl Scene {
         Ok(Scene { document: document? })
     }
 
-    /// Reads a scene from text; its files are relative to the working folder.
+    /// Reads the text of a scene. Files that the scene names are relative to the working folder.
     #[staticmethod]
     fn parse(text: &str) -> Result<Scene, Failure> {
         Ok(Scene { document: Document::parse(text, "scene")? })
     }
 
-    /// The scene with other values, given as pairs of a path and a value in the notation of a scene file.
+    /// Returns the scene with other values of fields, given as pairs of a path and a value in the notation of a scene file.
     fn set(&self, fields: Vec<(String, String)>) -> Result<Scene, Failure> {
         Ok(Scene { document: self.document.set_all(&fields)? })
     }
 
-    /// The text of the scene, as a file holds it.
+    /// Text of the scene, as a scene file holds it.
     #[getter]
     fn text(&self) -> &str {
         self.document.text()
@@ -44,7 +45,7 @@ impl Scene {
     }
 }
 
-/// Names of the built-in scenes.
+/// Returns the names of the built-in scenes.
 #[pyfunction]
 pub fn presets() -> Vec<&'static str> {
     asperity::scene::presets().iter().map(|preset| preset.name).collect()

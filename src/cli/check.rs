@@ -5,7 +5,7 @@ use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
 use super::removed;
 use asperity_report::Format;
-use asperity_study::{Case, Check, Verdict, catalogue, checks, judge_case};
+use asperity_study::checks::{Case, Check, Verdict, catalogue, checks, judge_case};
 use clap::Args;
 use std::io::Write;
 

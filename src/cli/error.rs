@@ -5,6 +5,7 @@ use std::error::Error;
 use std::fmt;
 use std::fmt::Display;
 use std::io;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Exit code of a failed run or wrong input.
 const FAILED: u8 = 1;
@@ -23,6 +24,12 @@ impl CliError {
     /// Creates an error with this message.
     pub fn message(message: impl Into<String>) -> CliError {
         CliError { message: message.into(), exit_code: FAILED, is_closed_pipe: false }
+    }
+
+    /// Creates an error of a command that this signal has ended, with the exit code of shells.
+    pub fn interrupted(signal: &AtomicUsize, message: impl Into<String>) -> CliError {
+        let exit_code = 128 + u8::try_from(signal.load(Ordering::SeqCst)).unwrap_or_default();
+        CliError { exit_code, ..CliError::message(message) }
     }
 
     /// Creates an error whose message begins with the name of its cause: a scene, a file, a word.

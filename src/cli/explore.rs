@@ -18,7 +18,7 @@ use asperity_data::path_name;
 use asperity_experiment::CurveOptions;
 use asperity_report::brief_summary;
 use asperity_scene::Simulation;
-use asperity_scene::{nearest, quoted};
+use asperity_scene::text::{nearest, quoted};
 use clap::Args;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};

@@ -6,7 +6,8 @@ use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
 use asperity_report::{FindReport, Format};
 use asperity_scene::Simulation;
-use asperity_study::{Found, Quantity, Question, parse_condition, parse_range};
+use asperity_study::plans::{parse_condition, parse_range};
+use asperity_study::{Found, Quantity, Question};
 use clap::Args;
 use std::io::Write;
 

@@ -34,7 +34,8 @@ use arguments::{Arguments, Command};
 use error::CliError;
 
 use asperity_data::{printable, printable_lines};
-use asperity_scene::{did_you_mean, presets, quoted};
+use asperity_scene::presets;
+use asperity_scene::text::{did_you_mean, quoted};
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Parser};
 use std::borrow::Cow;
@@ -113,7 +114,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let Some(first) = words.first() else { return error };
     // A second word without a dash, which the parser takes for a command.
     let second = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
-    let is_scene = || asperity_scene::find_scene(first).is_some() || Path::new(&**first).exists();
+    let is_scene = || asperity_scene::library::find_scene(first).is_some() || Path::new(&**first).exists();
     let message = match (words.iter().find(is_command), &refused, &second) {
         (Some(misplaced), ..)
             if misplaced != first

@@ -5,8 +5,9 @@ use super::output::AnswerFormat;
 use asperity_data::object;
 use asperity_data::{printable, printable_lines};
 use asperity_report::Sheet;
+use asperity_scene::Document;
 use asperity_scene::Simulation;
-use asperity_scene::{Document, Entry};
+use asperity_scene::library::Entry;
 use clap::Subcommand;
 use std::io;
 use std::io::{IsTerminal, Write};
@@ -62,7 +63,8 @@ fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
 }
 
 fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let entries = asperity_scene::scenes(asperity_scene::own_folder().as_deref(), Path::new("."));
+    let entries =
+        asperity_scene::library::scenes(asperity_scene::library::own_folder().as_deref(), Path::new("."));
     let row = |entry: &Entry| [entry.name.clone(), entry.error().unwrap_or_else(|| entry.title().to_owned())];
     let text = || Sheet::of_table(&entries.iter().map(row).collect::<Vec<_>>());
     let objects = entries.iter().map(|entry| {
@@ -91,7 +93,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
 
 /// The name of a valid scene with its warning, or else all its errors, line by line.
 fn checked(file: &str) -> Result<(String, Option<String>), String> {
-    let document = asperity_scene::open_argument(file).map_err(|errors| errors.to_string())?;
+    let document = asperity_scene::library::open_argument(file).map_err(|errors| errors.to_string())?;
     match profile_error(&document) {
         None => Ok((document.name().into(), document.scene().warning())),
         Some(error) => Err(error),

@@ -4,11 +4,13 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
+use super::sweep::run::stop_by_signal;
 use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
-use asperity_study::{Reference, ReferenceOptions};
+use asperity_study::half_space::{Reference, ReferenceOptions};
 use clap::Args;
 use std::io::Write;
+use std::sync::atomic::Ordering;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -55,7 +57,9 @@ pub(super) fn compared(
 ) -> Result<Reference, CliError> {
     let (mut line, mut progress) = (ProgressLine::default(), ReferenceProgress::default());
     let simulation = (Simulation::new(document.resolve("")), jobs);
-    let found = Reference::of(document.scene(), options, simulation, &|| false, &mut |event| {
+    let signal = stop_by_signal()?;
+    let stop = || signal.load(Ordering::SeqCst) != 0;
+    let found = Reference::of(document.scene(), options, simulation, &stop, &mut |event| {
         let (text, is_long) = progress.words(&event);
         line.show(&text, is_long.then_some(&text));
         if is_long {
@@ -63,5 +67,8 @@ pub(super) fn compared(
         }
     });
     line.clear();
-    found.map_err(|error| CliError::named(document.name(), error))
+    found.map_err(|error| match error.is_interruption() {
+        true => CliError::interrupted(&signal, progress.lost()),
+        false => CliError::named(document.name(), error),
+    })
 }

@@ -6,8 +6,10 @@ use super::scene::{SceneArguments, simulation_of};
 use asperity_data::AxisScale;
 use asperity_report::Format;
 use asperity_report::ReversalReport;
-use asperity_scene::{RunError, TURNING_POINTS};
-use asperity_study::{Axis, PRELOADS, Results, Staircase, parse_range};
+use asperity_scene::RunError;
+use asperity_scene::stages::TURNING_POINTS;
+use asperity_study::plans::{PRELOADS, parse_range};
+use asperity_study::{Axis, Results, Staircase};
 use clap::Args;
 use std::io::Write;
 

@@ -7,7 +7,7 @@ use super::snapshot::Reply;
 use super::studies::Finding;
 use asperity_experiment::CurveOptions;
 use asperity_report::Format;
-use asperity_scene::Entry;
+use asperity_scene::library::Entry;
 use crossterm::event::KeyEvent;
 use std::path::PathBuf;
 use std::time::Duration;

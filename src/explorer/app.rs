@@ -18,14 +18,16 @@ use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::LegRecord;
-use asperity_contact::marks;
+use asperity_contact::points::marks;
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::LoopQuantities;
 use asperity_report::Section;
+use asperity_scene::Document;
 use asperity_scene::Governing;
 use asperity_scene::Outcome;
-use asperity_scene::{Document, ron_float};
-use asperity_study::{Axis, Ensemble, Grid, GridPlace, Quantity};
+use asperity_scene::text::ron_float;
+use asperity_study::maps::{Grid, GridPlace};
+use asperity_study::{Axis, Ensemble, Quantity};
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,7 +2,8 @@
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, PatchFacts};
-use asperity_contact::{Leg, Patch};
+use asperity_contact::Patch;
+use asperity_contact::motion::Leg;
 use asperity_report::{LineColumns, Part, SectionContact};
 
 /// Makes the close-up of the requested part of the line, with the patch nearest to its middle.

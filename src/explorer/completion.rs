@@ -1,7 +1,7 @@
 //! Completion of a typed path with existing files and folders.
 
 use asperity_data::is_control;
-use asperity_scene::typed_path;
+use asperity_scene::library::typed_path;
 use std::fs::read_dir;
 use std::path::{MAIN_SEPARATOR, Path, is_separator};
 

@@ -3,7 +3,8 @@
 use super::keys::bindings::Bindings;
 use super::theme::{Marker, Theme};
 use asperity_data::read_regular_text;
-use asperity_scene::{DEFAULT, Text, explain, line_column, read_ron};
+use asperity_scene::library::DEFAULT;
+use asperity_scene::text::{Text, explain, line_column, read_ron};
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::Deserialize;
 use std::io::ErrorKind::NotFound;

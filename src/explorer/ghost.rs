@@ -1,7 +1,8 @@
 //! Computed scenes kept for comparison.
 
+use asperity_scene::Document;
 use asperity_scene::Outcome;
-use asperity_scene::{Change, Document};
+use asperity_scene::fields::Change;
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]

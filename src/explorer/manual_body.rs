@@ -3,9 +3,10 @@
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
 use asperity_contact::Move;
-use asperity_contact::{Body, CurvePoint, Direction, Leg, Motion, MovingBody};
+use asperity_contact::motion::{Body, Leg, Motion, MovingBody};
+use asperity_contact::{CurvePoint, Direction};
 use asperity_data::round_to;
-use asperity_scene::Reach;
+use asperity_scene::stages::Reach;
 
 /// Number of points of the curve for one move.
 const POINTS: u32 = 16;

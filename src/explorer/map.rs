@@ -1,7 +1,8 @@
 //! State of the shown map, over H and κ or over the axes of a study.
 
 use asperity_scene::Scene;
-use asperity_study::{Grid, LiveMap, Plan, Quantity, StudyMap, live_plan};
+use asperity_study::maps::{Grid, LiveMap, StudyMap, live_plan};
+use asperity_study::{Plan, Quantity};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]

@@ -5,10 +5,10 @@ use super::reading;
 use asperity_contact::Move;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
-use asperity_scene::{
-    Document, Effect, Field, Range, RoughnessParameter, STAGE, Scene, choice_in_words, field, loading_text,
-    ron_float, stage_in_ron, target_field,
-};
+use asperity_scene::fields::{Effect, Field, Range, STAGE, choice_in_words, field, target_field};
+use asperity_scene::loading::{loading_text, stage_in_ron};
+use asperity_scene::text::ron_float;
+use asperity_scene::{Document, RoughnessParameter, Scene};
 
 /// Groups in the order of the list. Parameters that are varied most come first: adhesion, load and roughness; form and
 /// material are usually chosen once for a scene, and a measured curve is beside the scene.

@@ -1,7 +1,7 @@
 //! State of the animation, and the indentation that it shows.
 
 use asperity_contact::LegRecord;
-use asperity_contact::pull_off_point;
+use asperity_contact::points::pull_off_point;
 
 /// Height, as a share of the range of indentations, at which the body begins above first touch.
 const LIFT: f64 = 0.12;

@@ -6,7 +6,8 @@ use super::pane::Pane;
 use super::parameters::Parameter;
 use super::search::{corrected, find};
 use super::text_line::TextLine;
-use asperity_scene::{Document, Entry, Preset, Source};
+use asperity_scene::library::{Entry, Source};
+use asperity_scene::{Document, Preset};
 use std::path::is_separator;
 
 /// A prompt: it receives the keys until it is closed.

@@ -3,7 +3,8 @@
 use super::measured::Measured;
 use asperity_data::{exact_quantity, format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_experiment::{CurveOptions, Drift, Negate, Tilt};
-use asperity_scene::{Field, Range, ron_float};
+use asperity_scene::fields::{Field, Range};
+use asperity_scene::text::ron_float;
 use std::ops::Bound::{Excluded, Included};
 
 /// Path of the group of the measured curve in the list of parameters.

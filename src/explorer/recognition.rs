@@ -2,7 +2,7 @@
 
 use asperity_data::{path_name, printable};
 use asperity_experiment::{ExperimentError, MeasuredCurve};
-use asperity_scene::quoted;
+use asperity_scene::text::quoted;
 use asperity_surface::files::content;
 use asperity_surface::{ReadOptions, read};
 use std::fmt::Display;

@@ -13,7 +13,7 @@ use super::studies::{Study, StudyThread};
 use super::update::{request, update};
 use super::writing;
 use asperity_scene::Simulation;
-use asperity_scene::{own_folder, scenes};
+use asperity_scene::library::{own_folder, scenes};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Search of lists by words, for parameters, commands and scenes.
 
-use asperity_scene::nearest;
+use asperity_scene::text::nearest;
 
 /// Limit of the length of a query, bytes: longer than all names. Each word is searched in all of them.
 const LONGEST_QUERY: usize = 256;

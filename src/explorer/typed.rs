@@ -5,7 +5,8 @@ use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::reading::OPTIONS;
 use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
-use asperity_scene::{kind_and_number, loading_text, pressing_force, read_stage, target_field};
+use asperity_scene::fields::target_field;
+use asperity_scene::loading::{kind_and_number, loading_text, pressing_force, read_stage};
 
 /// Force that determines the prefix of a typed force if the loading has no force, N.
 const USUAL_FORCE: f64 = 1e-5;

@@ -58,7 +58,7 @@ const SIZES: [(u16, u16); 5] = [(120, 40), (80, 24), (60, 20), (40, 12), (20, 5)
 
 /// The scene the explorer opens on.
 fn default_scene() -> Document {
-    open(asperity::scene::DEFAULT).unwrap()
+    open(asperity::scene::library::DEFAULT).unwrap()
 }
 
 /// Half way through the retraction, paused.

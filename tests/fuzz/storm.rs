@@ -9,7 +9,9 @@ mod strategies;
 
 use super::effort::cases;
 use super::properties::{overrides, profile, scene};
-use asperity::scene::{Document, FIELDS, Field, Range, Scene, ron_float, ron_string};
+use asperity::scene::fields::{FIELDS, Field, Range};
+use asperity::scene::text::{ron_float, ron_string};
+use asperity::scene::{Document, Scene};
 use proptest::prelude::*;
 use proptest::strategy::{Union, ValueTree};
 use strategies::Drawn;

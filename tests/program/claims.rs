@@ -238,8 +238,8 @@ fn check_claims(folder: &Path) {
             "H has only slight influence (Fig. 5a)",
             "does not hold",
             format!(
-                "F_a(d=0) falls to half of F_a,max at κ = {half} for H = 0.1, 0.45, 0.9: `figure-5a`; with only 16 \
-                 waves at κ = {:.2} to {:.2}: `equation-15`",
+                "F_a(d=0) falls to half of F_a,max at κ = {half} for H = 0.1, 0.45, 0.9 (`figure-5a`), but at \
+                 κ = {:.2} to {:.2} for all H if the profile has only 16 waves (`equation-15`)",
                 narrow.0, narrow.1
             ),
         ),

@@ -9,9 +9,10 @@ use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::row;
+use asperity::scene::Document;
 use asperity::scene::Simulation;
-use asperity::scene::{Document, FIELDS, Field, LEG_FORCE, Range};
-use asperity::scene::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use asperity::scene::fields::{FIELDS, Field, LEG_FORCE, Range};
+use asperity::scene::theory::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -27,7 +28,7 @@ const PAGES: [(&str, &str); 17] = [
     ("scene-file.md", "fields of a scene, waves, loading, forms"),
     ("results.md", "summary, JSON, tables, figures"),
     ("keys.md", "panes and keys of the explorer, typed values, configuration"),
-    ("studies.md", "inverse questions, parameter studies, statistics, clusters"),
+    ("studies.md", "the preload for a wanted result, parameter studies, statistics, clusters"),
     ("reversals.md", "adhesion against preload, Everett function"),
     (
         "particles.md",
@@ -37,7 +38,7 @@ const PAGES: [(&str, &str); 17] = [
     ("surface-estimate.md", "how a measured spectrum is estimated, and its errors"),
     ("experiment.md", "measured force curves: reading, fit of the work of adhesion, errors"),
     ("model.md", "equations, regimes, other theories, validity"),
-    ("findings.md", "claims of the paper, boundary of adhesion, stiffness: citable results"),
+    ("findings.md", "results to cite: claims of the paper, boundary of adhesion, stiffness"),
     ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of profiles"),
     ("line-and-three-dimensions.md", "how far to trust the line: the same contact in three dimensions"),
     ("performance.md", "times, latency of the explorer, memory"),
@@ -281,8 +282,8 @@ fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
 /// The first step of the tour: the keys are those of the explorer, the numbers those of the answer.
 #[test]
 fn the_tour_begins_with_the_question() {
-    let scene = asperity::scene::open(asperity::scene::DEFAULT).unwrap();
-    let condition = asperity::study::parse_condition("F_a/F_a,max = 20 %").unwrap();
+    let scene = asperity::scene::open(asperity::scene::library::DEFAULT).unwrap();
+    let condition = asperity::study::plans::parse_condition("F_a/F_a,max = 20 %").unwrap();
     let mut simulation = Simulation::default();
     let question = Question::new(scene.scene(), "preload", condition, Ensemble::PROFILES, &mut simulation);
     let found = Found::of(question.unwrap(), (simulation, 2), &|| false, &mut |_| ()).unwrap();

@@ -1,9 +1,10 @@
 //! Each claim in the notice of a built-in scene, and the discretisation error of its adhesion force.
 
 use asperity::scene::Regime;
+use asperity::scene::discretisation::Target;
+use asperity::scene::estimate;
 use asperity::scene::{Document, Roughness, open, presets};
 use asperity::scene::{Outcome, Simulation};
-use asperity::scene::{Target, estimate};
 use asperity::surface::Form;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;

@@ -87,6 +87,12 @@ fn multiply_out<'t>(prefix: &mut Module, text: &'t str, found: &mut Vec<Module>)
     }
 }
 
+/// Name of the last public module that begins in a code.
+fn module_before(code: &str) -> Option<String> {
+    let (_, rest) = code.rsplit_once("\npub mod ")?;
+    rest.split_once(" {").map(|(name, _)| name.to_owned())
+}
+
 /// Modules and the items that a file takes from them: of `use` and of paths in code, from the crate, from the modules
 /// above, from the modules below by their bare names, and through re-exports.
 struct Source {
@@ -100,12 +106,16 @@ impl Source {
         let mut reexports = BTreeMap::new();
         for (module, code) in &source.modules {
             for (index, start) in code.match_indices("use ") {
-                if code[..index].rsplit('\n').next().unwrap().starts_with("pub") {
+                let before = code[..index].rsplit('\n').next().unwrap();
+                if before.trim_start().starts_with("pub") {
                     let mut found = Vec::new();
                     multiply_out(&mut Vec::new(), &code[index + start.len()..], &mut found);
                     let paths = found.iter().filter_map(|path| source.absolute(module, path));
+                    // A line that is indented is inside a module of the root.
+                    let inside = before.starts_with(' ').then(|| module_before(&code[..index])).flatten();
+                    let place: Module = module.iter().cloned().chain(inside).collect();
                     reexports
-                        .extend(paths.map(|path| ([&module[..], &path[path.len() - 1..]].concat(), path)));
+                        .extend(paths.map(|path| ([&place[..], &path[path.len() - 1..]].concat(), path)));
                 }
             }
         }
@@ -150,7 +160,7 @@ impl Source {
             let start = code[..index].rfind(|c| !is_part_of_name(c)).map_or(0, |at| at + 1);
             let statement = code[..start].rsplit(['\n', ';']).next().unwrap();
             let is_first = !code[..start].ends_with("::") && start < index;
-            if is_first && !(statement.starts_with("pub") && statement.contains("use ")) {
+            if is_first && !(statement.trim_start().starts_with("pub") && statement.contains("use ")) {
                 multiply_out(&mut Vec::new(), &code[start..], &mut found);
             }
         }
@@ -230,34 +240,57 @@ fn crates_have_no_reexports_below_their_roots() {
     }
 }
 
-/// Names that the root of a crate publishes: its re-exports, and its own items.
-fn published(code: &str) -> BTreeSet<String> {
+/// Names that a crate publishes, with their public module, if they are in one: re-exports, modules and own items.
+fn published(code: &str) -> BTreeSet<(Option<String>, String)> {
     let own = ["mod ", "fn ", "struct ", "enum ", "trait ", "type ", "const ", "static "];
     let own = own.iter().flat_map(|keyword| {
         let lines = code.lines().filter_map(move |line| line.strip_prefix("pub ")?.strip_prefix(keyword));
         lines.map(|rest| rest.split(|c| !is_part_of_name(c)).next().unwrap_or_default().to_owned())
     });
-    let uses = code.match_indices("\npub use ").flat_map(|(start, keyword)| {
+    let uses = code.match_indices("pub use ").flat_map(|(start, keyword)| {
         let mut found = Vec::new();
         multiply_out(&mut Vec::new(), &code[start + keyword.len()..], &mut found);
-        found.into_iter().filter_map(|path| path.last().cloned())
+        let is_inside = code[..start].ends_with(' ');
+        let module = is_inside.then(|| module_before(&code[..start])).flatten();
+        found.into_iter().filter_map(move |path| Some((module.clone(), path.last()?.clone())))
     });
-    own.chain(uses).collect()
+    own.map(|name| (None, name)).chain(uses).collect()
 }
 
-/// A name that two crates publish would mean two things; the program's crate publishes again what its users need.
+/// Names that two crates publish would mean two things; the program's crate publishes again what its users need.
 #[test]
 fn each_published_name_is_of_one_crate() {
     let modules = modules();
-    let mut crates_of: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    let mut crates_of: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
     for name in CRATES {
-        for published in published(&modules[&vec![name.to_owned()]]) {
-            crates_of.entry(published).or_default().push(name);
+        for (_, published) in published(&modules[&vec![name.to_owned()]]) {
+            crates_of.entry(published).or_default().insert(name);
         }
     }
     assert!(crates_of.len() > 300, "{} names", crates_of.len());
     let twice: Vec<_> = crates_of.iter().filter(|(_, crates)| crates.len() > 1).collect();
     assert!(twice.is_empty(), "{twice:?}");
+}
+
+/// The page of a front crate opens on the names that each of its users needs, and a few modules by task for others.
+#[test]
+fn roots_of_front_crates_are_small() {
+    let modules = modules();
+    for name in ["contact", "surface", "scene", "study", "experiment"] {
+        let published = published(&modules[&vec![name.to_owned()]]);
+        let inner: BTreeSet<&String> = published.iter().filter_map(|(module, _)| module.as_ref()).collect();
+        let root: Vec<&String> = published
+            .iter()
+            .filter(|(module, name)| module.is_none() && !inner.contains(name))
+            .map(|(_, name)| name)
+            .collect();
+        assert!(
+            (15..=30).contains(&root.len()),
+            "{name} publishes {} names at its root: {root:?}",
+            root.len()
+        );
+        assert!(inner.len() <= 8, "{name} has {} public modules: {inner:?}", inner.len());
+    }
 }
 
 /// A method that is defined beside another type ties files that import nothing from each other.

@@ -5,7 +5,8 @@ mod generate;
 
 use super::documentation::markdown;
 use super::generated::{assert_says, check};
-use asperity::surface::{Analysis, AnalysisOptions, End, Moment, SelfAffineFit, analyse};
+use asperity::surface::spectra::End;
+use asperity::surface::{Analysis, AnalysisOptions, Moment, SelfAffineFit, analyse};
 use asperity::surface::{ReadOptions, Topography, Unit, parse};
 use generate::{Normal, Profiles, Spectrum, cut, map, read, topography};
 use std::f64::consts::TAU;

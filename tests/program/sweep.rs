@@ -5,9 +5,10 @@ use asperity::contact::Move;
 use asperity::scene::Regime;
 use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
 use asperity::scene::{Outcome, Simulation};
+use asperity::study::folders::{RESULTS, SUMMARY, Status};
+use asperity::study::maps::StudyMap;
 use asperity::study::{
-    Changes, Folder, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status, StudyMap,
-    merge, run_study,
+    Changes, Folder, Plan, Quantity, Results, Shard, Spread, Statistics, merge, run_study,
 };
 use proptest::prelude::*;
 use std::fs;

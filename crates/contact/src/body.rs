@@ -17,7 +17,8 @@ use std::time::{Duration, Instant};
 /// touch.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
+/// use asperity_contact::motion::{Body, MovingBody};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -51,7 +52,8 @@ pub trait MovingBody {
 /// whole state of the model.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+/// use asperity_contact::motion::Body;
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -71,10 +73,11 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// A motion of a body without a force curve, the result of [`Body::move_to`].
+/// Result of [`Body::move_to`]: a motion of a body without a force curve.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+/// use asperity_contact::motion::Body;
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -104,7 +107,7 @@ impl Body {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at an indentation in m of the motion `leg`, which the body may continue.
+    /// Creates a body at an indentation in m on a leg; the body can continue the motion of the leg.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
@@ -387,7 +390,8 @@ impl MovingBody for Body {
 /// Returns the error of the first stage that fails, or the first error of `after`.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
+/// use asperity_contact::motion::{Body, load_body};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

@@ -12,7 +12,8 @@ const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 /// Consecutive loading stages of a history that move the body in one direction, as one motion.
 ///
 /// ```
-/// use asperity_contact::{Branch, Contact, Direction, Modulus, Move, Profile};
+/// use asperity_contact::points::Branch;
+/// use asperity_contact::{Contact, Direction, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -92,7 +93,8 @@ fn touching(
 /// separation and before the last unloading count.
 ///
 /// ```
-/// use asperity_contact::{Contact, Modulus, Move, Profile, preload_point, pull_off_point};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+/// use asperity_contact::points::{preload_point, pull_off_point};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

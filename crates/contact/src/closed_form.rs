@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 /// indentation follow from the contact radius.
 ///
 /// ```
-/// use asperity_contact::{ClosedForm, Modulus};
+/// use asperity_contact::closed_forms::ClosedForm;
+/// use asperity_contact::Modulus;
 ///
 /// let sphere = ClosedForm::sphere(1.0e-4, Modulus::effective(1.0e6)?, 0.05);
 /// let (radius, force) = sphere.force_controlled_pull_off();
@@ -30,8 +31,8 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. They also hold
-    /// for a paraboloid with this radius at its summit.
+    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. The closed forms
+    /// also hold for a paraboloid with this radius of curvature at its summit.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm { line_coefficient: radius.recip(), exponent: 2.0, effective_modulus, work_of_adhesion }
@@ -40,7 +41,8 @@ impl ClosedForm {
     /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface: g(x) = (π/2) |x| tan θ.
     ///
     /// ```
-    /// use asperity_contact::{ClosedForm, Modulus};
+    /// use asperity_contact::closed_forms::ClosedForm;
+    /// use asperity_contact::Modulus;
     ///
     /// let cone = ClosedForm::cone(0.1, Modulus::effective(1.0e6)?, 0.05);
     /// // Without adhesion F = π a² E* tan θ / 2 at a contact radius a.
@@ -75,8 +77,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This force is the
-    /// smallest of all.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. No force of the
+    /// contact is smaller.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
@@ -106,7 +108,7 @@ impl ClosedForm {
 /// effective modulus in Pa and γ the work of adhesion in J/m².
 ///
 /// ```
-/// use asperity_contact::{flat_punch, ideal_adhesion_force};
+/// use asperity_contact::closed_forms::{flat_punch, ideal_adhesion_force};
 ///
 /// // A punch as wide as the profile is a flat face: L = 2a.
 /// let [punch, face] = [flat_punch(1.0e-5, 1.0e6, 0.05), ideal_adhesion_force(0.05, 1.0e6, 2.0e-5)];

@@ -37,7 +37,7 @@ pub struct Contact {
     closing: Arc<OnceLock<Closing>>,
 }
 
-/// Builder of a [`Contact`], which sets its properties.
+/// Builder that sets the properties of a [`Contact`].
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Profile};
@@ -141,7 +141,7 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force of full contact in N. Without adhesion it is the force at which the last spring touches the rigid body.
+    /// Returns the force of full contact in N. Without adhesion the last spring touches the rigid body at this force.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};
@@ -157,7 +157,8 @@ impl Contact {
         self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
     }
 
-    /// Returns the displacement D = d + F/k of the instrument in m, for an indentation in m and a force in N.
+    /// Returns the displacement D = d + F/k in m of the instrument that moves the body, at an indentation d in m and a force F
+    /// in N.
     pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
         indentation + force / self.loading_stiffness
     }

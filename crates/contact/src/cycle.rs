@@ -107,7 +107,8 @@ pub struct Curve {
     pub indentation: Vec<f64>,
     /// Force F at each point in N; compression is positive.
     pub force: Vec<f64>,
-    /// Displacement D = d + F/k of the instrument at each point in m. For a rigid instrument it equals the indentation.
+    /// Displacement D = d + F/k at each point in m, of the instrument of stiffness k that moves the body. For a rigid
+    /// instrument it equals the indentation.
     pub displacement: Vec<f64>,
     /// Length in contact at each point in m.
     pub contact_length: Vec<f64>,

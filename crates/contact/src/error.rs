@@ -90,7 +90,7 @@ impl ContactError {
         if let ContactError::Stage { index, .. } = self { Some(*index) } else { None }
     }
 
-    /// Returns the smallest force in N that the contact bears, if a stage was refused because its force is smaller.
+    /// Returns the smallest force in N that the contact bears, if a stage was refused because of a smaller target force.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() { Some(*smallest) } else { None }
     }

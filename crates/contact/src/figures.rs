@@ -86,7 +86,8 @@ impl Figures {
 /// Kind of a marked point of a force curve.
 ///
 /// ```
-/// use asperity_contact::{Contact, Mark, Modulus, Move, Profile, marks};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+/// use asperity_contact::points::{Mark, marks};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -98,7 +99,7 @@ impl Figures {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// First point in contact, if the contact forms there in a jump, at a tensile force.
+    /// First point in contact, if the contact forms in a jump and the force there is tensile.
     JumpIn,
     /// Point of the preload; see [`preload_point`].
     Preload,

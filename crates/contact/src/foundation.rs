@@ -7,7 +7,7 @@ use super::history::{CurvePoint, Direction, Patch};
 pub struct Foundation {
     /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Effective modulus E* in Pa, eq. (2).
+    /// Effective modulus E* in Pa, eq. (2) of Popov and Filippov (2012).
     pub effective_modulus: f64,
     /// Length L of the foundation in m; infinite if it extends beyond any contact.
     pub length: f64,
@@ -30,13 +30,13 @@ impl Foundation {
         0.5 * (point.contact_length + between as f64 * self.spacing)
     }
 
-    /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1).
+    /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1) of Popov and Filippov (2012).
     pub fn spring_stiffness(&self) -> f64 {
         self.effective_modulus * self.spacing
     }
 }
 
-/// The rule of Hess, eqs. (3) and (10): the largest stretch of the springs of a patch before they detach.
+/// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): the largest stretch of the springs of a patch.
 ///
 /// If the work of adhesion on opening exceeds the work on closing, springs attach by the closing rule and detach by the opening
 /// rule. Between both limits the edges of a patch do not move.
@@ -78,7 +78,7 @@ impl HessRule {
         self.opening == self.closing
     }
 
-    /// Returns the largest stretch Δl_max = √(π n Δx γ/E*) in m of a patch of n = `springs` springs, eq. (10).
+    /// Returns the largest stretch Δl_max = √(π n Δx γ/E*) in m of a patch of n = `springs` springs.
     ///
     /// Rounding keeps the order: the value never falls with the number of springs.
     pub fn largest_stretch(&self, direction: Direction, springs: usize) -> f64 {

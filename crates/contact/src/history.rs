@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of the motion of a body to the target of one loading stage.
+/// Record of one loading stage, the motion of a body to one target.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -29,7 +29,7 @@ pub struct LegRecord {
     /// Direction of the motion.
     pub direction: Direction,
     /// Force curve of the motion: the samples, and on unloading also the points of the smallest force and of the smallest
-    /// displacement. A jump into or out of contact has one point before it and one point after it.
+    /// displacement of the instrument. A jump into or out of contact has one point before it and one point after it.
     pub curve: Vec<CurvePoint>,
     /// On loading the point of the largest force, exact to rounding; on unloading the first point.
     pub largest: CurvePoint,
@@ -128,7 +128,8 @@ impl LegRecord {
 /// A whole loading history: the records of its motions, the final patches and the computing work.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
+/// use asperity_contact::motion::{Body, load_body};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -150,7 +151,8 @@ pub struct History {
 /// Counts of computing work. Unlike times, they are the same on every machine.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
+/// use asperity_contact::motion::{Body, MovingBody};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

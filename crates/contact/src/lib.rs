@@ -39,17 +39,31 @@ mod thresholds;
 mod totals;
 
 pub use adhesive::levels::Edges;
-pub use adhesive::tree::ContactTree;
-pub use body::{Body, Motion, MovingBody, Reversal, load_body};
-pub use branches::{Branch, preload_point, pull_off_point};
-pub use closed_form::{ClosedForm, flat_punch, ideal_adhesion_force};
+pub use body::Reversal;
 pub use contact::{Contact, ContactBuilder};
 pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
-pub use figures::{Figures, Mark, marks};
+pub use figures::Figures;
 pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
-pub use leg::{Leg, PatchState};
 pub use modulus::Modulus;
 pub use profile::Profile;
-pub use stepwise::Stepwise;
 pub use target::Move;
+
+/// A contact that is moved step by step: for instruments, particle codes, and to compare with the rules themselves.
+pub mod motion {
+    pub use crate::adhesive::tree::ContactTree;
+    pub use crate::body::{Body, Motion, MovingBody, load_body};
+    pub use crate::leg::{Leg, PatchState};
+    pub use crate::stepwise::Stepwise;
+}
+
+/// Points of a force curve with a name, as preload and pull-off: for figures and readers of curves.
+pub mod points {
+    pub use crate::branches::{Branch, preload_point, pull_off_point};
+    pub use crate::figures::{Mark, marks};
+}
+
+/// Closed forms of single contacts: for comparisons with theory.
+pub mod closed_forms {
+    pub use crate::closed_form::{ClosedForm, flat_punch, ideal_adhesion_force};
+}

@@ -11,8 +11,8 @@ const MOST_POINTS: usize = 1 << 28;
 
 /// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points, positive towards the half-space.
 ///
-/// N points at a spacing Δx cover the length N Δx, and each point lies in the middle of its cell. Clones of a profile share
-/// their memory. All contacts of a profile share its [contact trees](ContactTree).
+/// N points at a spacing Δx cover the length N Δx, and each point lies in the middle of a cell of the width Δx. Clones of a
+/// profile share their memory. All contacts of a profile share its [contact trees](ContactTree).
 ///
 /// ```
 /// use asperity_contact::Profile;
@@ -131,8 +131,8 @@ impl Profile {
         self.spacing
     }
 
-    /// Returns the length of the foundation under the profile in m. Except under a punch it is the number of points times their
-    /// distance.
+    /// Returns the length of the foundation under the profile in m. The length is the number of points times their distance,
+    /// except under a punch.
     pub fn length(&self) -> f64 {
         self.length
     }
@@ -174,7 +174,8 @@ impl Profile {
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
     ///
     /// ```
-    /// use asperity_contact::{ContactTree, Edges, Profile};
+    /// use asperity_contact::motion::ContactTree;
+    /// use asperity_contact::{Edges, Profile};
     ///
     /// let profile = Profile::from_gaps(vec![0.0, 3.0e-8, 1.0e-8], 1.0e-6)?;
     /// profile.build_tree(Edges::SubCell, ContactTree::default())?;

@@ -19,7 +19,8 @@ use asperity_data::resized;
 /// The stepwise solver: a body that moves by small steps and relaxes to equilibrium after each step.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Edges, Modulus, Move, MovingBody, Profile, Stepwise};
+/// use asperity_contact::motion::{Body, MovingBody, Stepwise};
+/// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
 ///
 /// let profile = Profile::from_heights(&[0.0, -4.0e-8, -1.0e-8, -4.0e-8, -9.0e-8], 1.0e-6)?;
 /// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).work_of_adhesion(2.0e-4);

@@ -63,7 +63,7 @@ pub use text::{
 #[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
 
-/// Tables of numbers in text, as instruments and programs write them: for the readers of surfaces and of force curves.
+/// Reading of tables of numbers in text files, as instruments and programs write them.
 #[cfg(feature = "files")]
 pub mod text_table {
     pub use crate::text_cells::{Decimal, ONE_MARK, Separator, TextCell};

@@ -1,19 +1,19 @@
-//! Cells of a line of text: separators, decimal marks and marks that separate thousands.
+//! Cells of a line of text: how columns are separated, and how numbers are written.
 
 use crate::text_lines::TextFault;
 
-/// Separator of the columns of a text, determined from its first line of numbers. It is a semicolon, a tab, a comma, or a space
-/// for any white space.
+/// Separator of the columns of a text: a semicolon, a tab, a comma, or white space. The first line of numbers determines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
 impl Separator {
-    /// The separator of columns by blanks and tabs.
+    /// Separation of columns by blanks and tabs.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas are
-    /// decimal marks if semicolons or tabs separate, or if each word between spaces is a number with a comma inside, as in
-    /// `0,5 1,25`. `0.5, 1.25` and `0,5` are two columns each.
+    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else white space.
+    ///
+    /// Beside semicolons or tabs, commas are decimal marks. Commas are also decimal marks if each word between blanks is a
+    /// number with a comma inside, as in `0,5 1,25`. The texts `0.5, 1.25` and `0,5` have two columns each.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -21,8 +21,8 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line into columns; the line has no spaces at its ends. Separators within quotation marks do not count. A
-    /// separator other than spaces has a column on both sides, which may be empty.
+    /// Splits a line without blanks at its ends into columns. Separators within quotation marks do not count. Two
+    /// neighbouring separators have an empty column between them, except for blanks.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -33,7 +33,7 @@ impl Separator {
     }
 }
 
-/// Returns a function that finds, for each character of a line in turn, whether it is outside quotation marks.
+/// Returns a function that is called for the characters of a line in turn. It returns true outside quotation marks.
 fn outside_quotes() -> impl FnMut(char) -> bool {
     let mut is_inside = false;
     move |c| {
@@ -42,7 +42,7 @@ fn outside_quotes() -> impl FnMut(char) -> bool {
     }
 }
 
-/// Returns true for two or more words that are numbers of one decimal mark with commas inside words alone.
+/// Returns true for two or more words that are numbers with the same decimal mark, and with commas only inside words.
 fn has_decimal_commas(line: &str) -> bool {
     let mut decimal = Decimal::default();
     let is_number = |word: &str| {
@@ -57,42 +57,42 @@ fn has_decimal_commas(line: &str) -> bool {
 /// Content of a cell of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextCell {
-    /// The cell is a number.
+    /// A number.
     Number(f64),
-    /// The cell is a mark of a missing point, or empty.
+    /// An empty cell, or a mark of a missing point such as `NaN`.
     Missing,
-    /// The decimal mark of the cell differs from the mark of the text, such as a decimal comma among decimal points. The other
-    /// case is a comma that may separate thousands, in a text whose columns are separated by commas.
+    /// A number with another decimal mark than the numbers before it, such as a comma after points. If commas separate the
+    /// columns, also a number such as `1,234`, whose comma may separate thousands.
     OtherMark,
-    /// The cell is a text that is no number.
+    /// A text that is no number.
     NoNumber,
 }
 
-/// Marks of missing points, besides an empty column and `NaN`.
+/// Marks of missing points, besides an empty cell and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Numbers that a text may have, for a message about a cell with [`TextCell::OtherMark`].
+/// Allowed notation of numbers, for a message about a cell with [`TextCell::OtherMark`].
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
-/// Characters that separate thousands; a comma or a point may also be a decimal mark.
+/// Characters that separate thousands. A comma or a point may also be a decimal mark.
 const GROUPING: [char; 8] = [',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}'];
 
-/// Decimal mark and separator of thousands of the numbers of a text, determined by the first numbers read.
+/// Decimal mark and separator of thousands in a text. The first numbers that are read determine them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark.
     mark: Option<char>,
-    /// Comma or point that separates thousands. It is known from a number with both marks, as `1,234.5`, or with two groups, as
-    /// `1,234,567`.
+    /// Comma or point that separates thousands. A number with both marks, as `1,234.5`, or with two groups, as `1,234,567`,
+    /// determines it.
     group: Option<char>,
-    /// True after a number whose comma cannot separate thousands, as `0,5`, and after a number without a mark.
+    /// True after a number whose comma cannot separate thousands, as `0,5`.
     is_certain: bool,
     has_whole: bool,
 }
 
 impl Decimal {
-    /// Reads a cell. The first decimal mark of a text holds for all its numbers.
+    /// Reads the content of a cell. All numbers of a text must have the decimal mark of its first number with one.
     pub fn read(&mut self, cell: &str, separator: Separator) -> TextCell {
         // The minus sign of spreadsheets and papers.
         if cell.contains('\u{2212}') {
@@ -133,8 +133,8 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if the commas of the numbers read are ambiguous: each may be a decimal mark or separate thousands. Then
-    /// all commas have three digits behind them, and other numbers have no comma.
+    /// Returns an error if each comma that was read may be a decimal mark or may separate thousands. This is so if three
+    /// digits follow each comma, and if there are also numbers without a comma.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }
@@ -146,8 +146,8 @@ fn may_be_grouped(cell: &str) -> bool {
     ungrouped(cell, Some(',')).is_some_and(|(_, mark)| mark == Some(','))
 }
 
-/// Returns a number without the marks that separate its thousands, and this mark. A single comma or point is such a mark where it
-/// is the one that is `known`, or where a decimal mark follows.
+/// Returns a number without the marks that separate its thousands, and this mark. A single comma or point separates thousands
+/// if it is the mark `known`, or if a decimal mark follows.
 fn ungrouped(cell: &str, known: Option<char>) -> Option<(String, Option<char>)> {
     let unsigned = cell.trim_start_matches(['+', '-']);
     let mark = unsigned.chars().find(|c| !c.is_ascii_digit()).filter(|mark| GROUPING.contains(mark))?;

@@ -1,4 +1,4 @@
-//! Lines of a text in any usual encoding.
+//! Lines of a text in UTF-8, UTF-16 or Windows-1252.
 
 use crate::PROVENANCE;
 use crate::memory::{OutOfMemory, check_room};
@@ -9,42 +9,42 @@ use thiserror::Error;
 /// Characters that begin a comment.
 pub const COMMENT: [char; 3] = ['#', '%', '!'];
 
-/// Reason why a text is not read as a table. Lines count from 1, bytes of a line from 0.
+/// Reason why a text cannot be read as a table. Lines count from 1, the bytes of a line from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TextFault {
-    /// A byte is zero, which no text has.
+    /// A byte is zero, which no text contains.
     #[error("line {line}: byte {byte} of the line is zero, so this is no text")]
     NotText {
-        /// Number of the line.
+        /// Number of the line, from 1.
         line: usize,
-        /// Offset of the byte in the line.
+        /// Index of the byte in its line, from 0.
         byte: usize,
     },
     /// A line is longer than [`TextFault::LONGEST_LINE`] bytes.
     #[error("line {line}: longer than {} bytes", TextFault::LONGEST_LINE)]
     LongLine {
-        /// Number of the line.
+        /// Number of the line, from 1.
         line: usize,
     },
     /// Each comma in a number may be a decimal mark or separate thousands.
     #[error("each comma in a number may be a decimal mark or separate thousands, as in 1,234")]
     DoubtfulCommas,
-    /// The text in another encoding does not fit into memory.
+    /// There is not enough memory to convert the text to UTF-8.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
 }
 
 impl TextFault {
-    /// Largest length of a line, bytes: enough for a row of a large matrix.
+    /// Largest length of a line in bytes. A row of a large matrix is shorter.
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 
-/// Calls `take` for each line of a text with its number, without white space around it. The scene in a table of results is
-/// skipped, because its words may look like units.
+/// Calls `take` for each line of a text, with the number of the line from 1, and the line without white space around it. The
+/// scene above a table of results is skipped, because its words may look like units.
 ///
 /// # Errors
-/// [`TextFault`] in the error of `take`, for bytes that are no text.
+/// Returns the error of `take`, or a [`TextFault`] as this type of error if the bytes are no text.
 pub fn each_line<E: From<TextFault>>(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), E>,
@@ -64,7 +64,7 @@ pub fn each_line<E: From<TextFault>>(
     Ok(())
 }
 
-/// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
+/// Returns the bytes of a text without its byte order mark. UTF-16 becomes UTF-8, with U+FFFD for invalid characters.
 fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
     let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
     let text = &bytes[mark..];
@@ -75,8 +75,8 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
     Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
 }
 
-/// Returns the line with this number without white space around it, as UTF-8, or if it is invalid as Windows-1252, in which
-/// older programs write µ and °.
+/// Returns a line as UTF-8, without white space around it. Invalid UTF-8 is read as Windows-1252, in which older programs
+/// write µ and °.
 fn line_text(text: &[u8], line: usize) -> Result<Cow<'_, str>, TextFault> {
     if text.len() > TextFault::LONGEST_LINE {
         return Err(TextFault::LongLine { line });

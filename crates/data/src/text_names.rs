@@ -1,13 +1,13 @@
-//! Names of columns: what each holds, and its unit.
+//! Names of columns: the meaning of each column, and its unit.
 
 use crate::text_cells::{Decimal, Separator, TextCell};
 use crate::text_lines::COMMENT;
 use std::collections::VecDeque;
 
-/// Limit of the number of characters of an unknown unit in round brackets.
+/// Largest number of characters of an unknown unit in round brackets.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column in a text file of a surface, by the name of the column.
+/// Meaning of a column in a text file, which the name of the column states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
     /// The name states no meaning.
@@ -42,19 +42,19 @@ pub struct TextColumn {
     pub name: String,
     /// Meaning of the column.
     pub role: Role,
-    /// Unit as the file writes it.
+    /// Unit of the column as the file writes it; `None` if the file states none.
     pub unit: Option<String>,
 }
 
-/// Number of last lines that may name columns.
+/// Number of last lines in which names of columns are searched.
 const LAST_LINES: usize = 64;
 
-/// The last lines above the numbers of a text, of which one may name the columns.
+/// Last lines above the numbers of a text. One of them may name the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadLines(VecDeque<String>);
 
 impl HeadLines {
-    /// Adds a line, without a sign of a comment before it.
+    /// Adds a line. The signs of a comment at its beginning are left out.
     pub fn take(&mut self, line: &str) {
         if self.0.len() == LAST_LINES {
             self.0.pop_front();
@@ -62,8 +62,9 @@ impl HeadLines {
         self.0.push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
 
-    /// Names and units of the columns, from the last line with a name for each of `count` columns, and a row of units. Lines
-    /// of numbers may end with further separators, up to `cells` cells. Without such a line nothing is known of the columns.
+    /// Returns names, meanings and units of `count` columns. They are read from the last line that has a name for each
+    /// column, and from a row of units. Separators at the end of such a line may add empty cells, up to `cells` cells. If
+    /// there is no such line, all names are empty.
     pub fn columns(
         &self,
         count: usize,
@@ -108,7 +109,7 @@ impl HeadLines {
     }
 }
 
-/// Adds a row of units; a unit in it replaces the unit beside a name, if it is known.
+/// Adds a row of units. A known unit in the row replaces the unit beside a name.
 fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: fn(&str) -> bool) {
     for (column, unit) in columns.iter_mut().zip(units) {
         if is_unit(&unit) || column.unit.is_none() && !unit.is_empty() {
@@ -117,13 +118,13 @@ fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: fn(&str) -
     }
 }
 
-/// Returns true for one of these words.
+/// Returns true if `word` is one of `words`, which are separated by blanks.
 pub fn is_one_of(word: &str, words: &str) -> bool {
     words.split(' ').any(|one| one == word)
 }
 
-/// Returns the cells of a line of names, if there are `count` of them, or with the separator of the numbers up to `most`. They
-/// are split at the separator of the numbers, else at the separator of the line, else after closing brackets.
+/// Returns the cells of a line of names, if there are `count` of them. With the separator of the numbers there may be up to
+/// `most`. Otherwise the line is split at its own separator, or after closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = match line.split_once([':', '=']) {
         Some((key, cells)) if is_one_of(&key.trim().to_lowercase(), "columns names fields units") => cells,
@@ -157,9 +158,9 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// Returns name, role and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral
-/// um`. An unknown unit is recognised in square brackets, behind a slash, or as a short word in round brackets: `height
-/// (measured)` is a name.
+/// Returns name, meaning and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in
+/// `Lateral um`. An unknown unit is recognised in square brackets, behind a slash, or as a short word in round brackets. Thus
+/// `height (measured)` is a name.
 fn column(cell: &str, is_unit: fn(&str) -> bool) -> TextColumn {
     let bracket = |(at, mark): (usize, &str)| {
         let unit = bare(cell[at + 1..].split([']', ')']).next()?);

@@ -16,7 +16,7 @@ use crate::statistics::{block_error, correlated, correlation, spread, widen};
 use asperity_data::{Control, format_rounded};
 use asperity_scene::Document;
 use asperity_scene::Simulation;
-use asperity_scene::scene_tabor_number;
+use asperity_scene::theory::scene_tabor_number;
 
 /// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
 /// parameter is undetermined.

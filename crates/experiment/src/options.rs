@@ -1,7 +1,7 @@
 //! Options for reading and preparing a measured curve, which are arguments of the command line too.
 
 use asperity_data::parse_quantity;
-use asperity_scene::quoted;
+use asperity_scene::text::quoted;
 use std::fmt;
 use std::str::FromStr;
 
@@ -93,16 +93,16 @@ pub struct CurveOptions {
     /// A number is the value of 1 in the column: 3.01nN for a deflection in nm with 3.01 N/m.
     #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
     pub units: Vec<String>,
-    /// Travel of the piezo, such as 500nm, for a file with one column of forces
+    /// Travel of the piezo for a file with one column of forces: 500nm
     ///
-    /// The forces are evenly spaced over the travel, there and back. By default the file gives the travel.
+    /// The forces are evenly spaced over it, there and back. Default: the travel in the file.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
     /// Segments that are used: 2 is the retraction without the approach
     ///
-    /// 1 is the first approach, 2 its retraction, and so on. By default all are used except pauses.
-    /// The model runs through the other segments too. The part before contact still gives the zero
-    /// and the noise of the force.
+    /// 1 is the first approach, 2 its retraction, and so on. By default all are used, except
+    /// pauses. The model runs through the other segments too. The part before contact still
+    /// gives the zero and the noise of the force.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "NUMBER,...", value_delimiter = ',', verbatim_doc_comment,
@@ -112,7 +112,7 @@ pub struct CurveOptions {
     /// Reverse none, displacement, force or both; default: automatic
     #[cfg_attr(feature = "clap", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
     pub negate: Option<Negate>,
-    /// Measured force that counts as zero: 2nN; default: mean before contact
+    /// Measured force taken as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
     /// Drift over time: keep (default), remove, or a force over the curve

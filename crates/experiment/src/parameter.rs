@@ -2,7 +2,7 @@
 
 use crate::error::{ExperimentError, refused};
 use asperity_data::parse_quantity;
-use asperity_scene::did_you_mean;
+use asperity_scene::text::did_you_mean;
 use serde::{Serialize, Serializer};
 use std::str::FromStr;
 

@@ -9,8 +9,8 @@ use crate::parameter::{Parameter, Values};
 use asperity_data::format_quantity;
 use asperity_data::median;
 use asperity_scene::CheckedScene;
-use asperity_scene::LEAST_TABOR_NUMBER;
 use asperity_scene::Simulation;
+use asperity_scene::theory::LEAST_TABOR_NUMBER;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
@@ -312,7 +312,7 @@ mod tests {
         let mut simulation = Simulation::default();
         let (_, governing) = simulation.contact(document.scene()).unwrap();
         let values = values_of(document.scene(), &governing);
-        let tabor = asperity_scene::scene_tabor_number(document.scene(), &governing);
+        let tabor = asperity_scene::theory::scene_tabor_number(document.scene(), &governing);
         let free = [Parameter::Modulus, Parameter::Offset];
         reason(&curve, document.scene(), &mut simulation, (&values, &free), tabor).unwrap()
     }

@@ -4,7 +4,8 @@
 use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
-use asperity_contact::{Contact, Leg, Modulus};
+use asperity_contact::motion::Leg;
+use asperity_contact::{Contact, Modulus};
 use std::f64::consts::PI;
 
 /// Pull-off force of a smooth body, divided by the pull-off force of the curve, up to which the coordinate of the work of

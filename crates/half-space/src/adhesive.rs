@@ -14,9 +14,10 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Ratio of the energy ½σg to the work of adhesion above which a cell opens. It was found once with spheres.
+/// Ratio of the energy ½σg of a crack closure to the work of adhesion, above which a cell opens. It was found once with
+/// spheres.
 pub const OPENING: f64 = 1.29;
-/// Ratio of the energy ½σg to the work of adhesion on closing below which a cell closes.
+/// Ratio of the energy ½σg of a crack closure to the work of adhesion on closing, below which a cell closes.
 pub const CLOSING: f64 = 0.8;
 /// Allowed error of stresses, as a share of the largest stress of an edge.
 const TOLERANCE: f64 = 1e-3;
@@ -94,6 +95,7 @@ impl AdhesiveSquare {
             let of = inner(at / ringed) * cells + inner(at % ringed);
             grid.depths[at] = (highest - heights[of]) / scale;
         }
+        grid.levels.copy_from_slice(&grid.depths);
         grid.outside.fill(1.0);
         let opened = resized(Vec::new(), ringed * ringed, false)?;
         let per = effective_modulus * scale;
@@ -129,8 +131,7 @@ impl AdhesiveSquare {
         loop {
             self.grid.solve_fixed(depth, tolerance, stop)?;
             if self.open() {
-                let Grid { operators, pressure, displacement, .. } = &mut self.grid;
-                operators.displace(pressure, displacement);
+                self.grid.displace();
             } else if !self.touch() && !self.close() {
                 return Ok(self.state(indentation));
             }
@@ -144,7 +145,7 @@ impl AdhesiveSquare {
     }
 
     fn gap(&self, at: usize) -> f64 {
-        (self.grid.displacement[at] + self.grid.depths[at] - self.grid.level).max(0.0)
+        (self.grid.levels[at] - self.grid.level).max(0.0)
     }
 
     fn tension(&self, at: usize) -> f64 {
@@ -182,8 +183,8 @@ impl AdhesiveSquare {
     /// Takes all cells into contact that penetrate. Returns true if there was one.
     fn touch(&mut self) -> bool {
         let is_in = |at: &usize| {
-            let Grid { outside, displacement, depths, level, .. } = &self.grid;
-            outside[*at] == 1.0 && !self.opened[*at] && displacement[*at] + depths[*at] <= *level
+            let Grid { outside, levels, level, .. } = &self.grid;
+            outside[*at] == 1.0 && !self.opened[*at] && levels[*at] <= *level
         };
         self.take_in(&self.body().filter(is_in).collect::<Vec<_>>())
     }
@@ -204,9 +205,10 @@ impl AdhesiveSquare {
     }
 
     fn state(&self, indentation: f64) -> AdhesiveState {
-        let Grid { pressure, displacement, outside, cells, .. } = &self.grid;
+        let Grid { pressure, levels, depths, outside, cells, .. } = &self.grid;
         let cell = (self.side / *cells as f64).powi(2);
-        let energy: f64 = pressure.iter().zip(displacement).map(|(p, u)| 0.5 * p * u).sum();
+        let displacements = levels.iter().zip(depths).map(|(level, depth)| level - depth);
+        let energy: f64 = pressure.iter().zip(displacements).map(|(p, u)| 0.5 * p * u).sum();
         AdhesiveState {
             indentation,
             force: cell * self.effective_modulus * pressure.iter().sum::<f64>(),

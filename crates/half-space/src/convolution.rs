@@ -11,6 +11,9 @@ use std::sync::Arc;
 /// computed contiguously.
 const BLOCK: usize = 128;
 
+/// Rows of a block that are gathered together, so that their numbers stay in the cache.
+const TILE: usize = 16;
+
 /// A planned convolution of numbers of the type T. Rows are transformed first. Then each block of columns is gathered,
 /// transformed, multiplied, transformed back and stored, in one pass over the memory.
 pub struct Convolution<T> {
@@ -35,7 +38,7 @@ impl<T: FftNum + Default> Convolution<T> {
     /// Returns the number of bytes of a planned convolution, together with the memory of its planning.
     pub fn bytes(cells: usize, padded: usize) -> u64 {
         let half = padded / 2 + 1;
-        let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * padded;
+        let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * Self::apart(padded);
         (size_of::<T>() * (padded * half + 2 * complex) + 8 * half * half) as u64
     }
 
@@ -43,6 +46,11 @@ impl<T: FftNum + Default> Convolution<T> {
     /// the cache.
     fn stride(padded: usize) -> usize {
         (padded / 2 + 1).next_multiple_of(Self::TOGETHER) + Self::TOGETHER / 2
+    }
+
+    /// Returns the distance of the columns of a block: no power of two either.
+    fn apart(padded: usize) -> usize {
+        padded + Self::TOGETHER
     }
 
     /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves over the padded grid,
@@ -104,50 +112,63 @@ impl<T: FftNum + Default> Convolution<T> {
             transfer: resized(Vec::new(), padded * (padded / 2 + 1), T::zero())?,
             spectra: resized(Vec::new(), Self::stride(padded) * cells, Complex::default())?,
             row: resized(Vec::new(), padded, T::zero())?,
-            block: resized(Vec::new(), Self::TOGETHER * padded, Complex::default())?,
+            block: resized(Vec::new(), Self::TOGETHER * Self::apart(padded), Complex::default())?,
             scratch: resized(Vec::new(), scratch.max().unwrap_or(0), Complex::default())?,
             rows,
             columns,
         })
     }
 
-    /// Convolves the grid `from` into `to`, both row by row.
-    pub fn apply(&mut self, from: &[T], to: &mut [T]) {
+    /// Convolves a grid: `from` writes each of its rows, and `to` reads each row of the result. Both have the `context`, so
+    /// that a row is made and used while it is in the cache.
+    pub fn apply<C>(
+        &mut self,
+        context: &mut C,
+        mut from: impl FnMut(&mut C, usize, &mut [T]),
+        mut to: impl FnMut(&mut C, usize, &[T]),
+    ) {
         let (cells, padded, half) = (self.cells, self.padded, self.padded / 2 + 1);
         let stride = Self::stride(padded);
-        for (values, spectrum) in from.chunks_exact(cells).zip(self.spectra.chunks_exact_mut(stride)) {
-            if values.iter().all(T::is_zero) {
+        for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
+            from(context, row, &mut self.row[..cells]);
+            if self.row[..cells].iter().all(T::is_zero) {
                 spectrum[..half].fill(Complex::default());
                 continue;
             }
-            self.row[..cells].copy_from_slice(values);
             self.row[cells..].fill(T::zero());
             // The lengths are those of the plan.
             let _ = self.rows.0.process_with_scratch(&mut self.row, &mut spectrum[..half], &mut self.scratch);
         }
         for first in (0..half).step_by(Self::TOGETHER) {
             let width = Self::TOGETHER.min(half - first);
-            for (row, spectrum) in self.spectra.chunks_exact(stride).enumerate() {
-                let values = spectrum[first..first + width].iter().enumerate();
-                values.for_each(|(column, value)| self.block[column * padded + row] = *value);
+            let apart = Self::apart(padded);
+            for (tile, rows) in self.spectra.chunks(TILE * stride).enumerate() {
+                for (column, to) in self.block.chunks_exact_mut(apart).take(width).enumerate() {
+                    let values = rows[first + column..].iter().step_by(stride);
+                    to[tile * TILE..].iter_mut().zip(values).for_each(|(to, value)| *to = *value);
+                }
             }
-            let block = &mut self.block[..width * padded];
-            block.chunks_exact_mut(padded).for_each(|column| column[cells..].fill(Complex::default()));
-            self.columns.0.process_with_scratch(block, &mut self.scratch);
-            let transfer = &self.transfer[first * padded..];
-            block.iter_mut().zip(transfer).for_each(|(value, factor)| *value = *value * *factor);
-            self.columns.1.process_with_scratch(block, &mut self.scratch);
-            for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
-                let values = spectrum[first..first + width].iter_mut().enumerate();
-                values.for_each(|(column, value)| *value = block[column * padded + row]);
+            let transfer = self.transfer[first * padded..].chunks_exact(padded);
+            for (column, transfer) in self.block.chunks_exact_mut(apart).zip(transfer).take(width) {
+                let column = &mut column[..padded];
+                column[cells..].fill(Complex::default());
+                self.columns.0.process_with_scratch(column, &mut self.scratch);
+                column.iter_mut().zip(transfer).for_each(|(value, factor)| *value = *value * *factor);
+                self.columns.1.process_with_scratch(column, &mut self.scratch);
+            }
+            for (tile, rows) in self.spectra.chunks_mut(TILE * stride).enumerate() {
+                for (column, values) in self.block.chunks_exact(apart).take(width).enumerate() {
+                    let to = rows[first + column..].iter_mut().step_by(stride);
+                    to.zip(&values[tile * TILE..]).for_each(|(to, value)| *to = *value);
+                }
             }
         }
-        for (values, spectrum) in to.chunks_exact_mut(cells).zip(self.spectra.chunks_exact_mut(stride)) {
+        for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
             // Rounding leaves an imaginary part, which the spectrum of real numbers does not have.
             spectrum[0].im = T::zero();
             spectrum[half - 1].im = T::zero();
             let _ = self.rows.1.process_with_scratch(&mut spectrum[..half], &mut self.row, &mut self.scratch);
-            values.copy_from_slice(&self.row[..cells]);
+            to(context, row, &self.row[..cells]);
         }
     }
 }
@@ -165,13 +186,23 @@ mod tests {
         (0..count).map(|index| (index as f64 * 12.9898).sin() * 43.758 % 1.0).collect()
     }
 
+    fn apply(planned: &mut Convolution<f64>, from: &[f64], cells: usize) -> Vec<f64> {
+        let mut found = Vec::new();
+        planned.apply(
+            &mut found,
+            |_, row, to| to.copy_from_slice(&from[row * cells..][..cells]),
+            |found, _, row| found.extend_from_slice(row),
+        );
+        found
+    }
+
     #[test]
     fn a_kernel_is_summed_over_all_pairs_of_cells() {
         for cells in [4, 6, 16] {
             let kernel = |x: usize, y: usize| 1.0 / (1.0 + (3 * x + x * y + 2 * y * y) as f64);
             let mut planned = Convolution::<f64>::by_kernel(cells, 2 * cells + 2, kernel).unwrap();
-            let (from, mut to) = (numbers(cells * cells), vec![0.0; cells * cells]);
-            planned.apply(&from, &mut to);
+            let from = numbers(cells * cells);
+            let to = apply(&mut planned, &from, cells);
             for (at, found) in to.iter().enumerate() {
                 let of = |other: usize| {
                     kernel((at % cells).abs_diff(other % cells), (at / cells).abs_diff(other / cells))
@@ -192,8 +223,7 @@ mod tests {
                 std::f64::consts::TAU * ((kx * (at % cells) + ky * (at / cells)) as f64) / cells as f64
             };
             let from: Vec<f64> = (0..cells * cells).map(|at| phase(at).cos()).collect();
-            let mut to = vec![0.0; cells * cells];
-            planned.apply(&from, &mut to);
+            let to = apply(&mut planned, &from, cells);
             let factor = transform(f64::from(kx as u32), f64::from(ky as u32));
             assert!(from.iter().zip(&to).all(|(one, other)| (factor * one - other).abs() < 1e-13));
         }

@@ -1,4 +1,4 @@
-//! A rigid rough square on a half-space: the front of the crate, in SI units.
+//! A rigid rough square on a half-space, in SI units.
 
 use super::error::HalfSpaceError;
 use super::operators::Boundary;
@@ -43,8 +43,8 @@ pub struct Pressed {
     pub indentation: f64,
     /// Area of the cells in contact in m².
     pub area: f64,
-    /// Largest violation of the conditions on the gap, over the rms height. The gap is zero on the contact and at least
-    /// zero elsewhere. The conditions on the pressure hold exactly: it is nowhere negative, and its sum is the force.
+    /// Largest violation of the conditions on the gap, over the rms height. The gap is zero on the contact and at least zero
+    /// elsewhere. The pressure is nowhere negative, and the sum over all cells is the force, both exactly.
     pub residual: f64,
     /// True if the residual reached the required tolerance; false if the solver used up its steps before.
     pub is_reached: bool,
@@ -146,10 +146,8 @@ impl HalfSpace {
         let Square { side, effective_modulus, .. } = *square;
         let cell = (side / grid.cells as f64).powi(2);
         let pressure: Vec<f64> = grid.pressure.iter().map(|value| value * effective_modulus).collect();
-        let gap =
-            grid.displacement.iter().zip(&grid.depths).map(|(of, depth)| (of + depth - grid.level) * side);
         Pressed {
-            gap: gap.collect(),
+            gap: grid.levels.iter().map(|level| (level - grid.level) * side).collect(),
             force: cell * pressure.iter().sum::<f64>(),
             indentation: grid.level * side,
             area: cell * grid.outside.iter().filter(|out| **out == 0.0).count() as f64,
@@ -161,7 +159,7 @@ impl HalfSpace {
     }
 }
 
-/// Checks a number of cells along a side.
+/// Checks that a number of cells along a side is allowed.
 ///
 /// # Errors
 /// The number is not a power of two from 32 to 8192.

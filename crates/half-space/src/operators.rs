@@ -27,9 +27,7 @@ pub struct Operators {
     stiffness: Convolution<f32>,
     /// Number of convolutions so far.
     pub convolutions: u64,
-    extended: Vec<f32>,
-    other: Vec<f32>,
-    off: Vec<f32>,
+    sweeps: Sweeps,
 }
 
 impl Operators {
@@ -38,7 +36,7 @@ impl Operators {
         let (displacement, stiffness) = paddings(cells, boundary);
         Convolution::<f64>::bytes(cells, displacement)
             + Convolution::<f32>::bytes(cells, stiffness)
-            + 12 * (cells * cells) as u64
+            + (12 * (SWEEPS + 1) * cells) as u64
     }
 
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
@@ -60,33 +58,124 @@ impl Operators {
             displacement,
             stiffness: Convolution::by_transform(cells, padded, stiffness)?,
             convolutions: 0,
-            extended: resized(Vec::new(), cells * cells, 0.0)?,
-            other: resized(Vec::new(), cells * cells, 0.0)?,
-            off: resized(Vec::new(), cells * cells, 0.0)?,
+            sweeps: Sweeps { cells, rows: resized(Vec::new(), 3 * (SWEEPS + 1) * cells, 0.0)? },
         })
     }
 
-    /// Computes the displacements by pressures.
-    pub fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) {
+    /// Computes the displacements by pressures, both row by row.
+    pub fn displace<C>(
+        &mut self,
+        context: &mut C,
+        pressure: impl FnMut(&mut C, usize, &mut [f64]),
+        displacement: impl FnMut(&mut C, usize, &[f64]),
+    ) {
         self.convolutions += 1;
-        self.displacement.apply(pressure, displacement);
+        self.displacement.apply(context, pressure, displacement);
     }
 
     /// Computes approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E. D is E*|q|/2, and E
     /// extends displacements smoothly beyond the contact, because zeros there would act as a wall at each edge. The operator is
     /// symmetric. It is only approximate, so single precision is enough. `outside` is 1 off the contact and 0 on it.
-    pub fn precondition(&mut self, residual: &[f32], outside: &[f32], pressure: &mut [f32]) {
-        let Operators { cells, stiffness, extended, other, off, .. } = self;
-        // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways back.
-        extend((*cells, SWEEPS), (residual, outside), extended, other);
+    /// `visit` gets each row once it is computed.
+    pub fn precondition(
+        &mut self,
+        residual: &[f32],
+        outside: &[f32],
+        pressure: &mut [f32],
+        mut visit: impl FnMut(usize, &[f32]),
+    ) {
+        let Operators { cells, stiffness, sweeps, .. } = self;
+        let cells = *cells;
         self.convolutions += 1;
-        stiffness.apply(extended, pressure);
-        off.iter_mut().zip(&*pressure).zip(outside).for_each(|((to, of), out)| *to = of * out);
-        extend((*cells, SWEEPS - 1), (off, outside), extended, other);
-        each_row(*cells, extended, pressure, |row, sums, to| {
-            let of = outside[row * *cells..].iter().zip(sums);
-            to.iter_mut().zip(of).for_each(|(to, (out, sum))| *to = (1.0 - out) * (*to + 0.25 * sum));
-        });
+        // In E a cell of the contact keeps its number, and another one becomes the mean of its neighbours.
+        let extend = |sweeps: &mut Sweeps, row: usize, to: &mut [f32]| {
+            for time in if row == 0 { 0 } else { row + SWEEPS }..=row + SWEEPS {
+                if let Some(fixed) = residual.chunks_exact(cells).nth(time) {
+                    sweeps.row_mut(0, time).copy_from_slice(fixed);
+                }
+                sweeps.sweep(time, (residual, outside), |_, fixed, out, sum| fixed + 0.25 * out * sum);
+            }
+            to.copy_from_slice(sweeps.row_mut(SWEEPS, row));
+        };
+        // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways back.
+        let mut restrict = |(sweeps, pressure): &mut (&mut Sweeps, &mut [f32]), time: usize| {
+            sweeps.sweep(time, (pressure, outside), |is_last, fixed, out, sum| {
+                (if is_last { 1.0 - out } else { out }) * (fixed + 0.25 * sum)
+            });
+            if let Some(row) = time.checked_sub(SWEEPS) {
+                let to = &mut pressure[row * cells..][..cells];
+                to.copy_from_slice(sweeps.row_mut(SWEEPS, row));
+                visit(row, to);
+            }
+        };
+        let mut context = (sweeps, pressure);
+        stiffness.apply(
+            &mut context,
+            |(sweeps, _), row, to| extend(sweeps, row, to),
+            |context, row, found| {
+                let (sweeps, pressure) = context;
+                pressure[row * cells..][..cells].copy_from_slice(found);
+                let off = sweeps.row_mut(0, row).iter_mut().zip(found.iter().zip(&outside[row * cells..]));
+                off.for_each(|(to, (of, out))| *to = of * out);
+                restrict(context, row);
+            },
+        );
+        (cells..cells + SWEEPS).for_each(|time| restrict(&mut context, time));
+    }
+}
+
+/// Sweeps that follow each other at a distance of one row, so that all rows of their work stay in the cache.
+struct Sweeps {
+    cells: usize,
+    /// The last three rows of each sweep, and of the numbers before the first one.
+    rows: Vec<f32>,
+}
+
+impl Sweeps {
+    fn row_mut(&mut self, sweep: usize, row: usize) -> &mut [f32] {
+        &mut self.rows[(3 * sweep + row % 3) * self.cells..][..self.cells]
+    }
+
+    /// Sweeps the row `time` − n by the sweep n. `each` makes a number of the last sweep, or another one, of the fixed number of
+    /// the cell, its being outside, and the sum of its four neighbours; a neighbour beyond the grid is the cell itself.
+    fn sweep(
+        &mut self,
+        time: usize,
+        (fixed, outside): (&[f32], &[f32]),
+        each: impl Fn(bool, f32, f32, f32) -> f32,
+    ) {
+        let (cells, last) = (self.cells, self.cells - 1);
+        for sweep in 1..=SWEEPS {
+            let Some(row) = time.checked_sub(sweep).filter(|row| *row < cells) else { continue };
+            let (before, own) = self.rows.split_at_mut(3 * sweep * cells);
+            let before = &before[3 * (sweep - 1) * cells..];
+            let near = [row.saturating_sub(1), row, (row + 1).min(last)];
+            let [above, middle, below] = near.map(|row| &before[row % 3 * cells..][..cells]);
+            let of = [above, middle, below, &fixed[row * cells..], &outside[row * cells..]];
+            let to = &mut own[row % 3 * cells..][..cells];
+            if sweep < SWEEPS {
+                sweep_row(of, to, |fixed, out, sum| each(false, fixed, out, sum));
+            } else {
+                sweep_row(of, to, |fixed, out, sum| each(true, fixed, out, sum));
+            }
+        }
+    }
+}
+
+/// Makes a row of the rows above, at and below it, of the fixed numbers and of being outside.
+fn sweep_row(of: [&[f32]; 5], to: &mut [f32], each: impl Fn(f32, f32, f32) -> f32) {
+    let last = to.len() - 1;
+    let at = |at: usize, left: usize, right: usize| {
+        let [above, middle, below, fixed, outside] = of;
+        each(fixed[at], outside[at], above[at] + below[at] + (middle[left] + middle[right]))
+    };
+    (to[0], to[last]) = (at(0, 0, 1), at(last, last - 1, last));
+    let [above, middle, below, fixed, outside] = of.map(|of| &of[1..]);
+    // Iterators without indices are compiled to instructions on several numbers.
+    let around = above.iter().zip(below).zip(of[1].iter().zip(&middle[1..last]));
+    let to = to[1..last].iter_mut().zip(fixed.iter().zip(outside));
+    for ((to, (fixed, outside)), ((above, below), (left, right))) in to.zip(around) {
+        *to = each(*fixed, *outside, above + below + (left + right));
     }
 }
 
@@ -109,45 +198,6 @@ fn of_a_cell(x: f64, y: f64) -> f64 {
         along(x, y) + along(y, x)
     };
     (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5) + part(x - 0.5, y - 0.5)) / PI
-}
-
-/// Extends the numbers `fixed` into `extended` by sweeps. In each sweep every cell off the contact becomes its own number
-/// and the mean of its neighbours. Cells of the contact keep their own number.
-fn extend(
-    (cells, sweeps): (usize, usize),
-    (fixed, outside): (&[f32], &[f32]),
-    extended: &mut Vec<f32>,
-    other: &mut Vec<f32>,
-) {
-    let sweep = |from: &[f32], to: &mut [f32]| {
-        each_row(cells, from, to, |row, sums, to| {
-            let of = fixed[row * cells..].iter().zip(&outside[row * cells..]).zip(sums);
-            to.iter_mut().zip(of).for_each(|(to, ((fixed, out), sum))| *to = fixed + 0.25 * out * sum);
-        });
-    };
-    sweep(fixed, extended);
-    for _ in 1..sweeps {
-        sweep(extended, other);
-        std::mem::swap(extended, other);
-    }
-}
-
-/// Calls a function with the number of each row, the sums of the four neighbours of its cells, and the row of `to`. A
-/// neighbour beyond the grid is the cell itself.
-fn each_row(cells: usize, from: &[f32], to: &mut [f32], mut visit: impl FnMut(usize, &[f32], &mut [f32])) {
-    let mut sums = vec![0.0; cells];
-    let last = cells - 1;
-    for (row, to) in to.chunks_exact_mut(cells).enumerate() {
-        let [above, middle, below] =
-            [row.saturating_sub(1), row, (row + 1).min(last)].map(|row| &from[row * cells..][..cells]);
-        let around = above.iter().zip(below);
-        sums.iter_mut().zip(around).for_each(|(sum, (above, below))| *sum = above + below);
-        let beside = middle.iter().zip(&middle[2..]);
-        sums[1..last].iter_mut().zip(beside).for_each(|(sum, (left, right))| *sum += left + right);
-        sums[0] += middle[0] + middle[1];
-        sums[last] += middle[last] + middle[last - 1];
-        visit(row, &sums, to);
-    }
 }
 
 #[cfg(test)]
@@ -188,7 +238,7 @@ mod tests {
             let (one, other) = (vector(1), vector(5));
             let mut on = |of: &[f32]| {
                 let mut to = vec![0.0; of.len()];
-                operators.precondition(of, &outside, &mut to);
+                operators.precondition(of, &outside, &mut to, |_, _| ());
                 to
             };
             let (of_one, of_other) = (on(&one), on(&other));

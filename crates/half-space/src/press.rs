@@ -1,13 +1,14 @@
 //! Contact without adhesion: nested projected conjugate gradients on an active set.
 //!
-//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed set of cells the gap is
-//! made uniform by preconditioned conjugate gradients (Polak and Ribière); meanwhile pressures may become negative. The set
-//! changes where the cells that pull or penetrate outweigh what the gradients have left over. An active set in one loop
-//! with the gradients is the idea of Polonsky and Keer (1999).
+//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed set of cells, preconditioned
+//! conjugate gradients (Polak and Ribière) make the gap uniform. Pressures may become negative in the meantime. The set changes
+//! where the cells that pull or penetrate outweigh what the gradients have left over. An active set in one loop with the
+//! gradients is the idea of Polonsky and Keer (1999).
 
 use super::error::HalfSpaceError;
 use super::operators::{Boundary, OWN_DISPLACEMENT, Operators};
 use asperity_data::{OutOfMemory, resized};
+use std::array::from_fn;
 
 /// Number of cells along the side of the coarsest grid.
 pub const COARSEST: usize = 32;
@@ -47,11 +48,14 @@ pub struct Grid {
     /// Depth of the rigid surface below its highest point.
     pub depths: Vec<f64>,
     pub pressure: Vec<f64>,
-    pub displacement: Vec<f64>,
+    /// Sum of displacement and depth of each cell, uniform on the contact.
+    pub levels: Vec<f64>,
     /// 1 for a cell off the contact, 0 on it.
     pub outside: Vec<f32>,
-    /// Sum of displacement and depth on the contact, which is to be uniform.
+    /// Sum of displacement and depth that the contact is to have.
     pub level: f64,
+    /// Number of cells of the contact.
+    count: f64,
     residual: Vec<f32>,
     former: Vec<f32>,
     gradient: Vec<f32>,
@@ -73,9 +77,10 @@ impl Grid {
             operators: Operators::new(cells, boundary)?,
             depths: zeros()?,
             pressure: zeros()?,
-            displacement: zeros()?,
+            levels: zeros()?,
             outside: singles()?,
             level: 0.0,
+            count: 0.0,
             residual: singles()?,
             former: singles()?,
             gradient: singles()?,
@@ -110,15 +115,15 @@ impl Grid {
         }
     }
 
-    /// Begins with the solution of a coarser grid. The edge of the contact lies where a signed number changes its sign. On
-    /// the contact it is the pressure as a displacement of one cell, elsewhere minus the gap.
+    /// Begins with the solution of a coarser grid. The edge of the contact lies where a number changes its sign. The number is
+    /// the pressure as a displacement of one cell on the contact, and minus the gap elsewhere.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let own = OWN_DISPLACEMENT / coarse.cells as f64;
         let signed = |at: usize| {
             if coarse.outside[at] == 0.0 {
                 own * coarse.pressure[at]
             } else {
-                -(coarse.displacement[at] + coarse.depths[at] - coarse.level).max(0.0)
+                -(coarse.levels[at] - coarse.level).max(0.0)
             }
         };
         let (cells, half) = (self.cells, coarse.cells);
@@ -158,26 +163,37 @@ impl Grid {
     /// Brings the pressures to the given mean, and computes the displacements.
     fn load(&mut self, given: Given) {
         if let Given::MeanPressure(mean) = given {
-            let [sum] = sums([&self.pressure], [], |[pressure], []| [pressure]);
+            let [sum] = Sums::of([&self.pressure], [], |[pressure], []| [pressure]);
             let factor = mean * self.pressure.len() as f64 / sum;
             self.pressure.iter_mut().for_each(|pressure| *pressure *= factor);
         }
-        self.operators.displace(&self.pressure, &mut self.displacement);
+        self.displace();
+    }
+
+    /// Computes the displacements by the pressures.
+    pub fn displace(&mut self) {
+        let Grid { cells, operators, pressure, levels, depths, .. } = self;
+        let cells = *cells;
+        operators.displace(
+            levels,
+            |_, row, to| to.copy_from_slice(&pressure[row * cells..][..cells]),
+            |levels, row, displacement| {
+                let of = displacement.iter().zip(&depths[row * cells..]);
+                levels[row * cells..].iter_mut().zip(of).for_each(|(to, (u, z))| *to = u + z);
+            },
+        );
     }
 
     /// Sets the level of the contact: the given indentation, or the mean over the contact.
     fn find_level(&mut self, given: Given) {
-        let mean = || {
-            let [total, count] =
-                sums([&self.displacement, &self.depths], [&self.outside], |[u, z], [out]| {
-                    let on = 1.0 - f64::from(out);
-                    [on * (u + z), on]
-                });
-            total / f64::max(count, 1.0)
-        };
+        let [total, count] = Sums::of([&self.levels], [&self.outside], |[level], [out]| {
+            let on = 1.0 - f64::from(out);
+            [on * level, on]
+        });
+        self.count = f64::max(count, 1.0);
         self.level = match given {
             Given::Indentation(depth) => depth,
-            Given::MeanPressure(_) => mean(),
+            Given::MeanPressure(_) => total / self.count,
         };
     }
 
@@ -187,21 +203,19 @@ impl Grid {
         std::mem::swap(&mut self.residual, &mut self.former);
         let level = self.level;
         let mut found = [[0.0; LANES]; 3];
-        let moved = groups_of(&mut self.pressure).zip(groups_of(&mut self.displacement));
+        let moved = groups_of(&mut self.pressure).zip(groups_of(&mut self.levels));
         let by = groups(&self.direction).iter().zip(groups(&self.image));
-        let cells = groups(&self.depths).iter().zip(groups(&self.outside));
-        let cells = moved.zip(by).zip(cells.zip(groups_of(&mut self.residual)));
-        for (((p, u), (direction, image)), ((z, out), residual)) in cells {
-            for lane in 0..LANES {
-                p[lane] += length * direction[lane];
-                u[lane] += length * image[lane];
-                let missing = level - u[lane] - z[lane];
-                let out = f64::from(out[lane]);
-                let on = (1.0 - out) * missing;
-                residual[lane] = on as f32;
-                for (most, of) in found.iter_mut().zip([on.abs(), out * missing, -p[lane]]) {
-                    most[lane] = if of > most[lane] { of } else { most[lane] };
-                }
+        let cells = groups(&self.outside).iter().zip(groups_of(&mut self.residual));
+        for (((p, u), (direction, image)), (out, residual)) in moved.zip(by).zip(cells) {
+            // Group by group, for instructions on several numbers.
+            *p = from_fn(|lane| p[lane] + length * direction[lane]);
+            *u = from_fn(|lane| u[lane] + length * image[lane]);
+            let (missing, out) = (u.map(|u| level - u), out.map(f64::from));
+            let on: [f64; LANES] = from_fn(|lane| (1.0 - out[lane]) * missing[lane]);
+            *residual = on.map(|on| on as f32);
+            let beyond = from_fn(|lane| out[lane] * missing[lane]);
+            for (most, of) in found.iter_mut().zip([on.map(f64::abs), beyond, p.map(|p| -p)]) {
+                *most = from_fn(|lane| if of[lane] > most[lane] { of[lane] } else { most[lane] });
             }
         }
         let [on_contact, beyond, pull] = found.map(|lanes| lanes.into_iter().fold(0.0, f64::max));
@@ -212,14 +226,11 @@ impl Grid {
     fn change_set(&mut self) -> bool {
         let mut is_clipped = false;
         let level = self.level;
-        let given = self.displacement.iter().zip(&self.depths);
-        for ((pressure, out), (displacement, depth)) in
-            self.pressure.iter_mut().zip(&mut self.outside).zip(given)
-        {
+        for ((pressure, out), of) in self.pressure.iter_mut().zip(&mut self.outside).zip(&self.levels) {
             if *out == 0.0 && *pressure <= 0.0 {
                 is_clipped |= *pressure < 0.0;
                 (*pressure, *out) = (0.0, 1.0);
-            } else if *out == 1.0 && level - displacement - depth > 0.0 {
+            } else if *out == 1.0 && level > *of {
                 *out = 0.0;
             }
         }
@@ -293,27 +304,42 @@ impl Grid {
     /// Makes one step of the gradients on the present contact. Returns the product that the next step needs, and what
     /// `advance` finds.
     fn step(&mut self, given: Given, last: Option<f64>) -> (f64, [f64; 3]) {
-        self.operators.precondition(&self.residual, &self.outside, &mut self.gradient);
-        let singles = [&self.gradient, &self.residual, &self.former, &self.outside];
-        let [product, former, total, count] = sums([], singles, |[], [gradient, residual, former, out]| {
-            let of = |value: f32| f64::from(gradient) * f64::from(value);
-            [of(residual), of(former), f64::from(gradient), 1.0 - f64::from(out)]
+        let Grid { cells, operators, residual, former, outside, gradient, direction, image, .. } = self;
+        let cells = *cells;
+        let mut found = Sums::default();
+        operators.precondition(residual, outside, gradient, |row, gradient| {
+            let singles = [gradient, &residual[row * cells..], &former[row * cells..]];
+            found.add([], singles, |[], [gradient, residual, former]| {
+                let of = |value: f32| f64::from(gradient) * f64::from(value);
+                [of(residual), of(former), f64::from(gradient)]
+            });
         });
-        let is_force = matches!(given, Given::MeanPressure(_));
+        let [product, former, total] = found.total();
         // Under a force the mean of the residual over the contact is zero, and so is the mean of the step.
-        let mean_of = |total: f64| if is_force { total / f64::max(count, 1.0) } else { 0.0 };
+        let count = self.count;
+        let mean_of = |total: f64| if matches!(given, Given::MeanPressure(_)) { total / count } else { 0.0 };
         let (mean, turned) = (mean_of(total), product - former);
         let carried = last.map_or(0.0, |last| if last > 0.0 { (turned / last).max(0.0) } else { 0.0 });
-        let singles = self.gradient.iter().zip(&self.outside);
-        for (direction, (gradient, out)) in self.direction.iter_mut().zip(singles) {
-            *direction = f64::from(*gradient) - (1.0 - f64::from(*out)) * mean + carried * *direction;
-        }
-        self.operators.displace(&self.direction, &mut self.image);
-        let double = [&self.direction, &self.image];
-        let [along, curvature, total] =
-            sums(double, [&self.residual, &self.outside], |[direction, image], [residual, out]| {
-                [direction * f64::from(residual), direction * image, (1.0 - f64::from(out)) * image]
-            });
+        let mut context = (direction, image, Sums::default());
+        operators.displace(
+            &mut context,
+            |(direction, ..), row, to| {
+                let singles = gradient[row * cells..].iter().zip(&outside[row * cells..]);
+                let both = direction[row * cells..].iter_mut().zip(to);
+                for ((direction, to), (gradient, out)) in both.zip(singles) {
+                    *direction = f64::from(*gradient) - (1.0 - f64::from(*out)) * mean + carried * *direction;
+                    *to = *direction;
+                }
+            },
+            |(direction, image, found), row, of| {
+                image[row * cells..][..cells].copy_from_slice(of);
+                let singles = [&residual[row * cells..], &outside[row * cells..]];
+                found.add([of, &direction[row * cells..]], singles, |[image, direction], [residual, out]| {
+                    [direction * f64::from(residual), direction * image, (1.0 - f64::from(out)) * image]
+                });
+            },
+        );
+        let [along, curvature, total] = context.2.total();
         let length = if curvature > 0.0 { along / curvature } else { 0.0 };
         self.level += length * mean_of(total);
         (product, self.advance(length))
@@ -332,24 +358,53 @@ fn groups_of<T>(of: &mut [T]) -> impl Iterator<Item = &mut [T; LANES]> {
     of.as_chunks_mut().0.iter_mut()
 }
 
-/// Sums over all cells what a function makes of their numbers, in double and in single precision.
-fn sums<const D: usize, const S: usize, const N: usize>(
-    double: [&Vec<f64>; D],
-    single: [&Vec<f32>; S],
-    each: impl Fn([f64; D], [f32; S]) -> [f64; N],
-) -> [f64; N] {
-    let (double, single) = (double.map(|of| groups(of)), single.map(|of| groups(of)));
-    let count = double.iter().map(|of| of.len()).chain(single.iter().map(|of| of.len())).min().unwrap_or(0);
-    let (double, single) = (double.map(|of| &of[..count]), single.map(|of| &of[..count]));
-    let mut totals = [[0.0; LANES]; N];
-    for group in 0..count {
-        let (double, single) = (double.map(|of| &of[group]), single.map(|of| &of[group]));
-        for lane in 0..LANES {
-            let of = each(double.map(|of| of[lane]), single.map(|of| of[lane]));
-            totals.iter_mut().zip(of).for_each(|(total, of)| total[lane] += of);
+/// Sums over cells of what a function makes of their numbers, in double and in single precision.
+struct Sums<const N: usize>([[f64; LANES]; N]);
+
+impl<const N: usize> Default for Sums<N> {
+    fn default() -> Self {
+        Sums([[0.0; LANES]; N])
+    }
+}
+
+impl<const N: usize> Sums<N> {
+    /// The sums over all cells.
+    fn of<const D: usize, const S: usize>(
+        double: [&[f64]; D],
+        single: [&[f32]; S],
+        each: impl Fn([f64; D], [f32; S]) -> [f64; N],
+    ) -> [f64; N] {
+        let mut sums = Sums::default();
+        sums.add(double, single, each);
+        sums.total()
+    }
+
+    /// Adds as many cells as the shortest slice has.
+    fn add<const D: usize, const S: usize>(
+        &mut self,
+        double: [&[f64]; D],
+        single: [&[f32]; S],
+        each: impl Fn([f64; D], [f32; S]) -> [f64; N],
+    ) {
+        let count = double.iter().map(|of| of.len()).chain(single.iter().map(|of| of.len())).min();
+        let count = count.unwrap_or(0);
+        let (double, single) = (double.map(|of| &of[..count]), single.map(|of| &of[..count]));
+        let mut add = |lane: usize, of: [f64; N]| {
+            self.0.iter_mut().zip(of).for_each(|(total, of)| total[lane] += of);
+        };
+        let (doubles, singles) = (double.map(groups), single.map(groups));
+        for group in 0..count / LANES {
+            let (double, single) = (doubles.map(|of| &of[group]), singles.map(|of| &of[group]));
+            (0..LANES).for_each(|lane| add(lane, each(double.map(|of| of[lane]), single.map(|of| of[lane]))));
+        }
+        for at in count / LANES * LANES..count {
+            add(at % LANES, each(double.map(|of| of[at]), single.map(|of| of[at])));
         }
     }
-    totals.map(|[a, b, c, d]| a + b + (c + d))
+
+    fn total(&self) -> [f64; N] {
+        self.0.map(|[a, b, c, d]| a + b + (c + d))
+    }
 }
 
 /// Solves a contact on nested grids, the finest one last, whose depths are set.

@@ -37,7 +37,7 @@ impl Figure {
     pub const SMALL: (f64, f64) = (330.0, 270.0);
     /// Width and height of the frame of a single chart, in px.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Width and height of the frame of a chart with the position along its horizontal axis, in px.
+    /// Width and height of the frame of a chart over the position along the profile, in px.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart.

@@ -4,7 +4,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{Kind, Table};
 use asperity_scene::RoughnessParameter;
-use asperity_study::{AdhesionBoundary, Boundaries, Crossing, protocol_name};
+use asperity_study::maps::{AdhesionBoundary, Boundaries, Crossing, protocol_name};
 use serde_json::{Map, Value, json};
 use std::cmp::Ordering;
 

@@ -3,7 +3,7 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::object;
-use asperity_study::{Check, Verdict, catalogue};
+use asperity_study::checks::{Check, Verdict, catalogue};
 
 impl Report for [Verdict] {
     /// Returns one row for each check, then the statements of the cases, then the failures.
@@ -87,7 +87,7 @@ fn figure(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::report::{Format, write};
-    use asperity_study::checks;
+    use asperity_study::checks::checks;
     use serde_json::Value;
 
     #[test]

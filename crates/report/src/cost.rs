@@ -9,15 +9,15 @@ use asperity_data::{Kind, Table};
 use asperity_data::{format_quantity, format_rounded};
 use asperity_plot::Figure;
 use asperity_scene::Scene;
-use asperity_scene::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
-use asperity_study::Reference;
+use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
+use asperity_study::half_space::Reference;
 use serde::Serialize;
 
 /// Headings of the columns of errors, in the order of [`QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
-/// Report on the cost of accuracy of a scene: computing time and errors for many settings. The fields of the JSON have this
-/// order.
+/// Report on the cost of accuracy of a scene: computing time and errors for many settings. JSON has the fields in the order
+/// given here.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
     /// Title of the scene.

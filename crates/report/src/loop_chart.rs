@@ -1,11 +1,11 @@
 //! The chart of force loops, which is the same in figures of scenes and in the explorer.
 
+use asperity_contact::points::{Mark, marks};
 use asperity_contact::{CurvePoint, Direction, LegRecord};
-use asperity_contact::{Mark, marks};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
 use asperity_scene::Outcome;
-use asperity_scene::{DisplacementCurve, DisplacementPoint};
+use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 
 /// Pair of quantities that a chart of loops shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

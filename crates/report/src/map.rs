@@ -3,7 +3,8 @@
 use crate::report::Report;
 use asperity_data::{Kind, Table};
 use asperity_scene::Regime;
-use asperity_study::{Grid, GridCell, Quantity, Statistics};
+use asperity_study::maps::{Grid, GridCell};
+use asperity_study::{Quantity, Statistics};
 
 impl Report for Grid {
     /// Returns a table of the computed cells: values of the axes, profiles, regimes, and statistics of each quantity, in SI

@@ -3,8 +3,9 @@
 
 use asperity_data::format_quantity;
 use asperity_data::{grouped, path_name, printable};
+use asperity_surface::Analysis;
 use asperity_surface::Topography;
-use asperity_surface::{Analysis, End};
+use asperity_surface::spectra::End;
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 
@@ -109,7 +110,7 @@ impl SurfaceFile {
     }
 }
 
-/// Measured surfaces of one face, with their common analysis.
+/// Measured surfaces of one face, which is the surface of one body, with their common analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
     /// Facts about each surface.

@@ -1,7 +1,8 @@
 //! The box of parameters in a figure: the numbers that define its scenes.
 
 use asperity_plot::{Label, statement};
-use asperity_scene::{Scene, Statement, statements};
+use asperity_scene::Scene;
+use asperity_scene::fields::{Statement, statements};
 
 /// Returns a line with the numbers that all scenes share, and for each scene with a name a line with the other numbers.
 pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {

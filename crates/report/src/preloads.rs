@@ -7,7 +7,7 @@ use asperity_data::grouped;
 use asperity_data::{Kind, Table, object};
 use asperity_data::{format_quantity, format_range, format_rounded};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_scene::Choice;
+use asperity_scene::discretisation::Choice;
 use asperity_study::{Results, Staircase, Statistics};
 use std::ops::Range;
 

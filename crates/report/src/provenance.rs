@@ -4,7 +4,8 @@
 
 use asperity_data::sha256_of;
 use asperity_data::{path_name, printable};
-use asperity_scene::{Document, Scene, to_ron};
+use asperity_scene::text::to_ron;
+use asperity_scene::{Document, Scene};
 use std::path::{Path, PathBuf};
 
 /// Beginning of the line of a measured file.

@@ -7,7 +7,8 @@ use asperity_data::{AxisScale, Table, object};
 use asperity_data::{format_quantity, format_rounded, grouped, memory_size};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
-use asperity_study::{Compared, Loaded, Reference, ReferenceEvent, SquareLoops, Statistics};
+use asperity_study::Statistics;
+use asperity_study::half_space::{Compared, Loaded, Reference, ReferenceEvent, SquareLoops};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -53,7 +54,7 @@ impl ReferenceProgress {
     /// Returns the last event in one line, and true if the line says that the comparison takes long.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
-            ReferenceEvent::Begins { maps, threads, bytes, seconds } => {
+            ReferenceEvent::Begins { maps, threads, bytes, seconds, .. } => {
                 *self = ReferenceProgress { maps, ..ReferenceProgress::default() };
                 let time = duration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
                 let (squares, threads) = (counted(maps, "square"), counted(threads as u64, "thread"));
@@ -68,26 +69,35 @@ impl ReferenceProgress {
             }
         }
     }
+
+    /// What is lost where the comparison is stopped now, in words.
+    pub fn lost(&self) -> String {
+        match self.maps {
+            0 => "stopped before the first square".to_owned(),
+            maps => format!("stopped after {} of {}, which are lost", self.done, counted(maps, "square")),
+        }
+    }
 }
 
 fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Returns the state of the loops of random squares in a few words. Once all loops are computed, the words have the ratio
-/// of both models.
-pub fn square_loops_words(loops: &SquareLoops) -> String {
+/// Returns the state of the loops of random squares in a few words. From the first square on, the words have the ratio of
+/// both models.
+pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
-    let Some((reference, compared)) = reference.as_ref().and_then(|of| Some((of, of.headline()?))) else {
-        let done = if *maps == 0 { "begins".into() } else { format!("{} of {maps} squares", curves.len()) };
+    let Some(compared) = loops.headline() else {
+        let done = if *maps == 0 { "begins".into() } else { format!("0 of {maps} squares") };
         return format!("three dimensions: {done}");
     };
-    let symbol = if reference.adhesion_force.is_some() { "F_a" } else { "d" };
-    let waves = match (reference.waves, reference.omitted) {
-        (Some((first, last)), Some(_)) => format!(", waves {first} to {last} alone"),
-        _ => String::new(),
+    let symbol = if is_adhesive { "F_a" } else { "d" };
+    let rest = match reference.as_ref().map(|of| (of.waves, of.omitted)) {
+        Some((Some((first, last)), Some(_))) => format!(", waves {first} to {last} alone"),
+        Some(_) => String::new(),
+        None => format!(", {} of {maps} squares", curves.len()),
     };
-    format!("{symbol} line/three dimensions {}{waves}", ratio(compared))
+    format!("{symbol} line/three dimensions {}{rest}", ratio(&compared))
 }
 
 /// Returns the error of the model in a sentence.

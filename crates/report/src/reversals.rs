@@ -7,8 +7,8 @@ use asperity_data::AxisScale;
 use asperity_data::grouped;
 use asperity_data::{Table, object};
 use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
-use asperity_scene::ReversalMap;
 use asperity_scene::Scene;
+use asperity_scene::theory::ReversalMap;
 use asperity_study::{Results, Staircase};
 
 const MOST_ROWS: usize = 16;

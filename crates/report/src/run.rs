@@ -8,12 +8,14 @@ use asperity_contact::CurvePoint;
 use asperity_contact::Move;
 use asperity_data::{Table, TableOf, object};
 use asperity_plot::Figure;
+use asperity_scene::Estimate;
 use asperity_scene::Outcome;
-use asperity_scene::displacements;
-use asperity_scene::{Choice, Estimate};
+use asperity_scene::discretisation::Choice;
+use asperity_scene::instrument::displacements;
 use asperity_scene::{Observer, Scene};
-use asperity_study::{Budget, Ensemble, criteria};
-use asperity_surface::Line;
+use asperity_study::Ensemble;
+use asperity_study::trust::{Budget, criteria};
+use asperity_surface::lines::Line;
 
 /// Report on all results of one scene.
 #[derive(Clone, Copy, Debug)]

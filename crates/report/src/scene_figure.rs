@@ -1,12 +1,13 @@
 //! Figures of the contact: the profile in contact, and contact patches over the indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
-use asperity_contact::preload_point;
-use asperity_contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
+use asperity_contact::motion::Leg;
+use asperity_contact::points::preload_point;
+use asperity_contact::{CurvePoint, Direction, LegRecord, Patch};
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use asperity_scene::Outcome;
-use asperity_surface::Line;
+use asperity_surface::lines::Line;
 use std::slice;
 
 /// Number of indentations of a loading stage at which contact patches are drawn.

@@ -3,7 +3,7 @@
 use asperity_contact::Patch;
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span};
-use asperity_scene::LineFacts;
+use asperity_scene::stages::LineFacts;
 use std::ops::Range;
 
 /// Rigid profile and its contact at one indentation.

@@ -8,7 +8,7 @@ use asperity_data::{Kind, Table, object};
 use asperity_data::{format_quantity, format_rounded, one_unit};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
-use asperity_study::{Changed, Ensemble, Influence, STEP, Sensitivity, Values};
+use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
 
 /// Smallest relative change that is written as a factor.
 const LARGE: f64 = 2.0;
@@ -67,7 +67,7 @@ impl Side<'_> {
         match self.influence {
             None => ["least", "most"][self.side].to_owned(),
             Some(one) if one.axis.is_whole() => format!("{:+}", one.sides[self.side].0 - one.value),
-            Some(_) => format!("{:+} %", [-100.0, 100.0][self.side] * STEP),
+            Some(_) => format!("{:+} %", [-100.0, 100.0][self.side] * Sensitivity::STEP),
         }
     }
 
@@ -191,7 +191,7 @@ impl Report for SensitivityReport<'_> {
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let values = |values: Values| {
+        let values = |values: [Option<f64>; 3]| {
             object! { "adhesion_force": values[0], "first_touch_adhesion_force": values[1], "dissipated_energy": values[2] }
         };
         let ends = |range: [Option<(f64, f64)>; 3]| {
@@ -212,7 +212,7 @@ impl Report for SensitivityReport<'_> {
         let range = self.sensitivity.range;
         Some(Box::new(object! {
             "scene": self.scene,
-            "step": STEP,
+            "step": Sensitivity::STEP,
             "profiles": self.sensitivity.profiles,
             "results": values(self.sensitivity.present),
             "range": range.map(|[least, most]| object! { "least": values(least), "most": values(most) }),

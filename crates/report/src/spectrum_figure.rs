@@ -2,8 +2,9 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_surface::Analysis;
 use asperity_surface::EquivalentLine;
-use asperity_surface::{Along, Analysis, Bin, End};
+use asperity_surface::spectra::{Along, Bin, End};
 use std::f64::consts::TAU;
 
 /// Number of points of a curve per decade of wave numbers.

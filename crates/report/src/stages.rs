@@ -2,7 +2,7 @@
 
 use crate::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
-use asperity_scene::{PlannedStage, Workload};
+use asperity_scene::stages::{PlannedStage, Workload};
 
 /// Returns a table of the computing stages of a scene, with the memory that each stage needs.
 pub fn stages_text(plan: &Workload) -> String {

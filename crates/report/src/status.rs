@@ -2,7 +2,8 @@
 
 use crate::sheet::Sheet;
 use asperity_data::grouped;
-use asperity_study::{Plan, Status, StudyProgress};
+use asperity_study::folders::Status;
+use asperity_study::{Plan, StudyProgress};
 use std::time::Duration;
 
 /// Largest number of characters of the name of a machine in the table.

@@ -5,8 +5,10 @@ use asperity_plot::{
     Chart, ChartAxis, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span, Stroke,
     value_label,
 };
-use asperity_scene::{Regime, VANISHING_SHARE};
-use asperity_study::{Grid, Quantity, Statistics};
+use asperity_scene::Regime;
+use asperity_scene::theory::VANISHING_SHARE;
+use asperity_study::maps::Grid;
+use asperity_study::{Quantity, Statistics};
 
 /// Smallest number of decades of a quantity that gets a second, logarithmic chart.
 const DECADES_FOR_SECOND: f64 = 1.5;
@@ -256,7 +258,8 @@ mod tests {
     use super::*;
     use asperity_plot::judge::check_picture;
     use asperity_scene::open;
-    use asperity_study::{Axis, GridCell, GridLayer, RegimeCounts, Spacing, Spread};
+    use asperity_study::maps::{GridCell, GridLayer};
+    use asperity_study::{Axis, RegimeCounts, Spacing, Spread};
 
     const SHARE: Quantity = Quantity::FirstTouchAdhesionShare;
     const COEFFICIENT: Quantity = Quantity::AdhesionCoefficient;

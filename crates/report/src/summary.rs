@@ -8,12 +8,16 @@ use asperity_contact::Move;
 use asperity_contact::Work;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
-use asperity_scene::{Choice, Estimate};
-use asperity_scene::{
-    INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,
+use asperity_scene::Estimate;
+use asperity_scene::Outcome;
+use asperity_scene::Regime;
+use asperity_scene::Scene;
+use asperity_scene::discretisation::Choice;
+use asperity_scene::loading::loading_text;
+use asperity_scene::stages::Timings;
+use asperity_scene::theory::{
+    INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, SteepWaves, VANISHING_SHARE,
 };
-use asperity_scene::{Outcome, Timings};
-use asperity_scene::{Scene, loading_text};
 use asperity_study::{Ensemble, Quantity};
 use asperity_surface::Form;
 
@@ -376,7 +380,7 @@ mod tests {
 
     #[test]
     fn an_adhesion_force_has_its_error() {
-        use asperity_scene::{Evidence, Target};
+        use asperity_scene::discretisation::{Evidence, Target};
         let document = Document::parse(ROUGH, "test").unwrap();
         let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
         let with = |target, error| {

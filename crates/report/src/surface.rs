@@ -10,11 +10,11 @@ use asperity_data::{format_quantity, format_range};
 use asperity_data::{grouped, path_name, per_cent};
 use asperity_plot::Figure;
 use asperity_scene::{CheckedScene, Scene};
-use asperity_study::{MeasuredAdhesion, ProfileAdhesion, RegimeCounts};
+use asperity_study::RegimeCounts;
+use asperity_study::trust::{MeasuredAdhesion, ProfileAdhesion};
 use asperity_surface::EquivalentLine;
-use asperity_surface::{
-    Along, Analysis, Bin, End, LineMoments, Moment, Node, PointStatistics, ValueWithError,
-};
+use asperity_surface::spectra::{Along, Bin, End, Node};
+use asperity_surface::{Analysis, LineMoments, Moment, PointStatistics, ValueWithError};
 use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;

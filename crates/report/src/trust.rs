@@ -3,7 +3,8 @@
 use crate::sheet::Sheet;
 use asperity_data::per_cent;
 use asperity_scene::{Estimate, Outcome, Scene};
-use asperity_study::{Budget, Criterion, Ensemble, LEAST_TABOR_NUMBER_OF_JKR, criteria};
+use asperity_study::Ensemble;
+use asperity_study::trust::{Budget, Criterion, LEAST_TABOR_NUMBER_OF_JKR, criteria};
 
 /// Returns the sentence with which a summary begins if JKR theory does not apply; `None` if JKR theory applies.
 pub fn without_jkr(outcome: &Outcome) -> Option<String> {

@@ -2,8 +2,8 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_scene::{CostTable, ErrorFigure, Knob};
-use asperity_study::Reference;
+use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
+use asperity_study::half_space::Reference;
 
 /// Returns the figure of relative errors over the shortest time of a run. Each setting has a curve with its observed order
 /// of convergence. The errors are errors of the adhesion force, or of the force curve if there is no adhesion force.
@@ -67,7 +67,7 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{CostReference, Row, Timing};
+    use asperity_scene::discretisation::{CostReference, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {

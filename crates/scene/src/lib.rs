@@ -11,49 +11,91 @@ mod reference;
 mod scene;
 mod simulation;
 
-pub use accuracy::choice::{Choice, ChoiceError, choose, parse_tolerance};
-pub use accuracy::estimate::{Estimate, Evidence, estimate};
-pub use accuracy::ladder::{Progress, measure};
-pub use accuracy::solution::Target;
-pub use accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, QUANTITIES, Row, Timing};
-pub use analysis::governing::{DEFAULT_RANGE, Governing, LEAST_TABOR_NUMBER, SteepWaves, scene_tabor_number};
-pub use analysis::instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
-pub use analysis::regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
-pub use analysis::reversal_map::ReversalMap;
+pub use accuracy::estimate::{Estimate, estimate};
+pub use analysis::governing::Governing;
+pub use analysis::regime::Regime;
 pub use error::Error;
 pub use front::run;
 pub use profile_builder::ProfileBuilder;
-pub use reference::closed_form;
 pub use scene::adhesion::{Adhesion, RoughnessParameter, Strength};
-pub use scene::changes::Change;
 pub use scene::checked::CheckedScene;
-pub use scene::command::{command_line, quoted};
-pub use scene::document::{Document, LONGEST_TEXT};
-pub use scene::effects::Effect;
-pub use scene::errors::{Origin, SceneError, SceneErrors, did_you_mean, nearest};
-pub use scene::field::{
-    Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, STAGE, Step, choice_in_words, target_field,
-};
-pub use scene::fields::{FIELDS, field};
-pub use scene::library::{
-    DEFAULT, Entry, Preset, Source, find_scene, own_folder, presets, scenes, typed_path,
-};
+pub use scene::document::Document;
+pub use scene::errors::{Origin, SceneError, SceneErrors};
+pub use scene::library::{Preset, presets};
 pub use scene::measured::Measured;
 pub use scene::model::{Material, Numerics, Observer, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
-pub use scene::open::{is_file_name, is_path, open, open_argument};
-pub use scene::range::Range;
-pub use scene::read::explain;
-pub use scene::stages::{
-    STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_loading, read_stage,
-    stage_in_ron,
-};
-pub use scene::statements::{Statement, statements};
-pub use scene::text::index::{Text, TextSpan, line_column};
-pub use scene::text::{read_ron, ron_float, ron_string};
-pub use scene::tree::{Tree, to_ron};
-pub use simulation::outcome::{LineFacts, Outcome, RunError, Timings};
-pub use simulation::reach::{BeyondFullContact, Reach};
-pub use simulation::reversals::{FEW_SAMPLES, TURNING_POINTS};
-pub use simulation::roughness::equivalent_springs;
-pub use simulation::stages::{AfterLeg, Simulation};
-pub use simulation::workload::{PlannedStage, Stage, Workload};
+pub use scene::open::open;
+pub use simulation::outcome::{Outcome, RunError};
+pub use simulation::stages::Simulation;
+
+/// Errors by the number of springs, the springs for a tolerance, and what they cost: for whoever chooses the number of springs.
+pub mod discretisation {
+    pub use crate::accuracy::choice::{Choice, ChoiceError, choose, parse_tolerance};
+    pub use crate::accuracy::estimate::Evidence;
+    pub use crate::accuracy::ladder::{Progress, measure};
+    pub use crate::accuracy::solution::Target;
+    pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, QUANTITIES, Row, Timing};
+}
+
+/// Table of the fields of a scene with names, units and ranges, and the values as a tree: for editors and plans of studies.
+pub mod fields {
+    pub use crate::scene::changes::Change;
+    pub use crate::scene::effects::Effect;
+    pub use crate::scene::field::{
+        Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, STAGE, Step, choice_in_words, target_field,
+    };
+    pub use crate::scene::fields::{FIELDS, field};
+    pub use crate::scene::range::Range;
+    pub use crate::scene::statements::{Statement, statements};
+    pub use crate::scene::tree::Tree;
+}
+
+/// Texts of scenes, plans and commands, and what is meant by a misspelt name: for editors that keep comments.
+pub mod text {
+    pub use crate::scene::command::{command_line, quoted};
+    pub use crate::scene::document::LONGEST_TEXT;
+    pub use crate::scene::errors::{did_you_mean, nearest};
+    pub use crate::scene::read::explain;
+    pub use crate::scene::text::index::{Text, TextSpan, line_column};
+    pub use crate::scene::text::{read_ron, ron_float, ron_string};
+    pub use crate::scene::tree::to_ron;
+}
+
+/// Stages of a loading as text: for editors of a loading.
+pub mod loading {
+    pub use crate::scene::stages::{
+        STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_loading, read_stage,
+        stage_in_ron,
+    };
+}
+
+/// Scenes by name: built-in, of the user, in a folder: for programs that open them.
+pub mod library {
+    pub use crate::scene::library::{DEFAULT, Entry, Source, find_scene, own_folder, scenes, typed_path};
+    pub use crate::scene::open::{is_file_name, is_path, open_argument};
+}
+
+/// Numbers and closed forms of theories beside the model: for reports that compare with them.
+pub mod theory {
+    pub use crate::analysis::governing::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, SteepWaves, scene_tabor_number};
+    pub use crate::analysis::regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+    pub use crate::analysis::reversal_map::ReversalMap;
+    pub use crate::reference::closed_form;
+}
+
+/// Displacements of an instrument of finite stiffness and its jumps: for comparisons with measured force curves.
+pub mod instrument {
+    pub use crate::analysis::instrument::{
+        DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,
+    };
+}
+
+/// Stages of a computation, with their memory and their reach: for programs that show progress or split work.
+pub mod stages {
+    pub use crate::simulation::outcome::{LineFacts, Timings};
+    pub use crate::simulation::reach::{BeyondFullContact, Reach};
+    pub use crate::simulation::reversals::{FEW_SAMPLES, TURNING_POINTS};
+    pub use crate::simulation::roughness::equivalent_springs;
+    pub use crate::simulation::stages::AfterLeg;
+    pub use crate::simulation::workload::{PlannedStage, Stage, Workload};
+}

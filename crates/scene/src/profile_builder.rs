@@ -9,7 +9,8 @@ use crate::scene::model::{Material, Numerics, Roughness, SPRINGS_PER_WAVE, Scene
 use crate::simulation::outcome::{Outcome, RunError};
 use crate::simulation::stages::Simulation;
 use asperity_contact::{ContactError, Modulus, Move, Profile};
-use asperity_surface::{EquivalentLine, Form, Line, MeasuredRoughness};
+use asperity_surface::lines::{Line, MeasuredRoughness};
+use asperity_surface::{EquivalentLine, Form};
 use std::sync::Arc;
 
 /// Builder of the equivalent profile of a form and a roughness. By default the body is nominally flat and smooth. The profile

@@ -1,13 +1,13 @@
 //! Closed forms: exact formulas for the contact of a form without roughness.
 
-use asperity_contact::{ClosedForm, flat_punch, ideal_adhesion_force};
+use asperity_contact::closed_forms::{ClosedForm, flat_punch, ideal_adhesion_force};
 use asperity_surface::Form;
 
 /// Returns the exact solution for a form whose profile is a power law: paraboloid, cone or power. The effective modulus is in
 /// Pa, the work of adhesion in J/m². Returns `None` for punches, wavy spheres and tables.
 ///
 /// ```
-/// use asperity_scene::closed_form;
+/// use asperity_scene::theory::closed_form;
 /// use asperity_surface::Form;
 ///
 /// let sphere = closed_form(&Form::Paraboloid { radius: 1.0e-4 }, 1.0e6, 0.05).unwrap();

@@ -6,7 +6,9 @@ use asperity_contact::Move;
 use asperity_data::AxisScale;
 use asperity_data::format_quantity;
 use asperity_data::{printable, round_to};
-use asperity_scene::{FIELDS, Field, Range, RoughnessParameter, Scene, did_you_mean, field};
+use asperity_scene::fields::{FIELDS, Field, Range, field};
+use asperity_scene::text::did_you_mean;
+use asperity_scene::{RoughnessParameter, Scene};
 use serde::{Deserialize, Serialize};
 
 /// Largest number of values on one axis.

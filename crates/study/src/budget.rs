@@ -73,7 +73,8 @@ fn median_interval(ascending: &[f64]) -> Option<Range<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{Evidence, Simulation, Target, open, run};
+    use asperity_scene::discretisation::{Evidence, Target};
+    use asperity_scene::{Simulation, open, run};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 

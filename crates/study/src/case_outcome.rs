@@ -1,10 +1,13 @@
 //! The outcome of one loading on one profile, from which all recorded quantities follow.
 
+use asperity_contact::Figures;
 use asperity_contact::Move;
+use asperity_contact::closed_forms::ideal_adhesion_force;
+use asperity_contact::points::preload_point;
 use asperity_contact::{CurvePoint, History, LegRecord, Reversal};
-use asperity_contact::{Figures, ideal_adhesion_force, preload_point};
 use asperity_scene::Scene;
-use asperity_scene::{Governing, Regime, scene_tabor_number};
+use asperity_scene::theory::scene_tabor_number;
+use asperity_scene::{Governing, Regime};
 
 /// Outcome of one loading on one profile. A figure that it does not have is `None`.
 pub(super) struct CaseOutcome<'o> {

@@ -9,7 +9,7 @@ use super::results::Results;
 use asperity_contact::ContactError;
 use asperity_data::{Control, on_threads};
 use asperity_scene::Simulation;
-use asperity_surface::MeasuredRoughness;
+use asperity_surface::lines::MeasuredRoughness;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

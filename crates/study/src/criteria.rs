@@ -7,7 +7,8 @@ use super::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR, long_ranged};
 use super::ensemble::Ensemble;
 use super::quantity::Quantity;
 use super::rough_contact::RoughContact;
-use asperity_scene::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, Outcome, Scene, VANISHING_SHARE};
+use asperity_scene::theory::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, VANISHING_SHARE};
+use asperity_scene::{Outcome, Scene};
 
 const TABOR: Criterion = Criterion::new(
     "Tabor number",
@@ -26,7 +27,7 @@ const THIS_PROGRAM: Criterion =
 ///
 /// ```
 /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
-/// let rows = asperity_study::criteria(scene.scene(), &asperity_scene::run(&scene)?, None);
+/// let rows = asperity_study::trust::criteria(scene.scene(), &asperity_scene::run(&scene)?, None);
 /// assert_eq!(rows[0].name, "Tabor number");
 /// assert!(rows[1..].iter().all(|row| row.sticks == Some(true)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

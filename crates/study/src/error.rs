@@ -33,7 +33,7 @@ pub enum StudyError {
     /// A measured file of the study cannot be read.
     #[error(transparent)]
     Measured(#[from] SurfaceError),
-    /// A file could not be written, such as a table.
+    /// A file, such as a table, could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
     /// A scene of the study could not be computed.
@@ -83,7 +83,7 @@ pub enum StudyError {
         /// Memory that the study needs, in bytes.
         bytes: u64,
     },
-    /// The system starts no thread, for the contained reason.
+    /// The system could not start a thread. The contained error is the reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
@@ -122,7 +122,11 @@ impl StudyError {
 
     /// Returns true if the computation was stopped rather than failed.
     pub fn is_interruption(&self) -> bool {
-        matches!(self, StudyError::Run { error, .. } if error.is_interruption())
+        match self {
+            StudyError::Run { error, .. } => error.is_interruption(),
+            StudyError::HalfSpace(error) => *error == HalfSpaceError::Stopped,
+            _ => false,
+        }
     }
 
     pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {

@@ -45,38 +45,74 @@ mod store;
 mod study_map;
 mod tables;
 
-pub use axis::{Axis, DERIVED, Spacing};
-pub use boundary::{AdhesionBoundary, Boundaries, Crossing, USUAL_LEVELS, boundaries, protocol_name};
-pub use budget::Budget;
-pub use check::case::Case;
-pub use check::{Check, Verdict, catalogue, checks, judge_case};
+pub use axis::{Axis, Spacing};
 pub use compute::compute;
-pub use criteria::criteria;
-pub use criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR};
 pub use ensemble::{Ensemble, ensemble};
 pub use error::StudyError;
 pub use find::{Found, find};
-pub use grid::{Grid, GridCell, GridLayer, GridPlace};
-pub use live_map::{Level, LiveMap};
-pub use live_plan::{MAP_LINES, live_plan};
-pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
-pub use place::moved;
-pub use plan::{MOST_CELLS, Plan, StiffnessRange};
-pub use plan_text::{Changes, PLANS};
+pub use plan::Plan;
+pub use plan_text::Changes;
 pub use preload_curve::PreloadCurve;
-pub use preloads::{PRELOADS, Staircase, parse_preloads, parse_range};
+pub use preloads::Staircase;
 pub use profiles::Stop;
 pub use quantity::Quantity;
-pub use question::{Answer, Question, parse_condition};
-pub use reference::{Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions};
-pub use results::{Merged, Results};
+pub use question::{Answer, Question};
+pub use results::Results;
 pub use run::{StudyProgress, run_study};
-pub use select::{Selected, Selection};
-pub use sensitivity::{Changed, Influence, STEP, Sensitivity, Values};
+pub use sensitivity::{Changed, Influence, Sensitivity};
 pub use shard::Shard;
-pub use square_loops::SquareLoops;
-pub use statistics::{Column, RegimeCounts, Spread, Statistics};
-pub use status::{Attempt, ShardStatus, Status};
-pub use store::{Folder, ShardFile, ShardHeader};
-pub use study_map::StudyMap;
-pub use tables::{RESULTS, SIDECAR, SUMMARY, merge};
+pub use statistics::{RegimeCounts, Spread, Statistics};
+pub use store::Folder;
+pub use tables::merge;
+
+/// Built-in plans, and numbers of a plan as text: for the command line.
+pub mod plans {
+    pub use crate::axis::DERIVED;
+    pub use crate::plan::{MOST_CELLS, StiffnessRange};
+    pub use crate::plan_text::PLANS;
+    pub use crate::preloads::{PRELOADS, parse_preloads, parse_range};
+    pub use crate::question::parse_condition;
+}
+
+/// Files of a folder of a study: for programs that show the progress of shards or read their results.
+pub mod folders {
+    pub use crate::results::Merged;
+    pub use crate::status::{Attempt, ShardStatus, Status};
+    pub use crate::store::{ShardFile, ShardHeader};
+    pub use crate::tables::{RESULTS, SIDECAR, SUMMARY};
+}
+
+/// Results over two axes, stored or computed while they are looked at: for maps and their boundaries.
+pub mod maps {
+    pub use crate::boundary::{
+        AdhesionBoundary, Boundaries, Crossing, USUAL_LEVELS, boundaries, protocol_name,
+    };
+    pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
+    pub use crate::live_map::{Level, LiveMap};
+    pub use crate::live_plan::{MAP_LINES, live_plan};
+    pub use crate::place::moved;
+    pub use crate::select::{Selected, Selection};
+    pub use crate::study_map::StudyMap;
+}
+
+/// Cases with known results: for `asperity check` and its table.
+pub mod checks {
+    pub use crate::check::case::Case;
+    pub use crate::check::{Check, Verdict, catalogue, checks, judge_case};
+}
+
+/// Comparisons with the half-space in three dimensions: for estimates of the error of the model.
+pub mod half_space {
+    pub use crate::reference::{
+        Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,
+    };
+    pub use crate::square_loops::SquareLoops;
+}
+
+/// Errors of a result by their causes, and criteria of other theories: for statements on how far to trust a result.
+pub mod trust {
+    pub use crate::budget::Budget;
+    pub use crate::criteria::criteria;
+    pub use crate::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR};
+    pub use crate::measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
+}

@@ -5,8 +5,8 @@ use super::plan::Plan;
 use super::quantity::Quantity;
 use asperity_contact::Edges;
 use asperity_data::round_to;
-use asperity_scene::FEW_SAMPLES;
 use asperity_scene::RoughnessParameter::Kappa;
+use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 
 /// Number of random profiles in each cell of a map.
@@ -44,7 +44,7 @@ fn kappas() -> Vec<f64> {
 /// The scene has no map, for the returned reason.
 ///
 /// ```
-/// use asperity_study::{MAP_LINES, live_plan};
+/// use asperity_study::maps::{MAP_LINES, live_plan};
 ///
 /// let plan = live_plan(asperity_scene::open("pressure-sensitive")?.scene())?;
 /// assert_eq!((plan.axes[0].path.as_str(), plan.lines), ("adhesion.kappa", MAP_LINES));

@@ -9,7 +9,7 @@ use super::plan::{PLAN_FILE, Plan};
 use asperity_data::path_name;
 use asperity_data::{hexadecimal, sha256_of};
 use asperity_surface::Form;
-use asperity_surface::{MeasuredRoughness, read_faces};
+use asperity_surface::lines::{MeasuredRoughness, read_faces};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -11,9 +11,11 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::on_threads;
 use asperity_data::root_mean_square;
 use asperity_scene::Regime;
+use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{CheckedScene, Document};
-use asperity_scene::{FEW_SAMPLES, RunError, Simulation};
-use asperity_surface::{EquivalentLine, MeasuredRoughness, read_faces};
+use asperity_scene::{RunError, Simulation};
+use asperity_surface::EquivalentLine;
+use asperity_surface::lines::{MeasuredRoughness, read_faces};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -95,7 +97,7 @@ impl MeasuredAdhesion {
     ///     loading: [ToForce(1.0e-4), ToSeparation])"#;
     /// std::fs::write(folder.path().join("scene.ron"), text)?;
     /// let scene = asperity_scene::open(&folder.path().join("scene.ron").display().to_string())?;
-    /// let found = asperity_study::MeasuredAdhesion::of(&scene, 4, 2)?;
+    /// let found = asperity_study::trust::MeasuredAdhesion::of(&scene, 4, 2)?;
     /// let (low, high) = found.fit_interval().ok_or("no force")?;
     /// assert!(found.adhesion_force().is_some_and(|all| low < all.quartiles[1] && all.quartiles[1] < high));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -23,7 +23,7 @@ impl Plan {
         let of_cell = |cell| {
             let scene = self.scene_of(cell).ok()?;
             let spare = 16 * scene.numerics.samples * scene.loading.len() as u64;
-            let peak = asperity_scene::Workload::of(&scene).peak_bytes;
+            let peak = asperity_scene::stages::Workload::of(&scene).peak_bytes;
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
             // The contact without adhesion or at zero force may add to the memory of the scene itself.

@@ -3,9 +3,8 @@
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
 use asperity_scene::Governing;
-use asperity_scene::{
-    Adhesion, Document, FIELDS, Field, Range, RoughnessParameter, Scene, SceneError, SceneErrors, Tree,
-};
+use asperity_scene::fields::{FIELDS, Field, Range, Tree};
+use asperity_scene::{Adhesion, Document, RoughnessParameter, Scene, SceneError, SceneErrors};
 
 impl Axis {
     /// Returns the value of the quantity in a scene; `None` if the scene has none. `computed` has parameters such as κ,
@@ -128,7 +127,8 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
 /// A value is not allowed.
 ///
 /// ```
-/// use asperity_study::{Axis, Spacing, moved};
+/// use asperity_study::{Axis, Spacing};
+/// use asperity_study::maps::moved;
 ///
 /// let scene = asperity_scene::open("pressure-sensitive")?;
 /// let axis = Axis::new("adhesion.kappa", Spacing::List, Vec::new(), scene.scene())?;

@@ -4,7 +4,8 @@ use super::axis::Axis;
 use super::error::ONE_PROFILE;
 use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
-use asperity_scene::{CheckedScene, Scene, SceneError, SceneErrors, ron_float};
+use asperity_scene::text::ron_float;
+use asperity_scene::{CheckedScene, Scene, SceneError, SceneErrors};
 use serde::{Deserialize, Serialize};
 
 /// File name of the plan in the folder of a study.

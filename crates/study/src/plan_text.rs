@@ -5,10 +5,11 @@ use super::error::StudyError;
 use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
 use super::quantity::{Quantity, renamed};
 use asperity_data::read_regular_text;
-use asperity_scene::{
-    Document, LONGEST_TEXT, Preset, Scene, SceneErrors, built_in, did_you_mean, explain, is_file_name,
-    is_path, line_column, open, read_ron, ron_float, ron_string, to_ron,
+use asperity_scene::library::{is_file_name, is_path};
+use asperity_scene::text::{
+    LONGEST_TEXT, did_you_mean, explain, line_column, read_ron, ron_float, ron_string, to_ron,
 };
+use asperity_scene::{Document, Preset, Scene, SceneErrors, built_in, open};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;

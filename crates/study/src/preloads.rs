@@ -9,7 +9,8 @@ use super::statistics::Statistics;
 use asperity_contact::Move;
 use asperity_contact::Reversal;
 use asperity_data::{AxisScale, parse_quantity};
-use asperity_scene::{CheckedScene, LEG_FORCE};
+use asperity_scene::CheckedScene;
+use asperity_scene::fields::LEG_FORCE;
 use asperity_scene::{RunError, Simulation};
 use std::ops::RangeInclusive;
 
@@ -27,7 +28,7 @@ const ALLOWED: &str = "allowed: two forces, and after colons the number of prelo
 /// The text is wrong; the error says what is allowed.
 ///
 /// ```
-/// use asperity_study::parse_preloads;
+/// use asperity_study::plans::parse_preloads;
 ///
 /// let axis = parse_preloads("1nN..1uN:4:log").expect("two forces");
 /// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
@@ -54,7 +55,7 @@ pub fn parse_preloads(text: &str) -> Result<Axis, String> {
 /// The text is wrong; the error says what is allowed.
 ///
 /// ```
-/// assert_eq!(asperity_study::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
+/// assert_eq!(asperity_study::plans::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
 /// ```
 pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
     let (from, to) = text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;

@@ -1,7 +1,8 @@
 //! Quantities that a study records for each cell and profile: one row of a table for each.
 
 use super::case_outcome::CaseOutcome;
-use asperity_scene::{Regime, did_you_mean};
+use asperity_scene::Regime;
+use asperity_scene::text::did_you_mean;
 use serde::{Deserialize, Serialize};
 
 struct Row {
@@ -71,11 +72,11 @@ quantities! {
         symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
     }
     ElasticEnergy {
-        name: "elastic_energy", meaning: "elastic energy of conformity per area",
+        name: "elastic_energy", meaning: "elastic energy per area that flattens the roughness",
         symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
     }
     ElasticEnergyRatio {
-        name: "elastic_energy_ratio", meaning: "elastic energy of conformity over the work of adhesion",
+        name: "elastic_energy_ratio", meaning: "elastic energy that flattens the roughness over the work of adhesion",
         symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
     }
     WorkOfAdhesion {

@@ -70,7 +70,8 @@ pub struct Answer {
 /// The condition is wrong; the error says what is allowed.
 ///
 /// ```
-/// use asperity_study::{Quantity, parse_condition};
+/// use asperity_study::Quantity;
+/// use asperity_study::plans::parse_condition;
 ///
 /// assert_eq!(parse_condition("F_a/F_a,max = 80 %"), Ok((Quantity::AdhesionShare, 0.8)));
 /// assert!(parse_condition("F_a/F_a,max = 120 %").unwrap_err().contains("allowed: from 0 to 1"));

@@ -9,8 +9,9 @@ use asperity_contact::Move;
 use asperity_data::printable;
 use asperity_data::slope;
 use asperity_scene::Governing;
+use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{CheckedScene, Roughness, Solver};
-use asperity_scene::{FEW_SAMPLES, Outcome, RunError, Simulation};
+use asperity_scene::{Outcome, RunError, Simulation};
 use asperity_surface::SurfaceError;
 use std::mem::take;
 

@@ -11,7 +11,7 @@ use super::resolved::{Resolved, of_scene};
 use super::spatial::{Body, Loads, Pressing, Pulling};
 use super::statistics::Statistics;
 use asperity_contact::{CurvePoint, Move};
-use asperity_data::{check_room, memory_size, on_threads};
+use asperity_data::{check_room, format_rounded, memory_size, on_threads};
 use asperity_scene::{CheckedScene, Outcome, Scene, Simulation};
 use serde::Serialize;
 use std::sync::mpsc::Sender;
@@ -27,6 +27,8 @@ const LEAST_CELLS: usize = 32;
 const LEAST_TIMED: f64 = 0.2;
 /// Factor of the time of a square with twice the cells along its side, without and with adhesion.
 const GROWTH: [f64; 2] = [6.5, 8.5];
+/// Longest time of a comparison, s: a day.
+const LONGEST: f64 = 86_400.0;
 
 /// Options of a comparison of profiles with random squares in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -135,15 +137,17 @@ pub enum ReferenceEvent {
         threads: usize,
         /// Memory of all threads, in bytes.
         bytes: u64,
-        /// Estimated computing time of all squares, s, from smaller squares.
+        /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
+        /// Adhesion force of each line in N, or without adhesion its indentation in m under the preload.
+        lines: Vec<f64>,
     },
     /// The computation of a square is finished.
     Square {
         /// Indentations in m and forces in N of the square.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N; `None` without adhesion.
-        adhesion_force: Option<f64>,
+        /// Adhesion force of the square in N, or without adhesion its indentation in m under the preload.
+        headline: f64,
     },
 }
 
@@ -167,7 +171,7 @@ impl Reference {
     ///
     /// # Errors
     /// The scene has no body in three dimensions, or no preload above zero. The number of cells is not allowed, the memory
-    /// does not suffice, or `stop` returned true.
+    /// does not suffice, the comparison takes more than a day, or `stop` returned true.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
@@ -207,6 +211,12 @@ impl Reference {
         });
         let bare = bare.map_err(|errors| of_scene(errors.into()))?;
         let forces = SHARES.map(|share| share * preload);
+        let depth =
+            own.figures.preload_indentation.unwrap_or(0.0) - own.figures.pull_off_indentation.unwrap_or(0.0);
+        let loads = (&forces[..], depth.abs() / STEPS);
+        let of_one = seconds_of_square(&resolved.body, (options.cells, seed), loads, &|| stop())?;
+        let seconds = of_one * options.maps.div_ceil(threads as u64) as f64;
+        check_time(&options, seconds, threads as f64 * LONGEST / of_one, resolved.body.works.is_some())?;
         let lines = on_threads(options.lines, jobs, || {
             let mut simulation = resolved.simulation();
             let (resolved, bare) = (&resolved, &bare);
@@ -219,14 +229,15 @@ impl Reference {
         })?;
         let of_lines = begun.elapsed().as_secs_f64();
 
-        let depth =
-            own.figures.preload_indentation.unwrap_or(0.0) - own.figures.pull_off_indentation.unwrap_or(0.0);
-        let loads = (&forces[..], depth.abs() / STEPS);
         let stop = || stop();
-        let of_one = seconds_of_square(&resolved.body, (options.cells, seed), loads, &stop)?;
-        let seconds = of_one * options.maps.div_ceil(threads as u64) as f64;
         let bytes = bytes * threads as u64;
-        report(ReferenceEvent::Begins { maps: options.maps, threads, bytes, seconds });
+        let is_adhesive = resolved.body.works.is_some();
+        let headline = |(points, outcome): &([CurvePoint; SHARES.len()], Outcome)| match is_adhesive {
+            true => outcome.figures.adhesion_force,
+            false => points.last().map(|point| point.indentation),
+        };
+        let headlines = lines.iter().filter_map(headline).collect();
+        report(ReferenceEvent::Begins { maps: options.maps, threads, bytes, seconds, lines: headlines });
         let begun = Instant::now();
         let body = &resolved.body;
         let worker = |sender: Sender<ReferenceEvent>| {
@@ -242,9 +253,9 @@ impl Reference {
                     fine.pressings.iter().zip(loads.0).map(|(found, force)| (found.indentation, *force));
                 let pulling = fine.pulling.as_ref();
                 let curve = pulling.map_or_else(|| pressed.collect(), |pulling| pulling.curve.clone());
-                let adhesion_force = pulling.map(|pulling| pulling.adhesion_force);
                 // The receiver lives until all threads have ended.
-                let _ = sender.send(ReferenceEvent::Square { curve, adhesion_force });
+                let headline = fine.headline().unwrap_or(f64::NAN);
+                let _ = sender.send(ReferenceEvent::Square { curve, headline });
                 Ok(OfSquare { fine, coarse, seconds })
             }
         };
@@ -287,7 +298,7 @@ impl Reference {
         };
         let adhesion_force = of(&|outcome| outcome.figures.adhesion_force, &|found| found.adhesion_force);
         let headline = adhesion_force.or(loading.last().map(|last| last.indentation));
-        let budget = budget(headline, squares, adhesion_force.is_some());
+        let budget = budget(headline, squares);
         Reference {
             waves: resolved.waves,
             omitted: resolved.omitted,
@@ -333,6 +344,27 @@ fn seconds_of_square(
     }
 }
 
+/// Refuses a comparison that takes longer than a day, in which there is time for `most` squares.
+fn check_time(
+    options: &ReferenceOptions,
+    seconds: f64,
+    most: f64,
+    is_adhesive: bool,
+) -> Result<(), StudyError> {
+    if seconds <= LONGEST {
+        return Ok(());
+    }
+    let ReferenceOptions { cells, maps, .. } = options;
+    let halvings = (seconds / LONGEST).log(GROWTH[usize::from(is_adhesive)]).ceil();
+    let grid = (*cells >> (halvings as u32).min(usize::BITS - 1)).max(LEAST_CELLS);
+    let squares = if most >= 1.0 { format!(", or at most {} squares", most as u64) } else { String::new() };
+    let days = format_rounded(seconds / LONGEST, 2, "1");
+    let squares_found = if *maps == 1 { "square takes" } else { "squares take" };
+    let found = format!("{maps} {squares_found} about {days} days, longer than one day");
+    let allowed = format!("at most {grid} cells along the side{squares}");
+    Err(StudyError::refused(Some(&format!("{cells} cells")), found, allowed))
+}
+
 /// Returns the point of a loading without adhesion at a force in N, between the samples of its curve.
 fn at_force(outcome: &Outcome, force: f64) -> CurvePoint {
     let curve = outcome.history.legs.first().map_or(&[][..], |leg| &leg.curve);
@@ -351,7 +383,10 @@ fn at_force(outcome: &Outcome, force: f64) -> CurvePoint {
 }
 
 /// Returns the statistics of both models and the ratio of their means; `None` without values.
-fn compared(line: impl Iterator<Item = f64>, square: impl Iterator<Item = f64>) -> Option<Compared> {
+pub(super) fn compared(
+    line: impl Iterator<Item = f64>,
+    square: impl Iterator<Item = f64>,
+) -> Option<Compared> {
     let bounds = Quantity::AdhesionForce.bounds();
     let [line, half_space] =
         [Statistics::of(line.collect(), bounds)?, Statistics::of(square.collect(), bounds)?];
@@ -363,12 +398,8 @@ fn compared(line: impl Iterator<Item = f64>, square: impl Iterator<Item = f64>) 
     Some(Compared { line, half_space, ratio: finite(ratio)?, error: error.and_then(finite) })
 }
 
-fn budget(headline: Option<Compared>, squares: &[OfSquare], is_adhesive: bool) -> ReferenceBudget {
-    let headline_of = |loads: &Loads| match &loads.pulling {
-        Some(pulling) if is_adhesive => Some(pulling.adhesion_force),
-        _ => Some(loads.pressings.last()?.indentation),
-    };
-    let of = |found: &OfSquare| headline_of(found.coarse.as_ref()?).zip(headline_of(&found.fine));
+fn budget(headline: Option<Compared>, squares: &[OfSquare]) -> ReferenceBudget {
+    let of = |found: &OfSquare| found.coarse.as_ref()?.headline().zip(found.fine.headline());
     let both: Option<Vec<(f64, f64)>> = squares.iter().map(of).collect();
     let grid = both.and_then(|both| {
         let (coarse, fine) = both.iter().fold((0.0, 0.0), |(a, b), (c, d)| (a + c, b + d));

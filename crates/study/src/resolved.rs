@@ -4,7 +4,7 @@ use super::error::StudyError;
 use super::spatial::{Body, Spectrum};
 use asperity_half_space::check_cells;
 use asperity_scene::{CheckedScene, Roughness, RunError, Scene, Simulation};
-use asperity_surface::MeasuredRoughness;
+use asperity_surface::lines::MeasuredRoughness;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 //! is half of the rms Laplacian. The equivalent profile has these moments by construction, C1D = πq C2D.
 
 use super::criterion::{Criterion, long_ranged, number};
-use asperity_scene::LEAST_TABOR_NUMBER;
+use asperity_scene::theory::LEAST_TABOR_NUMBER;
 use asperity_surface::{Amplitude, SelfAffine};
 use std::f64::consts::{E, PI, TAU};
 

@@ -26,8 +26,8 @@ const SYNC: Duration = Duration::from_millis(50);
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Progress of a run in records of its shard, which is its part of the plan. A record has the values of one cell on one
-/// profile.
+/// Progress of a run, counted in records of its shard. A shard is the part of a plan that one process computes, and a
+/// record has the values of one cell on one profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudyProgress {
     /// Number of records that exist now.

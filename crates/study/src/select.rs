@@ -30,7 +30,7 @@ pub struct Selection {
     /// Fix an axis at one of its values, as often as needed
     #[cfg_attr(feature = "clap", arg(long, value_name = "AXIS=VALUE", value_parser = axis_and_value))]
     pub at: Vec<(String, String)>,
-    /// Scale of quantities, linear or logarithmic
+    /// Scale of quantities
     ///
     /// By default the range of the values decides; small values have a second, logarithmic chart.
     #[cfg_attr(feature = "clap", arg(long, value_enum))]

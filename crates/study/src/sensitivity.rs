@@ -14,12 +14,9 @@ use asperity_data::median;
 use asperity_scene::{CheckedScene, Scene, Simulation};
 use std::cmp::Reverse;
 
-/// Share by which each number is decreased and increased.
-pub const STEP: f64 = 0.1;
-
 /// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`]; `None` for a result that the scene does not
 /// have.
-pub type Values = [Option<f64>; 3];
+type Values = [Option<f64>; 3];
 
 /// Results of a scene with one changed number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,6 +55,9 @@ pub struct Sensitivity {
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
+    /// Share by which each number is decreased and increased.
+    pub const STEP: f64 = 0.1;
+
     /// Results whose changes are computed.
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
@@ -182,9 +182,9 @@ impl Sensitivity {
     }
 }
 
-/// Returns a number that is changed by the share [`STEP`] up or down, a whole number by at least 1.
+/// Returns a number that is changed by the share [`Sensitivity::STEP`] up or down, a whole number by at least 1.
 fn changed(axis: &Axis, value: f64, sign: f64) -> f64 {
-    let step = STEP * value.abs();
+    let step = Sensitivity::STEP * value.abs();
     if axis.is_whole() { value + sign * step.round().max(1.0) } else { value + sign * step }
 }
 
@@ -211,7 +211,7 @@ mod tests {
         let found = sensitivity("jkr-sphere", 1);
         assert_eq!((found.range, found.profiles), (None, 1));
         for influence in &found.influences {
-            let expected = if matches!(influence.axis.symbol, "R" | "γ") { STEP } else { 0.0 };
+            let expected = if matches!(influence.axis.symbol, "R" | "γ") { Sensitivity::STEP } else { 0.0 };
             for ((_, side), sign) in influence.sides.iter().zip([-1.0, 1.0]) {
                 let Some(change) = side.and_then(|side| found.changes(&side.medians)[0]) else {
                     assert_eq!((influence.axis.symbol, sign), ("ν", 1.0), "only ν cannot grow");

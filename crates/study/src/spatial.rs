@@ -71,6 +71,16 @@ pub(super) struct Loads {
     pub convolutions: u64,
 }
 
+impl Loads {
+    /// The adhesion force, N, or without adhesion the indentation, m, under the last force.
+    pub fn headline(&self) -> Option<f64> {
+        match &self.pulling {
+            Some(pulling) => Some(pulling.adhesion_force),
+            None => Some(self.pressings.last()?.indentation),
+        }
+    }
+}
+
 impl Body {
     /// Returns the memory in bytes of the largest part of a computation.
     pub fn bytes(&self, cells: usize) -> u64 {

@@ -2,7 +2,8 @@
 
 use super::error::StudyError;
 use super::profiles::Stop;
-use super::reference::{Reference, ReferenceEvent, ReferenceOptions};
+use super::reference::{Compared, Reference, ReferenceEvent, ReferenceOptions, compared};
+use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
@@ -11,10 +12,12 @@ use asperity_scene::{CheckedScene, Simulation};
 pub struct SquareLoops {
     /// Number of squares when all are computed.
     pub maps: u64,
-    /// Indentation and force of each computed square, from first touch on.
-    pub curves: Vec<Vec<CurvePoint>>,
-    /// Adhesion forces of these squares, N; empty without adhesion.
-    pub adhesion_forces: Vec<f64>,
+    /// Indentation in m and force in N of each computed square, from first touch on.
+    pub curves: Vec<Vec<(f64, f64)>>,
+    /// Adhesion force of each line in N, or without adhesion the indentation in m under the preload.
+    pub lines: Vec<f64>,
+    /// The same number of each computed square.
+    pub squares: Vec<f64>,
     /// Comparison with random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
 }
@@ -34,12 +37,10 @@ impl SquareLoops {
         let mut loops = SquareLoops::default();
         let mut take_in = |event| {
             match event {
-                ReferenceEvent::Begins { maps, .. } => loops.maps = maps,
-                ReferenceEvent::Square { curve, adhesion_force } => {
-                    let point =
-                        |(indentation, force)| CurvePoint { indentation, force, ..CurvePoint::default() };
-                    loops.curves.push(curve.into_iter().map(point).collect());
-                    loops.adhesion_forces.extend(adhesion_force);
+                ReferenceEvent::Begins { maps, lines, .. } => (loops.maps, loops.lines) = (maps, lines),
+                ReferenceEvent::Square { curve, headline } => {
+                    loops.curves.push(curve);
+                    loops.squares.push(headline);
                 }
             }
             report(&loops);
@@ -47,6 +48,57 @@ impl SquareLoops {
         let reference = Reference::of(scene, options, simulation, stop, &mut take_in)?;
         Ok(SquareLoops { reference: Some(reference), ..loops })
     }
+
+    /// The adhesion force, or without adhesion the indentation under the preload, of the lines and of the squares so far;
+    /// `None` before the first square.
+    pub fn headline(&self) -> Option<Compared> {
+        compared(self.lines.iter().copied(), self.squares.iter().copied())
+    }
+
+    /// Curves of the mean force of the squares so far less and plus its standard deviation, and of the mean, as
+    /// (lower, mean, upper): one for the loading, and with adhesion one for the unloading. They end at the indentation
+    /// that all squares reach.
+    pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
+        let stages = |curve: &Vec<(f64, f64)>| {
+            let deepest = (0..curve.len()).max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0)).unwrap_or(0);
+            // A separated square has no force, and the first point of a loading is first touch.
+            let mut loading = curve[..curve.len().min(deepest + 1)].to_vec();
+            if loading.first().is_some_and(|first| first.0 > 0.0) {
+                loading.insert(0, (0.0, 0.0));
+            }
+            [loading, curve.iter().skip(deepest).rev().copied().collect()]
+        };
+        let stages: Vec<[Vec<(f64, f64)>; 2]> = self.curves.iter().map(stages).collect();
+        let band = |stage: usize| {
+            let parts: Vec<_> = stages.iter().map(|of| &of[stage]).filter(|part| part.len() > 1).collect();
+            let low = parts.iter().map(|part| part[0].0).min_by(f64::total_cmp)?;
+            let high = parts.iter().map(|part| part[part.len() - 1].0).min_by(f64::total_cmp)?;
+            let mut band = [const { Vec::new() }; 3];
+            for at in 0..=BAND_POINTS {
+                let indentation = low + (high - low) * at as f64 / BAND_POINTS as f64;
+                let forces = parts.iter().map(|part| force_at(part, indentation)).collect();
+                let forces = Statistics::of(forces, (f64::NEG_INFINITY, f64::INFINITY))?;
+                let spread = forces.spread.map_or(0.0, |spread| spread.standard_deviation);
+                for (curve, sign) in band.iter_mut().zip([-1.0, 0.0, 1.0]) {
+                    let force = forces.mean + sign * spread;
+                    curve.push(CurvePoint { indentation, force, ..CurvePoint::default() });
+                }
+            }
+            Some(band)
+        };
+        (0..2).filter_map(band).collect()
+    }
+}
+
+/// Steps of a band.
+const BAND_POINTS: usize = 100;
+
+/// The force, N, at an indentation, m, between points in the order of their indentations.
+fn force_at(points: &[(f64, f64)], indentation: f64) -> f64 {
+    let after = points.partition_point(|point| point.0 < indentation).clamp(1, points.len() - 1);
+    let [one, other] = [points[after - 1], points[after]];
+    let share = ((indentation - one.0) / (other.0 - one.0)).clamp(0.0, 1.0);
+    if share.is_nan() { one.1 } else { one.1 + share * (other.1 - one.1) }
 }
 
 #[cfg(test)]
@@ -62,11 +114,40 @@ mod tests {
         let simulation = (Simulation::default(), 1);
         let loops = SquareLoops::of(scene.scene(), simulation, &|| false, &mut report).unwrap();
         assert_eq!(counts, [(1, 0), (1, 1)]);
-        let lowest = loops.curves[0].iter().map(|point| -point.force).fold(0.0, f64::max);
-        assert_eq!(vec![lowest], loops.adhesion_forces);
-        let ratio = loops.reference.unwrap().adhesion_force.unwrap().ratio;
+        let lowest = loops.curves[0].iter().map(|point| -point.1).fold(0.0, f64::max);
+        assert_eq!(vec![lowest], loops.squares);
+        let compared = loops.reference.as_ref().unwrap().adhesion_force;
+        assert_eq!(compared, loops.headline());
+        let ratio = compared.unwrap().ratio;
         assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
+        assert_eq!(loops.bands().len(), 2);
         let stopped = SquareLoops::of(scene.scene(), (Simulation::default(), 1), &|| true, &mut |_| ());
         assert!(stopped.is_err());
+    }
+
+    #[test]
+    fn a_band_has_the_mean_and_the_standard_deviation() {
+        let pulled = |factor: f64| {
+            let points = [(0.0, -1.0), (2.0, 3.0), (1.0, 1.0), (-1.0, -2.0), (-2.0, 0.0)];
+            points.map(|(indentation, force)| (indentation, factor * force)).to_vec()
+        };
+        let loops = SquareLoops { curves: vec![pulled(1.0), pulled(3.0)], ..SquareLoops::default() };
+        let [loading, unloading] = <[_; 2]>::try_from(loops.bands()).unwrap();
+        let at = |band: &[Vec<CurvePoint>; 3], index: usize| {
+            let [lower, mean, upper] = band.each_ref().map(|curve| curve[index].force);
+            (band[1][index].indentation, mean, upper - mean, mean - lower)
+        };
+        let root = 2.0_f64.sqrt();
+        assert_eq!(at(&loading, 0).0, 0.0);
+        assert_eq!(at(&loading, 0).1, -2.0);
+        assert_eq!(at(&unloading, 100).0, 2.0);
+        let (indentation, mean, up, down) = at(&unloading, 25);
+        assert_eq!((indentation, mean), (-1.0, -4.0));
+        assert!((up - 2.0 * root).abs() < 1e-12 && (down - 2.0 * root).abs() < 1e-12, "{up} {down}");
+        // Without adhesion there is a loading alone, which begins at first touch.
+        let pressed = SquareLoops { curves: vec![vec![(1.0, 2.0), (2.0, 4.0)]], ..SquareLoops::default() };
+        let bands = pressed.bands();
+        assert_eq!((bands.len(), at(&bands[0], 25)), (1, (0.5, 1.0, 0.0, 0.0)));
+        assert!(SquareLoops::default().bands().is_empty());
     }
 }

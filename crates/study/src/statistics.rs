@@ -43,7 +43,7 @@ pub struct Spread {
 }
 
 /// Function that returns the value in a column of a table of statistics; `None` if it is unknown.
-pub type Column = fn(&Statistics) -> Option<f64>;
+type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
     /// Computes the statistics of values of a quantity; `None` without values. `bounds` are the smallest and the largest

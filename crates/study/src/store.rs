@@ -12,7 +12,7 @@ use super::recorder::Recorded;
 use super::shard::Shard;
 use asperity_data::{WriteError, open_regular, read_regular_text, sync_folder, write_new};
 use asperity_data::{path_name, printable};
-use asperity_scene::LONGEST_TEXT;
+use asperity_scene::text::LONGEST_TEXT;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::fs;
@@ -85,7 +85,8 @@ impl Folder {
     /// The folder contains another plan or cannot be written. A measured file has changed or cannot be read.
     ///
     /// ```
-    /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, Status, merge, run_study};
+    /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, merge, run_study};
+    /// use asperity_study::folders::Status;
     ///
     /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "256")?;
     /// let plan = Plan::new(&scene, &[("adhesion.work", &[0.01, 0.02])], 1, &[Quantity::AdhesionForce])?;

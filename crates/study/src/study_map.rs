@@ -8,7 +8,7 @@ use super::live_plan::live_plan;
 use super::place::{governing, moved, press, scene_with};
 use super::plan::Plan;
 use super::results::Results;
-use asperity_scene::FEW_SAMPLES;
+use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 

@@ -183,7 +183,7 @@ impl Results {
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(RESULTS);
-        let merge = asperity_scene::quoted(folder.display().to_string());
+        let merge = asperity_scene::text::quoted(folder.display().to_string());
         let again = format!("asperity sweep merge {merge} makes it again");
         let wrong = |reason: String| StudyError::folder(&path, format!("{reason}; {again}"));
         let file = open_regular(&path).map_err(|error| match error {

@@ -8,27 +8,39 @@ mod spectrum;
 mod topography;
 
 pub use error::{Place, SurfaceError};
-pub use line::equivalent::{EquivalentLine, MeasuredRoughness};
-pub use line::form::{Form, power_law_factor, struve_0};
-pub use line::measured::{Face, MeasuredOptions, MeasuredProfile, read_faces};
-pub use line::modes::phases;
-pub use line::rigid_line::{Histogram, Line};
-pub use line::roughness::Synthesizer;
+pub use line::equivalent::EquivalentLine;
+pub use line::form::Form;
 pub use line::spectrum::{Amplitude, SelfAffine};
-pub use line::table::{FormTable, Rows};
+pub use line::table::FormTable;
 pub use spectrum::analysis::{Analysis, AnalysisOptions, analyse};
 pub use spectrum::fit::SelfAffineFit;
-pub use spectrum::isotropic::{End, IsotropicSpectrum, LineMoments, Moment, Node, ValueWithError};
-pub use spectrum::periodogram::{Along, Bin, line_spectrum};
+pub use spectrum::isotropic::{LineMoments, Moment, ValueWithError};
 pub use spectrum::statistics::PointStatistics;
 pub use topography::Unit;
 pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Content of files for other readers: bytes, gzip and columns of NumPy arrays, as readers of force curves need them.
+/// Reading of bytes, gzip and columns of NumPy arrays, for readers of other files such as force curves.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;
     pub use crate::topography::open::{content, unpacked};
+}
+
+/// Lines of random and measured roughness: for the computation of a scene on them.
+pub mod lines {
+    pub use crate::line::equivalent::MeasuredRoughness;
+    pub use crate::line::form::{power_law_factor, struve_0};
+    pub use crate::line::measured::{Face, MeasuredOptions, MeasuredProfile, read_faces};
+    pub use crate::line::modes::phases;
+    pub use crate::line::rigid_line::{Histogram, Line};
+    pub use crate::line::roughness::Synthesizer;
+    pub use crate::line::table::Rows;
+}
+
+/// Powers by wavenumber: for figures of measured spectra.
+pub mod spectra {
+    pub use crate::spectrum::isotropic::{End, IsotropicSpectrum, Node};
+    pub use crate::spectrum::periodogram::{Along, Bin, line_spectrum};
 }

@@ -4,7 +4,7 @@ use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use asperity_report::Format;
 use asperity_scene::RoughnessParameter;
-use asperity_study::{USUAL_LEVELS, boundaries};
+use asperity_study::maps::{USUAL_LEVELS, boundaries};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ Examples:
 F_a(d=0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
 profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
 the profiles.
---x gives the boundary in e_el/γ, the elastic energy of conformity over the work of adhesion.";
+--x gives the boundary in e_el/γ: elastic energy to flatten the roughness over work of adhesion.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]

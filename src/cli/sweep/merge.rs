@@ -2,7 +2,8 @@
 
 use crate::cli::error::CliError;
 use asperity_data::path_name;
-use asperity_study::{Folder, Merged, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
+use asperity_study::folders::{Merged, RESULTS, SIDECAR, SUMMARY};
+use asperity_study::{Folder, merge as merge_records};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;

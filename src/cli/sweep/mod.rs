@@ -4,7 +4,7 @@ mod boundary;
 mod merge;
 mod plans;
 mod plot;
-mod run;
+pub(super) mod run;
 mod status;
 mod submit;
 

@@ -4,7 +4,8 @@ use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
 use asperity_data::object;
 use asperity_report::Sheet;
-use asperity_study::{Changes, PLANS, Plan};
+use asperity_study::plans::PLANS;
+use asperity_study::{Changes, Plan};
 use clap::Args;
 use std::io::Write;
 

@@ -6,7 +6,8 @@ use crate::cli::progress::ProgressLine;
 use crate::cli::scene::{Overrides, threads};
 use asperity_data::memory_size;
 use asperity_report::progress_text;
-use asperity_study::{Changes, Folder, Plan, Shard, Status, merge, run_study};
+use asperity_study::folders::Status;
+use asperity_study::{Changes, Folder, Plan, Shard, merge, run_study};
 use clap::Args;
 use std::io;
 use std::io::Write;
@@ -85,9 +86,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         let (done, total) = (ended.done, ended.total);
         let stopped =
             format!("stopped: {done} of {total} records are complete; the same command continues the study");
-        // As in shells.
-        let exit_code = 128 + u8::try_from(signal()).unwrap_or_default();
-        return Err(CliError { exit_code, ..CliError::message(stopped) });
+        return Err(CliError::interrupted(&stop, stopped));
     }
     if arguments.shard.is_some() {
         let _ = writeln!(stderr, "all {} records of shard {} exist", ended.total, shard);
@@ -100,7 +99,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
 }
 
 /// Returns the number of the first signal that asks the process to end, 0 until then; a second signal ends it at once.
-fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
+pub(in crate::cli) fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
     let first = Arc::new(AtomicUsize::new(0));
     #[cfg(unix)]
     {

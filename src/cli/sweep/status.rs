@@ -3,7 +3,8 @@
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
 use asperity_report::status_text;
-use asperity_study::{Folder, Status};
+use asperity_study::Folder;
+use asperity_study::folders::Status;
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;

@@ -9,7 +9,7 @@ use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
 use crate::cli::typed::program_path;
 use asperity_data::{is_control, path_name, printable_lines};
-use asperity_scene::quoted;
+use asperity_scene::text::quoted;
 use asperity_study::{Changes, Folder, Plan};
 use clap::Args;
 use std::ffi::OsString;

@@ -10,9 +10,11 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Study, ensemble_key};
 use asperity_data::parallel::threads;
+use asperity_scene::discretisation::{Choice, ChoiceError, choose, parse_tolerance};
 use asperity_scene::{CheckedScene, Document};
-use asperity_scene::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
-use asperity_study::{Ensemble, SquareLoops};
+use asperity_scene::{Estimate, estimate};
+use asperity_study::Ensemble;
+use asperity_study::half_space::SquareLoops;
 use std::path::Path;
 use std::sync::Arc;
 

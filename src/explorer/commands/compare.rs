@@ -4,7 +4,7 @@ use super::edit;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::ghost::{Ghost, letter};
-use asperity_study::SquareLoops;
+use asperity_study::half_space::SquareLoops;
 use std::sync::Arc;
 
 /// Largest number of kept scenes: each has a colour of its own.

@@ -9,7 +9,8 @@ use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
 use crate::explorer::prompt::{Aim, Prompt, Purpose, Topic};
-use asperity_scene::{Entry, presets, typed_path};
+use asperity_scene::library::{Entry, typed_path};
+use asperity_scene::presets;
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::InputRequest;
 

@@ -16,10 +16,10 @@ use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
 use asperity_contact::Move;
 use asperity_data::{exact_quantity, parse_quantity};
-use asperity_scene::{
-    Adhesion, Document, Range, RoughnessParameter, SceneErrors, Solver, Step, kind_and_number, loading_text,
-    pressing_force, read_stage, ron_float,
-};
+use asperity_scene::fields::{Range, Step};
+use asperity_scene::loading::{kind_and_number, loading_text, pressing_force, read_stage};
+use asperity_scene::text::ron_float;
+use asperity_scene::{Adhesion, Document, RoughnessParameter, SceneErrors, Solver};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::InputRequest;
 

@@ -8,7 +8,8 @@ use crate::explorer::measured::Measured;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
 use asperity_report::{Format, check_extension};
-use asperity_scene::{Document, command_line, presets, quoted};
+use asperity_scene::text::{command_line, quoted};
+use asperity_scene::{Document, presets};
 use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {

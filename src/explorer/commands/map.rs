@@ -6,7 +6,8 @@ use crate::explorer::app::App;
 use crate::explorer::keys::key::direction;
 use crate::explorer::map::OpenStudy;
 use asperity_scene::{Document, SceneErrors};
-use asperity_study::{Axis, GridPlace, live_plan, moved};
+use asperity_study::Axis;
+use asperity_study::maps::{GridPlace, live_plan, moved};
 use crossterm::event::{KeyCode, KeyEvent};
 use std::sync::Arc;
 

@@ -10,7 +10,7 @@ use crate::explorer::opening::{Opened, Opening};
 use crate::explorer::pane::Pane;
 use crate::explorer::theme::Appearance;
 use asperity_report::LoopQuantities;
-use asperity_study::StudyMap;
+use asperity_study::maps::StudyMap;
 use std::sync::Arc;
 
 /// Creates the state of an explorer in a window of this size, opened with the arguments of the program.

@@ -6,7 +6,8 @@ use crate::explorer::parameters::Setting;
 use crate::explorer::player::{At, Player};
 use asperity_contact::Move;
 use asperity_data::round_to;
-use asperity_scene::{Document, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
+use asperity_scene::loading::{STAGE_KINDS, StageKind, kind_and_number};
+use asperity_scene::{Document, SceneErrors};
 
 /// Loading stages; a stage of the present loading has its index in it.
 type Stages = Vec<(Option<usize>, Move)>;
@@ -111,7 +112,7 @@ fn pressing_force(app: &App) -> f64 {
     let given = [&app.edit.document]
         .into_iter()
         .chain(before)
-        .map(|document| asperity_scene::pressing_force(&document.scene().loading));
+        .map(|document| asperity_scene::loading::pressing_force(&document.scene().loading));
     let computed = app.current().map_or(0.0, |solved| {
         round_to(
             solved.outcome.figures.preload.unwrap_or_default().max(0.01 * solved.reach.full_contact.0),

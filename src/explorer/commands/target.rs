@@ -9,8 +9,9 @@ use crate::explorer::studies::Study;
 use asperity_contact::Move;
 use asperity_data::parallel::threads;
 use asperity_report::found_in_words;
-use asperity_scene::ron_float;
-use asperity_study::{Ensemble, Found, Question, parse_condition};
+use asperity_scene::text::ron_float;
+use asperity_study::plans::parse_condition;
+use asperity_study::{Ensemble, Found, Question};
 use std::sync::Arc;
 
 /// The target that the prompt proposes.

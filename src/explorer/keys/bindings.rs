@@ -1,7 +1,7 @@
 //! The rows of the table of keys, and the keys in use, from the table or from the configuration.
 
 use super::key::Key;
-use asperity_scene::nearest;
+use asperity_scene::text::nearest;
 use crossterm::event::KeyEvent;
 use std::fmt;
 

@@ -8,14 +8,14 @@ use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning};
 use crate::explorer::text::counted;
 use crate::explorer::theme::Meaning;
+use asperity_contact::points::{Mark, marks};
 use asperity_contact::{CurvePoint, Direction};
-use asperity_contact::{Mark, marks};
 use asperity_data::{AxisScale, format_rounded, grouped};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
-use asperity_scene::LEAST_TABOR_NUMBER;
-use asperity_scene::quoted;
-use asperity_study::SquareLoops;
+use asperity_scene::text::quoted;
+use asperity_scene::theory::LEAST_TABOR_NUMBER;
+use asperity_study::half_space::SquareLoops;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::f64::consts::PI;
@@ -256,11 +256,14 @@ fn chart(app: &App) -> Option<Chart> {
         stroke: Some(Stroke::Sparse),
         ..unmarked(&ghost.outcome)
     });
-    let squares = app.studies.value::<SquareLoops>().filter(|_| app.view.squares);
-    let squares = squares.into_iter().flat_map(|loops| &loops.curves).map(|curve| ForceLoop {
+    let squares = app.studies.value::<SquareLoops>().filter(|_| app.view.squares && units.shows_force());
+    let bands = squares.map_or_else(Vec::new, SquareLoops::bands);
+    let edges =
+        bands.iter().flat_map(|band| band.iter().zip([Stroke::Sparse, Stroke::Solid, Stroke::Sparse]));
+    let squares = edges.map(|(curve, stroke)| ForceLoop {
         curves: vec![(Direction::Unloading, curve)],
         ink: Some(Ink::Kept),
-        stroke: Some(Stroke::Sparse),
+        stroke: Some(stroke),
         ..ForceLoop::new(&[])
     });
     let tried = app.tried_outcome().map(|outcome| ForceLoop {
@@ -299,6 +302,10 @@ fn chart(app: &App) -> Option<Chart> {
         layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
     }
     // Below the curves, which stay whole.
+    for [lower, _, upper] in &bands {
+        let border = lower.iter().chain(upper.iter().rev()).map(|point| units.place(point)).collect();
+        chart.layers.insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
+    }
     if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
         let border = app.legs().iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
         chart.layers.insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));

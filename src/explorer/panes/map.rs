@@ -12,7 +12,8 @@ use asperity_data::grouped;
 use asperity_data::{format_range, format_rounded};
 use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use asperity_report::{study_curves, study_figure, study_map};
-use asperity_study::{Axis, Grid, GridCell, GridPlace, LiveMap, MAP_LINES, Quantity, Statistics, live_plan};
+use asperity_study::maps::{Grid, GridCell, GridPlace, LiveMap, MAP_LINES, live_plan};
+use asperity_study::{Axis, Quantity, Statistics};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 

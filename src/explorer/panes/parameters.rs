@@ -13,7 +13,8 @@ use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
 use asperity_data::{format_quantity, unit_of};
-use asperity_scene::{Effect, FIELDS, Field, Range, Roughness};
+use asperity_scene::Roughness;
+use asperity_scene::fields::{Effect, FIELDS, Field, Range};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 

@@ -12,7 +12,7 @@ use asperity_data::AxisScale;
 use asperity_data::format_quantity;
 use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span, Stroke, prefixed};
 use asperity_report::Part as LinePart;
-use asperity_surface::Histogram;
+use asperity_surface::lines::Histogram;
 use std::f64::consts::TAU;
 
 pub static ROW: PaneRow = PaneRow {

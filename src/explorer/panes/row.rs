@@ -7,7 +7,7 @@ use crate::explorer::studies::Study;
 use asperity_plot::Figure;
 use asperity_report::Report;
 use asperity_report::{PathReport, RunReport};
-use asperity_study::MeasuredAdhesion;
+use asperity_study::trust::MeasuredAdhesion;
 use ratatui::layout::Size;
 use std::borrow::Cow;
 use std::sync::Arc;

@@ -10,7 +10,7 @@ use asperity_data::format_quantity;
 use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
 use asperity_report::Report;
 use asperity_report::{Part as LinePart, Section};
-use asperity_scene::LineFacts;
+use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
 
 /// Panel of a section over the position; `z` is the range of heights, m. Beside its title are the readings of the

@@ -17,8 +17,9 @@ use asperity_data::{format_quantity, format_range, format_rounded};
 use asperity_experiment::FitResult;
 use asperity_report::square_loops_words;
 use asperity_scene::Estimate;
-use asperity_scene::SteepWaves;
-use asperity_study::{Ensemble, Quantity, SquareLoops};
+use asperity_scene::theory::SteepWaves;
+use asperity_study::half_space::SquareLoops;
+use asperity_study::{Ensemble, Quantity};
 use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
@@ -208,8 +209,8 @@ fn squares(app: &App) -> (String, Meaning) {
     match app.studies.failure::<SquareLoops>() {
         Some(why) => (format!("three dimensions: {why}"), Meaning::Error),
         None => {
-            let words = square_loops_words(app.studies.value().unwrap_or(&SquareLoops::default()));
-            (words, Meaning::Title)
+            let (loops, is_adhesive) = (app.studies.value(), app.edit.scene.adhesion.is_some());
+            (square_loops_words(loops.unwrap_or(&SquareLoops::default()), is_adhesive), Meaning::Title)
         }
     }
 }

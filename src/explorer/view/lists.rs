@@ -6,7 +6,7 @@ use crate::explorer::panel::{Body, Panel};
 use crate::explorer::prompt::{Prompt, Topic};
 use crate::explorer::text::{fitted, wrapped};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
-use asperity_scene::{Entry, Source};
+use asperity_scene::library::{Entry, Source};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};

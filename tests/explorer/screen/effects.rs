@@ -1,7 +1,8 @@
 //! Effects switched on and off, and the two forms of adhesion.
 
 use super::*;
-use asperity::scene::{Adhesion, Effect};
+use asperity::scene::Adhesion;
+use asperity::scene::fields::Effect;
 
 /// The text of the selected row.
 fn row(driver: &Driver) -> String {

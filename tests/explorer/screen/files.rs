@@ -3,7 +3,7 @@
 use super::*;
 use asperity::explorer::action::{Content, OutputFile};
 use asperity::explorer::theme::Marker;
-use asperity::scene::command_line;
+use asperity::scene::text::command_line;
 use asperity_report::RunReport;
 use asperity_report::scene_provenance;
 use asperity_report::{Format, write};

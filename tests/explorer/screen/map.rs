@@ -3,7 +3,7 @@
 use super::*;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::map::Live;
-use asperity::study::{LiveMap, MAP_LINES, live_plan};
+use asperity::study::maps::{LiveMap, MAP_LINES, live_plan};
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
 fn set(map: &mut LiveMap, cell: u64) {

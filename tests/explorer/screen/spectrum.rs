@@ -1,7 +1,7 @@
 //! The pane of spectra.
 
 use super::*;
-use asperity::study::MeasuredAdhesion;
+use asperity::study::trust::MeasuredAdhesion;
 use asperity_report::SceneSpectra;
 
 /// A scene of a measured profile of 512 µm, with its file.

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::contact::Move;
-use asperity::scene::to_ron;
+use asperity::scene::text::to_ron;
 
 /// The rough scene with a loading, the row of one of its stages selected, of the loading as a whole for 0.
 fn loaded(loading: &str, stage: usize) -> Driver {

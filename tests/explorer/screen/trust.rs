@@ -4,8 +4,9 @@ use super::*;
 use asperity::contact::Edges;
 use asperity::explorer::commands::accuracy::Choosing;
 use asperity::explorer::panes::trust::Costs;
-use asperity::scene::{
-    Choice, ChoiceError, CostReference, CostTable, ErrorFigure, Estimate, Evidence, Knob, Row, Target, Timing,
+use asperity::scene::Estimate;
+use asperity::scene::discretisation::{
+    Choice, ChoiceError, CostReference, CostTable, ErrorFigure, Evidence, Knob, Row, Target, Timing,
 };
 
 /// Springs of 4e-4 at best, as found by a search.

@@ -1,7 +1,8 @@
 //! Plans of studies: read, written and read back.
 
 use super::*;
-use asperity::study::{Axis, Changes, DERIVED, MOST_CELLS, Plan, Quantity};
+use asperity::study::plans::{DERIVED, MOST_CELLS};
+use asperity::study::{Axis, Changes, Plan, Quantity};
 
 /// Name of a plan in messages.
 const NAME: &str = "drawn.ron";

@@ -3,8 +3,10 @@
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
 use asperity::contact::{Edges, Move};
-use asperity::scene::{BeyondFullContact, Outcome, RunError, Simulation};
-use asperity::scene::{Roughness, target_field};
+use asperity::scene::Roughness;
+use asperity::scene::fields::target_field;
+use asperity::scene::stages::BeyondFullContact;
+use asperity::scene::{Outcome, RunError, Simulation};
 use asperity::surface::Form;
 use asperity::surface::{Place, SurfaceError};
 use std::time::{Duration, Instant};

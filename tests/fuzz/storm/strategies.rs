@@ -1,9 +1,10 @@
 //! Strategies for random scenes, which draw every field of the table of fields.
 
 use asperity::data::is_control;
-use asperity::scene::{
-    DEFAULT, Document, FIELDS, Field, LEG_FIELDS, Range, find_scene, ron_float, ron_string,
-};
+use asperity::scene::Document;
+use asperity::scene::fields::{FIELDS, Field, LEG_FIELDS, Range};
+use asperity::scene::library::{DEFAULT, find_scene};
+use asperity::scene::text::{ron_float, ron_string};
 use proptest::prelude::*;
 
 /// Most elements of a drawn list; longer lists add time and no other case.

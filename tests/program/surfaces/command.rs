@@ -156,7 +156,7 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
         // The moments of the analysis, and those of the line on springs: bit for bit.
         let document = asperity::scene::open(place.path().join(&scene).to_str().unwrap()).unwrap();
         let faces = document.scene().measured_paths(&document.resolve(""));
-        let faces = asperity::surface::read_faces(&faces).unwrap();
+        let faces = asperity::surface::lines::read_faces(&faces).unwrap();
         let measured = document.scene().measured_options();
         let moments = asperity::surface::EquivalentLine::new(&faces, &measured).unwrap().moments();
         for (name, found) in [

@@ -2,7 +2,8 @@
 //! text.
 
 use super::{SMALL, compute, computed, plan, shard_files, study, tables};
-use asperity::study::{Folder, Shard, Status, merge};
+use asperity::study::folders::Status;
+use asperity::study::{Folder, Shard, merge};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;

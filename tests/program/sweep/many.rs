@@ -1,7 +1,8 @@
 //! Studies of many shards: few files are open at a time, and each table is whole.
 
 use super::{SMALL, compute, computed, plan, shard_files, study, tables};
-use asperity::study::{Folder, RESULTS, Results, SIDECAR, SUMMARY, Shard, Status, merge};
+use asperity::study::folders::{RESULTS, SIDECAR, SUMMARY, Status};
+use asperity::study::{Folder, Results, Shard, merge};
 use std::fs;
 use std::process::Command;
 

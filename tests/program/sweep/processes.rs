@@ -1,7 +1,8 @@
 //! Processes that are killed, stopped, or out of disk space: no record is lost or counted twice.
 
 use super::{cases, plan, tables, undisturbed};
-use asperity::study::{Folder, Status};
+use asperity::study::Folder;
+use asperity::study::folders::Status;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::fs;

@@ -74,7 +74,7 @@ fn too_many_cells_are_refused_at_once() {
 fn scenes_stand_beside_their_plans() {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path();
-    let preset = asperity::scene::find_scene("rough-sphere").unwrap().text;
+    let preset = asperity::scene::library::find_scene("rough-sphere").unwrap().text;
     std::fs::write(folder.join("mine.ron"), preset).unwrap();
     let text =
         "(version: 1, base: \"mine.ron\", set: {\"roughness.seed\": \"7\"}, profiles: 2, record: [regime])";

@@ -65,8 +65,8 @@ impl Span {
         Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
     }
 
-    /// Returns the index of the wall. Of the two springs beside the span, it is the spring with the smaller gap, which attaches
-    /// next. `None` if the span fills the profile.
+    /// Returns the index of the wall. The wall is the spring with the smaller gap of the two springs beside the span; it
+    /// attaches next. `None` if the span fills the profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         match (self.first.checked_sub(1), gaps.get(self.last + 1)) {

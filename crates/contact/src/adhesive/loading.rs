@@ -10,7 +10,8 @@ use std::borrow::Cow;
 /// Closing thresholds of the nodes of a contact tree, for a loading from separation.
 ///
 /// A node closes when one of its two branches attaches the spring of the node. All springs of its subtree are then one patch.
-/// The threshold of node v is s_v = min over its branches u of max(s_u, φ on each span from u up to v).
+/// The threshold of node v is s_v = min over its branches u of max(s_u, φ on each span from u up to v), with φ of the module
+/// `run`.
 #[derive(Debug)]
 pub struct Closing {
     /// Indentation in m at which each node closes.

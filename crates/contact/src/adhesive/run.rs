@@ -1,5 +1,5 @@
-//! Runs: patches over ranges of indentation in which their edges move without a jump. Also the two edge models, which give the
-//! length of a patch, its next attachment and its next detachment.
+//! Runs: patches over ranges of indentation in which their edges move without a jump. The two edge models give the length of a
+//! patch, its next attachment and its next detachment.
 //!
 //! A patch grows from span to span. On each span its level lies between the largest gap of the span and the gap of the wall,
 //! the spring that attaches next. The level gives the length ℓ, the only input of the rule of Hess. The largest stretch is

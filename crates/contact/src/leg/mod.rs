@@ -18,7 +18,8 @@ use std::sync::Arc;
 /// A leg remains valid after the body has moved on, and its clones share their memory.
 ///
 /// ```
-/// use asperity_contact::{Contact, Leg, Modulus, Profile};
+/// use asperity_contact::{Contact, Modulus, Profile};
+/// use asperity_contact::motion::Leg;
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -260,8 +261,8 @@ impl Leg {
         together.filter(|events| jump(events) >= least).map(|events| events[0].0).collect()
     }
 
-    /// Returns for each spring of the profile the smallest indentation in m at which it is in contact: −∞ for always, +∞ for
-    /// never.
+    /// Returns for each spring of the profile the smallest indentation in m at which the spring is in contact: −∞ for always,
+    /// +∞ for never.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {

@@ -2,9 +2,10 @@
 
 #![allow(dead_code, reason = "no test uses all of it")]
 
+use asperity_contact::motion::load_body;
 use asperity_contact::{
     self as contact, Contact, ContactBuilder, CurvePoint, Edges, History, LegRecord, Modulus, Move, Patch,
-    Profile, load_body,
+    Profile,
 };
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -81,13 +82,13 @@ impl Body {
     }
 
     /// The separated body in the exact solver.
-    pub fn on(&self, samples: usize) -> contact::Body {
-        contact::Body::new(&self.contact(), samples)
+    pub fn on(&self, samples: usize) -> contact::motion::Body {
+        contact::motion::Body::new(&self.contact(), samples)
     }
 
     /// The separated body in the exact solver, without adhesion.
-    pub fn bare(&self, samples: usize) -> contact::Body {
-        contact::Body::new(&self.foundation.contact(&self.gaps, self.edges, [0.0; 2]), samples)
+    pub fn bare(&self, samples: usize) -> contact::motion::Body {
+        contact::motion::Body::new(&self.foundation.contact(&self.gaps, self.edges, [0.0; 2]), samples)
     }
 
     pub fn history(&self, targets: &[Move], samples: usize) -> History {
@@ -122,7 +123,7 @@ impl Body {
     }
 
     /// A drawn target of this body in a solver.
-    pub fn target(&self, (target, from_here): Drawn, solver: &contact::Body) -> Move {
+    pub fn target(&self, (target, from_here): Drawn, solver: &contact::motion::Body) -> Move {
         let Move::ToForce(share) = target else { return target };
         Move::ToForce(share * self.force_scale() + if from_here { solver.point().force } else { 0.0 })
     }

@@ -122,7 +122,7 @@ fn count(index: usize, number: usize) {
 /// Moves a body and its blind relaxation to targets and compares them at probes on the way, which are shares of it.
 fn compare(body: &Body, order: Order, drawn: &[((Move, bool), Vec<f64>)]) -> Result<(), TestCaseError> {
     let (mut solver, mut blind) = (body.on(2), Blind::new(body, order));
-    let agree = |solver: &contact::Body, blind: &Blind, d: f64| {
+    let agree = |solver: &contact::motion::Body, blind: &Blind, d: f64| {
         prop_assert_eq!(solver.leg().patches(d), blind.patches(), "at {}", d);
         count(0, 1);
         count(1, body.gaps.len());

@@ -2,7 +2,8 @@
 //! history of a few springs against the bare rules.
 
 use super::body::Foundation;
-use asperity_contact::{Body, ContactError, Edges, Move, MovingBody, Patch};
+use asperity_contact::motion::{Body, MovingBody};
+use asperity_contact::{ContactError, Edges, Move, Patch};
 use std::f64::consts::PI;
 
 const SPACING: f64 = 0.01;

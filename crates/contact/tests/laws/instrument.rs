@@ -2,8 +2,8 @@
 
 use super::*;
 
-fn on(body: &Body, stiffness: f64) -> contact::Body {
-    contact::Body::new(&body.under(stiffness), 33)
+fn on(body: &Body, stiffness: f64) -> contact::motion::Body {
+    contact::motion::Body::new(&body.under(stiffness), 33)
 }
 
 /// ∫ |D − running extremum of D| dd along a polygon of indentations and displacements D that `sign` makes grow, m².
@@ -77,7 +77,7 @@ proptest! {
         targets.extend(ends_separated.then_some((Move::ToSeparation, 0.5)));
         let energy = |legs: &[LegRecord]| legs.iter().map(|leg| leg.jump_energy).sum::<f64>();
         let contact = body.under(stiffness);
-        let (mut few, mut cut) = (contact::Body::new(&contact, 2), contact::Body::new(&contact, 300));
+        let (mut few, mut cut) = (contact::motion::Body::new(&contact, 2), contact::motion::Body::new(&contact, 300));
         let scale = body.scales()[1] + most * most * stiffness;
         for (target, share) in targets {
             let from = few.point();

@@ -22,9 +22,9 @@ mod stepwise;
 mod symmetries;
 mod work;
 
+use asperity_contact::motion::{Leg, MovingBody, load_body};
 use asperity_contact::{
-    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Leg, LegRecord, Move, MovingBody,
-    Patch, load_body,
+    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, LegRecord, Move, Patch,
 };
 use body::*;
 use proptest::prelude::*;

@@ -3,15 +3,15 @@
 use super::*;
 
 /// Moves a copy of a body.
-fn try_move(body: &contact::Body, target: Move) -> Result<(), ContactError> {
-    let mut copy = contact::Body::at(&body.leg(), body.point().indentation)?;
+fn try_move(body: &contact::motion::Body, target: Move) -> Result<(), ContactError> {
+    let mut copy = contact::motion::Body::at(&body.leg(), body.point().indentation)?;
     copy.move_to(target).map(drop)
 }
 
 /// Moves a body to targets twice: along recorded legs, and without a curve by moves of several parts.
 fn moves_alike(
     body: &Body,
-    [mut recorded, mut moved]: [contact::Body; 2],
+    [mut recorded, mut moved]: [contact::motion::Body; 2],
     drawn: &[Drawn],
     parts: &[f64],
 ) -> Result<(), TestCaseError> {

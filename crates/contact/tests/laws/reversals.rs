@@ -16,7 +16,11 @@ fn turns() -> impl Strategy<Value = Vec<Move>> {
 }
 
 /// All reversals in the order of their targets.
-fn all(body: &mut contact::Body, turns: &[Move], points: &[f64]) -> Result<Vec<Reversal>, ContactError> {
+fn all(
+    body: &mut contact::motion::Body,
+    turns: &[Move],
+    points: &[f64],
+) -> Result<Vec<Reversal>, ContactError> {
     let mut found = vec![None; turns.len()];
     body.reversals(turns, points, &mut |index, reversal| {
         assert!(found[index].replace(reversal).is_none());
@@ -26,7 +30,11 @@ fn all(body: &mut contact::Body, turns: &[Move], points: &[f64]) -> Result<Vec<R
 }
 
 /// Compares all reversals with separate histories, each on a new body; forces are those at `points`, m.
-fn compare(new: impl Fn() -> contact::Body, turns: &[Move], points: &[f64]) -> Result<(), TestCaseError> {
+fn compare(
+    new: impl Fn() -> contact::motion::Body,
+    turns: &[Move],
+    points: &[f64],
+) -> Result<(), TestCaseError> {
     let reversals = all(&mut new(), turns, points).unwrap();
     for (turn, reversal) in turns.iter().zip(&reversals) {
         let history = load_body(&mut new(), &[*turn, Move::ToSeparation], |_, _| Ok(())).unwrap();

@@ -1,7 +1,7 @@
 //! The stepwise solver against the exact one.
 
 use super::*;
-use asperity_contact::Stepwise;
+use asperity_contact::motion::Stepwise;
 
 const FOUNDATION: Foundation = Foundation::new(0.01, 1.0);
 

@@ -51,7 +51,7 @@ proptest! {
         let summits = (1..gaps.len().saturating_sub(1)).filter(|&k| rises(k - 1) && !rises(k)).count();
         let nodes = |profile: &Profile| {
             let contact = Contact::builder(profile, Modulus::effective(1.0).unwrap()).work_of_adhesion(1.0);
-            let mut body = contact::Body::new(&contact.edges(Edges::Grid).build().unwrap(), 2);
+            let mut body = contact::motion::Body::new(&contact.edges(Edges::Grid).build().unwrap(), 2);
             body.advance(Move::ToTouch).unwrap();
             body.work().tree_nodes
         };

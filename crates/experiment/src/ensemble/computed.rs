@@ -4,8 +4,10 @@ use super::branches::{Branches, Point};
 use super::summary::{Summaries, summaries};
 use crate::error::ExperimentError;
 use crate::model::Sampling;
-use asperity_contact::{Body, ContactError, CurvePoint, Modulus, Move, MovingBody};
-use asperity_scene::{CheckedScene, DisplacementCurve, Simulation};
+use asperity_contact::motion::{Body, MovingBody};
+use asperity_contact::{ContactError, CurvePoint, Modulus, Move};
+use asperity_scene::instrument::DisplacementCurve;
+use asperity_scene::{CheckedScene, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

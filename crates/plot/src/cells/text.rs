@@ -23,7 +23,8 @@ const WIDEST_CELL: usize = 5;
 const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
-/// Returns a figure as text of at most `columns` columns, between 40 and 160, with the charts below each other.
+/// Returns a figure as text with the charts below each other. The text has at most `columns` columns, at least 40 and at
+/// most 160.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
     let ink = |ink: Ink| match (ink, colours) {

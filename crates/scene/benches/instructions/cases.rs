@@ -1,29 +1,29 @@
-//! The scenes whose instructions are counted.
+//! Scenes whose instructions are counted.
 
 use asperity_contact::Edges;
 use asperity_scene::Document;
 
-/// Springs of every line.
+/// Number of springs of every profile.
 pub const POINTS: usize = 1 << 16;
-/// L, m.
+/// Length L of the profile in m.
 pub const LENGTH: f64 = 1.0e-4;
-/// E*, Pa.
+/// Effective modulus E* in Pa.
 pub const EFFECTIVE_MODULUS: f64 = 2.7e6;
-/// R, m.
+/// Radius R of the sphere in m.
 pub const RADIUS: f64 = 1.0e-3;
-/// H.
+/// Hurst exponent H of the roughness.
 pub const HURST: f64 = 0.7;
-/// h, m.
+/// Rms height h of the roughness in m.
 pub const RMS_HEIGHT: f64 = 1.0e-7;
-/// Last mode of the line.
+/// Last mode of the roughness.
 pub const LAST_MODE: u64 = POINTS as u64 / 4;
-/// Seed of the line.
+/// Seed of the random phases.
 pub const SEED: u64 = 1;
-/// γ, J/m²; κ is about 8.
+/// Work of adhesion γ in J/m², for which κ is about 8.
 pub const WORK_OF_ADHESION: f64 = 5.0e-4;
-/// N.
+/// Largest force in N.
 pub const FORCE: f64 = 1.0e-5;
-/// Samples on each leg.
+/// Number of points of the curve on each loading stage.
 pub const SAMPLES: usize = 512;
 
 /// Effects of a scene.
@@ -31,15 +31,15 @@ pub const SAMPLES: usize = 512;
 pub enum Class {
     /// A smooth sphere without adhesion, pressed.
     SmoothPressed,
-    /// A rough line without adhesion, pressed and taken back.
+    /// A rough profile without adhesion, pressed and unloaded.
     RoughLoop,
-    /// A rough line with adhesion, pressed.
+    /// A rough profile with adhesion, pressed.
     AdhesivePressed,
-    /// A rough line with adhesion, touched and pulled off.
+    /// A rough profile with adhesion, touched and pulled off.
     AdhesiveTouch,
-    /// A rough line with adhesion, pressed and pulled off, and beside it touched and pulled off.
+    /// A rough profile with adhesion, pressed and pulled off; also touched and pulled off.
     AdhesiveLoop,
-    /// An adhesive loop with fragments and the histogram of heights.
+    /// A loop with adhesion, with contact patches and the histogram of heights.
     AdhesiveObserved,
 }
 

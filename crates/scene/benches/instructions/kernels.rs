@@ -6,9 +6,11 @@ use super::cases::{
     SEED, WORK_OF_ADHESION,
 };
 use asperity_contact::Move;
-use asperity_contact::{Body, Contact, History, Leg, LegRecord, Modulus, Patch, Profile, load_body};
+use asperity_contact::motion::{Body, Leg, load_body};
+use asperity_contact::{Contact, History, LegRecord, Modulus, Patch, Profile};
 use asperity_surface::Form;
-use asperity_surface::{Histogram, Line, SelfAffine, Synthesizer};
+use asperity_surface::SelfAffine;
+use asperity_surface::lines::{Histogram, Line, Synthesizer};
 use std::sync::Arc;
 
 /// Bins of the histogram of heights.

@@ -15,7 +15,7 @@ use std::fmt::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Largest ratio of the instructions of the program to those of the kernel.
+/// Largest ratio of the instructions of the program to the instructions of the kernel.
 pub const MOST: f64 = 1.02;
 
 /// Environment variable with the task of the process under callgrind.
@@ -57,7 +57,7 @@ pub fn run_as_child() -> bool {
     true
 }
 
-/// Asserts that a kernel has the results of the program: otherwise it is no measure.
+/// Asserts that a kernel has the results of the program. Otherwise the kernel would be no measure.
 pub fn assert_agree(case: &Case) {
     let (outcome, given) = (program(&case.document()), kernels::kernel(case));
     let what = case.name();
@@ -117,12 +117,12 @@ impl Report {
         Report { case, program: counted, kernel: of_kernel, profile: program, work }
     }
 
-    /// Instructions of the program over those of the kernel.
+    /// Returns the instructions of the program divided by the instructions of the kernel.
     pub fn ratio(&self) -> f64 {
         self.program as f64 / self.kernel as f64
     }
 
-    /// Returns true where executed lines are known: the program has line tables.
+    /// Returns true if executed lines are known, which requires line tables in the program.
     pub fn has_line_tables(&self) -> bool {
         self.profile.has_line_tables()
     }

@@ -1,13 +1,16 @@
-//! Instructions of 64 reversals over those of one loop to the deepest of them on the same line, trees included.
+//! Instructions of 64 unloadings divided by the instructions of one loop to the deepest turning point, on the same profile,
+//! with the trees.
 
 use crate::instructions::callgrind;
-use asperity_contact::{Body, Contact, Modulus, MovingBody, Profile};
+use asperity_contact::motion::{Body, MovingBody};
+use asperity_contact::{Contact, Modulus, Profile};
 use asperity_contact::{Edges, Move};
-use asperity_surface::{Line, SelfAffine};
+use asperity_surface::SelfAffine;
+use asperity_surface::lines::Line;
 use std::hint::black_box;
 use std::sync::Arc;
 
-/// Most loops that the reversals may take.
+/// Largest allowed ratio of the instructions of all unloadings to the instructions of one loop.
 const MOST_LOOPS: f64 = 17.0;
 
 /// Sends the process that callgrind watches the number of a task.
@@ -32,7 +35,7 @@ const BODIES: [(f64, Edges); 6] = [
     (20.0, Edges::SubCell),
 ];
 
-/// Part of a body's computation: its line alone, which all parts need; the loop; the reversals.
+/// Part of the computation of a body: the profile alone, which all parts need; the loop; the unloadings.
 #[derive(Clone, Copy)]
 enum Part {
     Line,
@@ -79,7 +82,8 @@ pub fn run_as_child() -> bool {
     true
 }
 
-/// Counts all bodies: a table, and a line for each with too many loops. `arguments` start the process as a child.
+/// Counts all bodies. Returns a table, and a line for each body with too many loops. `arguments` start the process as a
+/// child.
 pub fn count(arguments: &[&str]) -> (String, Vec<String>) {
     let mut table = format!("{REVERSALS} reversals of {SPRINGS} springs, in loops\n");
     let mut failures = Vec::new();

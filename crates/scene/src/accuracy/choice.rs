@@ -21,7 +21,7 @@ const MOST_TRIED: u64 = 1 << 21;
 /// Parses a tolerance, a relative error: `1e-3` or `0.1 %`. The error states the allowed range, above 0 and below 1.
 ///
 /// ```
-/// use asperity_scene::parse_tolerance;
+/// use asperity_scene::discretisation::parse_tolerance;
 ///
 /// assert_eq!(parse_tolerance("0.1%"), Ok(0.001));
 /// assert!(parse_tolerance("2").is_err());
@@ -127,16 +127,17 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// `folder`.
 ///
 /// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Unless
-/// there is a closed form, the error is the largest under three loads: the loads of the scene, half of them, and twice of
-/// them. The error includes the estimated error of the finest solution. At the same number of springs edges between springs
-/// are preferred, because their error falls faster. The choice does not depend on the speed of the machine. `stop` is asked
-/// between solutions; true ends the search. `trying` receives the next number of springs.
+/// there is a closed form, the error is the largest under three loads: the loads of the scene, half of these loads, and twice
+/// these loads. The error includes the estimated error of the finest solution. At the same number of springs edges between
+/// springs are preferred, because their error falls faster. The choice does not depend on the speed of the machine. `stop` is
+/// asked between solutions; true ends the search. `trying` receives the next number of springs.
 ///
 /// # Errors
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, or if the scene cannot be computed.
 ///
 /// ```
-/// use asperity_scene::{choose, open};
+/// use asperity_scene::discretisation::choose;
+/// use asperity_scene::open;
 /// use std::path::Path;
 ///
 /// let sphere = open("jkr-sphere")?;

@@ -50,7 +50,7 @@ impl Estimate {
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// Returns the error of the force curve over the largest force; `None` if the estimate is for the adhesion force.
+    /// Returns the error of the force curve divided by the largest force; `None` if the estimate is for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }

@@ -35,7 +35,7 @@ const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform whose time is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// Progress of [`measure()`](crate::measure).
+/// Progress of [`measure`].
 pub enum Progress<'a> {
     /// The setting that is tried next, with its value as text.
     Trying(Knob, &'a str),

@@ -7,7 +7,8 @@ use crate::scene::model::{Scene, Solver};
 use crate::simulation::outcome::{Outcome, RunError};
 use crate::simulation::reversals::FEW_SAMPLES;
 use crate::simulation::stages::Simulation;
-use asperity_contact::{Branch, ContactError, Direction, History, LegRecord, pull_off_point};
+use asperity_contact::points::{Branch, pull_off_point};
+use asperity_contact::{ContactError, Direction, History, LegRecord};
 use asperity_contact::{Edges, Move};
 use asperity_surface::Form;
 use asperity_surface::SurfaceError;
@@ -85,8 +86,8 @@ impl Solution {
 pub enum Target {
     /// The adhesion force.
     AdhesionForce,
-    /// The force curve, if there is no tensile force. Its error is the mean difference of forces at equal indentations over
-    /// the largest force.
+    /// The force curve, if there is no tensile force. Its error is the mean difference of forces at equal indentations,
+    /// divided by the largest force.
     Curve,
 }
 
@@ -250,9 +251,9 @@ pub(super) fn force_curve(history: &History) -> ForceCurve {
     history.legs.iter().map(points).collect()
 }
 
-/// Returns the mean difference of the forces of a loading stage from a reference at equal indentations, over the largest
-/// force of the reference. The largest of all stages counts. A jump that is late by a hundredth of the range of indentations
-/// counts a hundredth of its height. Returns `None` if the reference has no forces or another number of stages.
+/// Returns the mean difference of the forces of a loading stage from a reference at equal indentations, divided by the
+/// largest force of the reference. The largest of all stages counts. A jump that is late by a hundredth of the range of
+/// indentations counts a hundredth of its height. Returns `None` if the reference has no forces or another number of stages.
 pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f64> {
     let largest = reference.iter().flatten().map(|point| point[1].abs()).fold(0.0, f64::max);
     if curve.len() != reference.len() || largest == 0.0 || largest.is_nan() {

@@ -11,7 +11,7 @@ use strum::IntoStaticStr;
 /// Number of finer solutions that must confirm an error.
 pub(super) const REFINEMENTS: usize = 2;
 /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest contact
-/// length. The error of the curve is the mean difference of forces at equal indentations over the largest force.
+/// length. The error of the curve is the mean difference of forces at equal indentations, divided by the largest force.
 pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
@@ -88,7 +88,7 @@ pub struct Row {
     pub springs: u64,
     /// Times of whole runs that reuse no earlier result; `None` if no run was timed.
     pub seconds: Option<Timing>,
-    /// Shortest time over the time of one Fourier transform, [`CostTable::transform_seconds`].
+    /// Shortest time divided by the time of one Fourier transform, [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
     /// Relative errors of the [`QUANTITIES`], in their order.
     #[serde(serialize_with = "by_name")]

@@ -37,7 +37,8 @@ pub struct Governing {
     pub amplitude: Option<Amplitude>,
     /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) of eq. (11); `None` without roughness or adhesion.
     pub kappa: Option<f64>,
-    /// Elastic energy that flattens the roughness over the work of adhesion, e_el/γ; `None` without roughness or adhesion.
+    /// Ratio e_el/γ of the elastic energy that flattens the roughness to the work of adhesion; `None` without roughness or
+    /// adhesion.
     pub elastic_energy_ratio: Option<f64>,
 }
 
@@ -305,7 +306,7 @@ mod tests {
     #[test]
     fn quantities_follow_from_plain_numbers() {
         // π γ E* L³ = 750 π, and ρ γ²/(E*² z₀³) = 27.
-        let force = asperity_contact::ideal_adhesion_force(2.0, 3.0, 5.0);
+        let force = asperity_contact::closed_forms::ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
         assert!((number - 3.0).abs() < 1e-14, "{number}");

@@ -4,7 +4,8 @@
 //! maximum of d + F(d)/k reaches D. While D falls, it is the largest d at which the running minimum reaches D. Where dF/dd <
 //! −k, d + F(d)/k turns back, and the body jumps at constant D to the next d at which the instrument can hold it.
 
-use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord, pull_off_point};
+use asperity_contact::points::{Branch, pull_off_point};
+use asperity_contact::{CurvePoint, Direction, Figures, History, LegRecord};
 
 /// A point of a force curve over the displacement of the instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +23,7 @@ pub struct DisplacementPoint {
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
-/// use asperity_scene::DisplacementCurve;
+/// use asperity_scene::instrument::DisplacementCurve;
 ///
 /// let point = |indentation, force| CurvePoint { indentation, force, springs: 1, ..CurvePoint::default() };
 /// let curve = DisplacementCurve::new(Direction::Loading, &[point(0.0, 0.0), point(1.0, 2.0)], 2.0);

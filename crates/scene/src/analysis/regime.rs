@@ -8,8 +8,9 @@ use strum::IntoStaticStr;
 /// after the preload.
 pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-/// Adhesion without a preload counts as vanished below this share of the adhesion force of the smooth body. The transition
-/// from one half to one twentieth takes a factor of about three in κ. The exact share therefore hardly moves the boundary.
+/// Adhesion without a preload counts as vanished below this share of the adhesion force of the smooth body. This adhesion
+/// falls from one half to one twentieth while κ grows by a factor of about three, so the exact share hardly moves the
+/// boundary.
 pub const VANISHING_SHARE: f64 = 0.05;
 
 /// A contact is non-adhesive if its adhesion coefficient F_a/F_n is at most this number. The bodies then adhere with at most

@@ -31,8 +31,8 @@ impl ReversalMap {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
-    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. This function is half of the fall of the force
-    /// from the turning point d_r to the indentation d. Returns `None` above the turning point.
+    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. E is half of the fall of the force from the
+    /// turning point d_r to the indentation d. Returns `None` above the turning point.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))

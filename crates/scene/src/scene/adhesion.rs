@@ -91,7 +91,7 @@ pub enum Strength {
         /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None` if both are equal.
         closing: Option<f64>,
     },
-    /// A parameter and its value. With the roughness of the scene they give the work of adhesion.
+    /// A parameter and its value. The value and the roughness of the scene together give the work of adhesion.
     Parameter(RoughnessParameter, f64),
 }
 

@@ -7,7 +7,7 @@ use std::ffi::OsStr;
 ///
 /// ```
 /// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
-/// let command = asperity_scene::command_line("asperity", "jkr-sphere", &overrides);
+/// let command = asperity_scene::text::command_line("asperity", "jkr-sphere", &overrides);
 /// assert_eq!(command, "asperity jkr-sphere --set 'form=Cone(angle: 0.1)'");
 /// ```
 pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -> String {

@@ -11,7 +11,8 @@ use asperity_surface::Form;
 /// [`Document::without`](crate::scene::document::Document::without).
 ///
 /// ```
-/// use asperity_scene::{Effect, open};
+/// use asperity_scene::fields::Effect;
+/// use asperity_scene::open;
 ///
 /// let sphere = open("jkr-sphere")?;
 /// assert!(Effect::Adhesion.is_on(sphere.scene()) && !Effect::Roughness.is_on(sphere.scene()));

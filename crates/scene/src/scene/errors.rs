@@ -182,7 +182,7 @@ const LONGEST: usize = 64;
 /// The last part of a path suffices: `hurst` finds `roughness.hurst`.
 ///
 /// ```
-/// use asperity_scene::nearest;
+/// use asperity_scene::text::nearest;
 ///
 /// assert_eq!(nearest("parabloid", ["Cone", "Paraboloid"]), Some("Paraboloid"));
 /// assert_eq!(nearest("sphere", ["Cone", "Paraboloid"]), None);

@@ -6,7 +6,7 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// A field of a scene, as a row of the table [`FIELDS`](crate::FIELDS). A row describes the field and does not hold its
+/// A field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). A row describes the field and does not hold its
 /// value.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {

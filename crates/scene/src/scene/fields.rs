@@ -23,7 +23,7 @@ pub const MOST_POINTS: u64 = 1 << 28;
 /// one.
 ///
 /// ```
-/// let radius = asperity_scene::field("form.radius", Some("Paraboloid")).unwrap();
+/// let radius = asperity_scene::fields::field("form.radius", Some("Paraboloid")).unwrap();
 /// assert_eq!((radius.unit, radius.allowed().as_str()), ("m", "above 0, at most 1e9 m"));
 /// ```
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {

@@ -1,8 +1,9 @@
 //! A measured surface as the roughness of a scene: its files, and the options for reading and analysing them.
 
 use super::fields::default_of;
-use asperity_surface::MeasuredOptions;
-use asperity_surface::{AnalysisOptions, Detrend, End};
+use asperity_surface::lines::MeasuredOptions;
+use asperity_surface::spectra::End;
+use asperity_surface::{AnalysisOptions, Detrend};
 use asperity_surface::{Cut, ReadOptions, Unit};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -17,7 +18,7 @@ pub struct Measured {
     /// Name of the measured file, relative to the scene file.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub file: String,
-    /// Names of files with further measurements of the same surface. The spectrum is estimated from all of them together.
+    /// Names of files with further measurements of the same surface. The spectrum is estimated from all files together.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,

@@ -6,7 +6,8 @@ use super::adhesion::Adhesion;
 use super::fields::{SCENE_VERSION, default_of};
 use super::measured::Measured;
 use asperity_contact::{ContactError, Edges, Modulus, Move};
-use asperity_surface::{Form, MeasuredOptions, SelfAffine};
+use asperity_surface::lines::MeasuredOptions;
+use asperity_surface::{Form, SelfAffine};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -331,7 +332,7 @@ impl From<NumericsText> for Numerics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// Exact solver: it finds the indentation of each event directly, so there is no error from a step.
+    /// Exact solver: it computes at which indentations patches form, merge, split and detach, without an error from a step.
     Exact,
     /// Method of the paper: move the body by a step, relax the springs, repeat.
     Stepwise {

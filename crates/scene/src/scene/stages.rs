@@ -94,7 +94,7 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
 /// ```
 /// use asperity_contact::Move;
 /// use asperity_data::format_quantity;
-/// use asperity_scene::loading_text;
+/// use asperity_scene::loading::loading_text;
 ///
 /// let loading = [Move::ToForce(1.0e-5), Move::ToZeroForce, Move::ToSeparation];
 /// assert_eq!(loading_text(&loading, format_quantity), "10 µN, zero force, separation");
@@ -151,7 +151,7 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 ///
 /// ```
 /// use asperity_contact::Move;
-/// use asperity_scene::read_stage;
+/// use asperity_scene::loading::read_stage;
 ///
 /// assert_eq!(read_stage("10 µN", None), Ok(Move::ToForce(1.0e-5)));
 /// assert_eq!(read_stage("separation", None), Ok(Move::ToSeparation));

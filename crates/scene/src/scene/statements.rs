@@ -15,7 +15,7 @@ const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numer
 /// A field of a scene and its value as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// The field.
+    /// Field that has the value.
     pub field: &'static Field,
     /// Value of the field with its unit and all its digits.
     pub value: String,
@@ -25,7 +25,8 @@ pub struct Statement {
 /// such as the form, is listed by its numbers.
 ///
 /// ```
-/// use asperity_scene::{open, statements};
+/// use asperity_scene::open;
+/// use asperity_scene::fields::statements;
 ///
 /// let stated = statements(open("jkr-sphere")?.scene());
 /// let length = stated.iter().find(|one| one.field.path == "length").unwrap();

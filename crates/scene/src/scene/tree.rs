@@ -13,7 +13,8 @@ use super::text::{ron_float, ron_string};
 /// is the name. An omitted field has no value.
 ///
 /// ```
-/// use asperity_scene::{Tree, open};
+/// use asperity_scene::fields::Tree;
+/// use asperity_scene::open;
 ///
 /// let mut tree = Tree::of(open("jkr-sphere")?.scene());
 /// assert!(tree.set("length", 2.0e-4) && !tree.set("width", 1.0));

@@ -7,7 +7,8 @@ use crate::analysis::regime::Regime;
 use crate::scene::errors::SceneErrors;
 use asperity_contact::{ContactError, Figures, History, Patch};
 use asperity_data::{format_quantity, rounded_up};
-use asperity_surface::{Histogram, SurfaceError};
+use asperity_surface::SurfaceError;
+use asperity_surface::lines::Histogram;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -50,7 +51,8 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Returns the adhesion force over the ideal one, F_a/F_a,max; `None` without a tensile force or without adhesion.
+    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal one; `None` without a tensile force or without
+    /// adhesion.
     pub fn adhesion_share(&self) -> Option<f64> {
         Some(self.figures.adhesion_force? / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?)
     }
@@ -86,7 +88,8 @@ pub struct LineFacts {
 pub struct Timings {
     /// Time in s for making the profile.
     pub line: f64,
-    /// Time in s for building the contact tree ([`Stage::Tree`](crate::Stage::Tree)) and for the histogram of heights.
+    /// Time in s for building the contact tree ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the
+    /// histogram of the heights.
     pub tree: f64,
     /// Time in s for finding the indentations at which patches change, or for the steps of the stepwise solver.
     #[serde(rename = "loop")]

@@ -10,12 +10,13 @@ use crate::analysis::reversal_map::ReversalMap;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::Move;
-use asperity_contact::{Body, ContactError, Reversal};
+use asperity_contact::motion::Body;
+use asperity_contact::{ContactError, Reversal};
 use std::ops::RangeInclusive;
 
 /// Allowed numbers of turning points of a [`ReversalMap`].
 pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
-/// Largest number of grid points of a map below its first turning point, over the number of turning points.
+/// Largest number of grid points below the first turning point of a map, for each turning point.
 const MOST_BELOW: usize = 4;
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;

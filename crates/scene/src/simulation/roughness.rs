@@ -3,10 +3,8 @@
 use super::outcome::RunError;
 use crate::scene::fields::MOST_POINTS;
 use crate::scene::model::{SPRINGS_PER_WAVE, Scene};
-use asperity_surface::{
-    Amplitude, EquivalentLine, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer,
-    read_faces,
-};
+use asperity_surface::lines::{MeasuredOptions, MeasuredRoughness, Synthesizer, read_faces};
+use asperity_surface::{Amplitude, EquivalentLine, SelfAffine, SurfaceError};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

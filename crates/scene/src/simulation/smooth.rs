@@ -8,9 +8,10 @@ use crate::analysis::governing::Governing;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::Scene;
-use asperity_contact::{Body, Figures, Move, Profile, Reversal};
+use asperity_contact::motion::Body;
+use asperity_contact::{Figures, Move, Profile, Reversal};
 use asperity_surface::Form;
-use asperity_surface::Line;
+use asperity_surface::lines::Line;
 
 impl Simulation {
     /// Computes the adhesion force in N of the body of a scene without its roughness; `None` without adhesion. The body is

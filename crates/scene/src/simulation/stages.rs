@@ -9,13 +9,13 @@ use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
-use asperity_contact::{
-    Body, Contact, ContactError, ContactTree, Edges, Figures, History, Leg, LegRecord, Move, MovingBody,
-    Patch, Profile, Stepwise, ideal_adhesion_force, load_body,
-};
+use asperity_contact::closed_forms::ideal_adhesion_force;
+use asperity_contact::motion::{Body, ContactTree, Leg, MovingBody, Stepwise, load_body};
+use asperity_contact::{Contact, ContactError, Edges, Figures, History, LegRecord, Move, Patch, Profile};
 use asperity_data::{check_room, emptied};
 use asperity_surface::Form;
-use asperity_surface::{EquivalentLine, Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
+use asperity_surface::lines::{Histogram, Line, MeasuredRoughness, Synthesizer};
+use asperity_surface::{EquivalentLine, SurfaceError};
 use std::mem::take;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -92,7 +92,8 @@ pub struct PlannedStage {
 /// Plan of the computation of a scene: its parts in the order of execution, and the memory that it needs.
 ///
 /// ```
-/// use asperity_scene::{Stage, Workload, open};
+/// use asperity_scene::stages::{Stage, Workload};
+/// use asperity_scene::open;
 ///
 /// // Without adhesion there is no contact tree.
 /// let bare = open("jkr-sphere")?.set("adhesion", "None")?;

@@ -2,7 +2,8 @@
 
 use super::body::*;
 use asperity_contact::Figures;
-use asperity_contact::{Direction, Edges, History, LegRecord, Move, MovingBody};
+use asperity_contact::motion::MovingBody;
+use asperity_contact::{Direction, Edges, History, LegRecord, Move};
 use asperity_scene::{Outcome, Regime, Simulation, open};
 use proptest::prelude::*;
 

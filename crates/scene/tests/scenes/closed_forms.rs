@@ -7,7 +7,8 @@ mod waves;
 use super::body::{Body, Foundation, end};
 use super::numerics::observed_order;
 use asperity_contact::{Edges, LegRecord, Move};
-use asperity_surface::{Form, Line, SelfAffine, Synthesizer};
+use asperity_surface::lines::{Line, Synthesizer};
+use asperity_surface::{Form, SelfAffine};
 use one_piece::{Loop, OnePiece};
 
 /// A smooth body pressed to an indentation and pulled off.

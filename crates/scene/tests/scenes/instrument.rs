@@ -1,12 +1,12 @@
 //! The force over the displacement of a compliant instrument, against a search and against closed forms.
 
 use super::body::{cases, end};
-use asperity_contact::{
-    Body, ClosedForm, Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile,
-    load_body,
-};
-use asperity_scene::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
-use asperity_surface::{Form, Line};
+use asperity_contact::closed_forms::ClosedForm;
+use asperity_contact::motion::{Body, load_body};
+use asperity_contact::{Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile};
+use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
+use asperity_surface::Form;
+use asperity_surface::lines::Line;
 use proptest::prelude::*;
 
 /// A JKR sphere of radius 1 m with E* = γ = 1, and its closed form.

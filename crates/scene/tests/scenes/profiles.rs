@@ -3,9 +3,8 @@
 use asperity_contact::{Modulus, Move};
 use asperity_data::on_this_thread;
 use asperity_scene::{Adhesion, Document, Error, ProfileBuilder, Simulation};
-use asperity_surface::{
-    AnalysisOptions, EquivalentLine, Form, MeasuredRoughness, Topography, analyse, phases,
-};
+use asperity_surface::lines::{MeasuredRoughness, phases};
+use asperity_surface::{AnalysisOptions, EquivalentLine, Form, Topography, analyse};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;

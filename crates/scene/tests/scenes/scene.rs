@@ -1,10 +1,11 @@
 //! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
 
 use asperity_contact::Move;
-use asperity_scene::{
-    DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Range, Roughness, Scene, Simulation, Stage, Text,
-    TextSpan, Workload, open, presets, to_ron,
-};
+use asperity_scene::fields::{Effect, FIELDS, Range};
+use asperity_scene::library::DEFAULT;
+use asperity_scene::stages::{Stage, Workload};
+use asperity_scene::text::{LONGEST_TEXT, Text, TextSpan, to_ron};
+use asperity_scene::{Document, Roughness, Scene, Simulation, open, presets};
 
 fn locate(text: &str, path: &str) -> Option<TextSpan> {
     Text::new(text).ok()?.span(path).cloned()

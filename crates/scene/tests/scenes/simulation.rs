@@ -1,7 +1,8 @@
 //! Scenes through the library: what a simulation keeps changes no bit, counted work, and finer grids of one profile.
 
 use asperity_contact::{Move, Work};
-use asperity_scene::{CheckedScene, Document, Outcome, Simulation, Timings};
+use asperity_scene::stages::Timings;
+use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
 
 /// A rough rubber face; each scene of these tests differs from it by its overrides.
 const SCENE: &str = r#"(

@@ -1,7 +1,9 @@
 //! Forms from a table of rows against the forms that they were computed from.
 
-use asperity_scene::{Document, Outcome, RunError, Simulation, closed_form};
-use asperity_surface::{Form, FormTable, Line};
+use asperity_scene::theory::closed_form;
+use asperity_scene::{Document, Outcome, RunError, Simulation};
+use asperity_surface::lines::Line;
+use asperity_surface::{Form, FormTable};
 use dashu_float::{FBig, round::mode::HalfEven};
 use std::fmt::Write as _;
 use std::path::Path;

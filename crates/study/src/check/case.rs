@@ -2,7 +2,8 @@
 
 use asperity_contact::{Contact, Cycle, Edges, LoadOptions, Modulus, Move, Profile};
 use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
-use asperity_surface::{Line, SelfAffine, phases};
+use asperity_surface::SelfAffine;
+use asperity_surface::lines::{Line, phases};
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
 

@@ -2,8 +2,9 @@
 
 use super::case::Subject::Scene as OfScene;
 use super::case::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_errors};
-use asperity_contact::ClosedForm;
-use asperity_scene::{CheckedScene, closed_form};
+use asperity_contact::closed_forms::ClosedForm;
+use asperity_scene::CheckedScene;
+use asperity_scene::theory::closed_form;
 use asperity_surface::Form;
 use std::f64::consts::PI;
 

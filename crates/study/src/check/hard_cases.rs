@@ -7,7 +7,7 @@ use super::case::{
 use super::laws::{end, only_scales};
 use asperity_contact::Move;
 use asperity_scene::{CheckedScene, Outcome};
-use asperity_surface::phases;
+use asperity_surface::lines::phases;
 use std::f64::consts::PI;
 
 const KNOWN: [&str; 2] = ["hard-cases", CLOSED_FORM];

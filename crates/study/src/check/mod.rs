@@ -54,7 +54,7 @@ pub fn catalogue() -> Vec<Case> {
 /// Returns the checks of the cases that `choose` selects, one for each model of the edges.
 ///
 /// ```
-/// use asperity_study::{checks, judge_case};
+/// use asperity_study::checks::{checks, judge_case};
 ///
 /// let verdicts: Vec<_> = checks(|case| case.name == "jkr").into_iter().map(judge_case).collect();
 /// assert!(verdicts.iter().all(|verdict| verdict.passes()));

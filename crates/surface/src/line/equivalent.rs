@@ -118,7 +118,7 @@ impl EquivalentLine {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Returns the part in m² of one wave in the mean square height of a surface with these spectra: A_k²/(4πk). The wave has k
+    /// Returns the part A_k²/(4πk) in m² of one wave in the mean square height of a surface with these spectra. The wave has k
     /// = `waves` waves over the side of a square in m, which need not be a whole number. The part is zero more than half a wave
     /// beyond the first and the last wave.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {

@@ -59,9 +59,9 @@ pub enum Form {
 }
 
 impl Form {
-    /// Reads the table of a form from a folder, unless it is read already, and checks that it covers a profile of this length
-    /// in m. All clones of the form then share the table. Forms without a table need no reading. A form whose table is not read
-    /// is flat.
+    /// Reads the table of a form from a folder, unless the table is read already. Checks that the table covers a profile of
+    /// this length in m. All clones of the form then share the table. Forms without a table need no reading. A form whose table
+    /// is not read is flat.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let in_file = |error: SurfaceError| {
@@ -92,9 +92,9 @@ impl Form {
         points / 2
     }
 
-    /// Returns the displacement of the body along the foundation in cells. It moves the axis from L/2 onto a spring: by ½ for
-    /// an even number of springs, and by 0 for an odd one. Form and roughness are displaced together, so that their relative
-    /// position does not depend on the number of springs. A punch has no tip and is not displaced.
+    /// Returns the displacement of the body along the foundation, in cells of one spring spacing. It moves the axis from L/2
+    /// onto a spring: by ½ for an even number of springs, and by 0 for an odd one. Form and roughness are displaced together,
+    /// so that their relative position does not depend on the number of springs. A punch has no tip and is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
@@ -161,7 +161,7 @@ impl Form {
     }
 
     /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a punch
-    /// it is 0, the depth of the flat face above the springs of [`Form::springs_under`].
+    /// it is 0, the depth of its flat face; [`Form::springs_under`] has the springs under this face.
     ///
     /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr. A paraboloid r²/2R becomes x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power
     /// law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x|

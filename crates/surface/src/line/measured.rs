@@ -120,7 +120,7 @@ impl MeasuredProfile {
     /// The profile is shorter than `length`.
     ///
     /// ```
-    /// use asperity_surface::{MeasuredOptions, MeasuredProfile};
+    /// use asperity_surface::lines::{MeasuredOptions, MeasuredProfile};
     ///
     /// let options = MeasuredOptions::default();
     /// let profile = MeasuredProfile::new(b"x [um] z [nm]\n0 10\n1 20\n2 40\n", &options)?;
@@ -195,7 +195,7 @@ fn join_ends(heights: &mut [f64]) {
     (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
-/// Files of one face with their contents. All of them are samples of the same roughness.
+/// Paths and contents of the measured files of one face. All files are samples of the same roughness.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
 /// Reads the files of one or two faces.

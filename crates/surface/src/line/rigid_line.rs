@@ -33,7 +33,8 @@ impl Line {
     /// The memory is too small, a height is not finite, or no spring lies under a punch.
     ///
     /// ```
-    /// use asperity_surface::{Form, Line};
+    /// use asperity_surface::Form;
+    /// use asperity_surface::lines::Line;
     ///
     /// let line = Line::new(1e-4, 101, Some(&Form::Paraboloid { radius: 1e-3 }), None, 0.0)?;
     /// assert_eq!((line.gaps.len(), line.gaps[50]), (101, 0.0));
@@ -149,7 +150,7 @@ impl Histogram {
     /// out. If `low` equals `high`, all heights are in the first bin.
     ///
     /// ```
-    /// let histogram = asperity_surface::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
+    /// let histogram = asperity_surface::lines::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
     /// assert_eq!(histogram.counts, [2, 1]);
     /// ```
     pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {

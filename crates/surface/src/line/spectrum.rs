@@ -14,8 +14,8 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, at least `first`.
     pub last: u64,
-    /// Mode of the roll-off: the length L over the roll-off wavelength, which need not be a whole number. Any value up to
-    /// `first`, such as 0, means no roll-off.
+    /// Mode of the roll-off: the length L over the roll-off wavelength, above which the spectrum of the surface is flat. It
+    /// need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
     pub roll_off_mode: f64,
 }
 
@@ -34,10 +34,10 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the part of one wave in the mean square height of a surface, over A₁²: A_k²/(4πk). The wave has k = `waves`
-    /// waves per length, not always a whole number, because waves of a surface lie in all directions. The equivalent profile of
-    /// the surface has this spectrum C₁D = πq C₂D, with the spectrum C₂D of the surface. The part is zero more than half a wave
-    /// beyond the first and the last mode.
+    /// Returns the part A_k²/(4πk) of one wave in the mean square height of a surface, divided by A₁² of
+    /// [`Self::relative_amplitude`]. The wave has k = `waves` waves per length. k need not be a whole number, because waves of
+    /// a surface lie in all directions. The surface has the spectrum C₂D, and its equivalent profile has this spectrum, C₁D =
+    /// πq C₂D. The part is zero more than half a wave beyond the first and the last mode.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -70,7 +70,7 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m, by the sums of
+    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m. It is summed over the modes, as in
     /// [`Self::gradient_per_height`].
     ///
     /// ```

@@ -43,7 +43,8 @@ pub struct FormTable {
     slopes: Vec<[f64; 3]>,
 }
 
-/// Rows of a form, which its clones share once the rows are read. In a comparison, rows that are not read equal all others.
+/// Rows of a form. All clones of the form share the rows once they are read. In a comparison, rows that are not read equal all
+/// others.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -191,8 +192,8 @@ impl FormTable {
     /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing` (m) from the axis, the first
     /// on the axis.
     ///
-    /// One depth takes a square root for each row nearer the axis. Where many points lie between two rows, a polynomial
-    /// therefore interpolates the contribution of all rows at least one interval away.
+    /// One depth takes a square root for each row nearer the axis. With many points between two rows, a polynomial therefore
+    /// interpolates what the rows at least one interval away contribute.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {

@@ -40,11 +40,11 @@ const CONTINUED: f64 = 4.0;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. With `None` it is the one that a container states, or else the tilt. From a
-    /// periodic surface only the mean is removed, because removing a plane would leave a step at the borders.
+    /// Polynomial removed before the analysis. With `None` it is the polynomial that a container states, or else the tilt. From
+    /// a periodic surface the default removes only the mean, because removing a plane would leave a step at the borders.
     pub detrend: Option<Detrend>,
     /// True for a surface that continues periodically at its borders. No window function is used for it. A container may also
-    /// state this.
+    /// state that its surface is periodic.
     pub periodic: bool,
     /// End of the spectrum: whether waves continue beyond the last resolved one.
     pub end: End,
@@ -68,8 +68,8 @@ pub struct Analysis {
     pub power_law: Option<SelfAffineFit>,
     /// Moments of the equivalent line, such as its rms height.
     pub line: LineMoments,
-    /// Shortest wavelength in m that the tip resolves reliably; of several surfaces the largest. `None` without a tip radius,
-    /// or if the tip resolves all waves.
+    /// Shortest wavelength in m that the tip resolves reliably. The largest wavelength of several surfaces counts; `None`
+    /// without a tip radius, or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of profiles among the surfaces.
     pub profiles: u64,
@@ -85,10 +85,10 @@ pub struct Analysis {
     /// other, or were levelled one by one.
     pub offsets: bool,
     /// Difference between waves parallel to an axis of a map and waves in neighbouring directions, as a share of the squared
-    /// gradient. It is 0 if such waves are left out, or if the difference is small or may be chance.
+    /// gradient. The share is 0 if the waves are left out, or if the difference is small or may be chance.
     pub apart: f64,
-    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. Of several
-    /// maps it is the largest; `None` if no map has such a displacement.
+    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. The largest
+    /// distance of several maps counts; `None` if no map has such a displacement.
     pub displaced: Option<f64>,
 }
 
@@ -107,8 +107,8 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// Returns an error for a surface with uneven or few points or without roughness, and for an [`End::Continues`] that the
-/// surfaces already resolve.
+/// Returns an error for a surface with uneven points, with too few points or without roughness. Returns an error for an
+/// [`End::Continues`] that the surfaces already resolve.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};

@@ -69,7 +69,7 @@ impl ProfilePower {
 /// bins of the wave number. `windowed` is true for heights that are not periodic; a window function is then applied.
 ///
 /// ```
-/// use asperity_surface::line_spectrum;
+/// use asperity_surface::spectra::line_spectrum;
 /// use std::f64::consts::TAU;
 ///
 /// // A wave of 16 points has its power at q = 2π/16 per point.

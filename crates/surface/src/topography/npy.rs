@@ -38,8 +38,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Reads the columns of a NumPy array with at least two columns, and their names. Columns are the fields of the points, or the
-/// shorter of two axes.
+/// Reads the columns of a NumPy array with at least two columns, and their names. Columns are the fields of the points. In an
+/// array with two axes the shorter axis counts the columns.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;

@@ -25,7 +25,8 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
 
-/// Reads a surface from a regular file of at most 1 GiB. From a container it reads all measurements of a surface.
+/// Reads a surface from a regular file of at most 1 GiB. From a container of contact.engineering it reads all measurements of a
+/// surface.
 ///
 /// # Errors
 /// Returns [`SurfaceError`] if the file cannot be read or holds no surface.

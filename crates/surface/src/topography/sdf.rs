@@ -1,5 +1,5 @@
-//! Formats with a header of lines `key = value`: SDF of ISO 25178-71 and its predecessor BCR, as text and binary, with
-//! heights as integers or real numbers and scales in m; and Gwyddion Simple Field, with 32-bit heights.
+//! Formats with a header of lines `key = value`. SDF of ISO 25178-71 and its predecessor BCR are text or binary, with heights
+//! as integers or real numbers and scales in m. Gwyddion Simple Field has 32-bit heights.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};

@@ -77,7 +77,7 @@ pub struct Topography {
     pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
-    /// Name of the measurement in a container; empty if the surface has a file of its own.
+    /// Name of the measurement in a container, an archive of several files; empty if the surface has a file of its own.
     pub name: String,
     /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,

@@ -3,7 +3,8 @@
 //! body with a hysteresis due to its shape.
 
 use crate::numerics::{integral, invert};
-use asperity_surface::{Form, power_law_factor, struve_0};
+use asperity_surface::Form;
+use asperity_surface::lines::{power_law_factor, struve_0};
 use std::f64::consts::PI;
 
 /// A body on a half-space with adhesion. With the equivalent profile g(a), of area G(a) from 0 to a, its contact of radius

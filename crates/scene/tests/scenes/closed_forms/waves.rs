@@ -4,7 +4,8 @@ use super::one_piece::{Loop, OnePiece};
 use super::{BOTH, Problem, judge};
 use crate::body::end;
 use asperity_contact::{Edges, Move};
-use asperity_scene::{Simulation, SteepWaves, open};
+use asperity_scene::theory::SteepWaves;
+use asperity_scene::{Simulation, open};
 use asperity_surface::Form;
 use std::f64::consts::PI;
 

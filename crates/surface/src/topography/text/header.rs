@@ -61,12 +61,12 @@ pub struct TextHeader {
     pub is_along_y: bool,
     /// True if heights are in wavelengths.
     is_in_wavelengths: bool,
-    /// The last lines that are no such entries and may name columns.
+    /// Last lines of the header that have no key and may name columns.
     pub lines: HeadLines,
 }
 
 impl TextHeader {
-    /// Creates a header that states a unit of all lengths.
+    /// Creates a header that states this unit for all lengths.
     pub fn in_unit(unit: Option<Unit>) -> TextHeader {
         TextHeader { unit, ..TextHeader::default() }
     }
