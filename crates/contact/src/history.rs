@@ -173,7 +173,7 @@ pub struct Work {
     pub random_phases: u64,
     /// Number of Fourier transforms of the whole profile.
     pub transforms: u64,
-    /// Number of nodes of the contact tree, see [`ContactTree`](crate::ContactTree).
+    /// Number of nodes of the contact tree, see [`ContactTree`](crate::motion::ContactTree).
     pub tree_nodes: u64,
     /// Number of passes over the contact tree for loadings.
     pub loading_passes: u64,

@@ -1,6 +1,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
 //! # Rules
 //!
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
@@ -12,11 +13,11 @@
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
-//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A [`Leg`] is the
-//! contact at all indentations of a motion in one direction, and a [`Body`] is a leg with the position on it. A [`Leg`] follows
-//! from these rules in one pass over a tree. [`Stepwise`] moves by small steps and relaxes after each step, as the paper does.
-//! Any function that allocates may return [`ContactError::OutOfMemory`]; the documentation of a function lists all other
-//! errors.
+//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A
+//! [`Leg`](motion::Leg) is the contact at all indentations of a motion in one direction, and a [`Body`](motion::Body) is a leg
+//! with the position on it. A leg follows from these rules in one pass over a tree. [`Stepwise`](motion::Stepwise) moves by
+//! small steps and relaxes after each step, as the paper does. Any function that allocates may return
+//! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 
 mod adhesive;
 mod body;
@@ -49,7 +50,8 @@ pub use modulus::Modulus;
 pub use profile::Profile;
 pub use target::Move;
 
-/// A contact that is moved step by step: for instruments, particle codes, and to compare with the rules themselves.
+/// Bodies that move from target to target, as instruments and particle codes need them. The stepwise solver serves to check the
+/// exact one.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion, MovingBody, load_body};
@@ -57,13 +59,13 @@ pub mod motion {
     pub use crate::stepwise::Stepwise;
 }
 
-/// Points of a force curve with a name, as preload and pull-off: for figures and readers of curves.
+/// Named points of a force curve, such as preload and pull-off, for figures and readers of curves.
 pub mod points {
     pub use crate::branches::{Branch, preload_point, pull_off_point};
     pub use crate::figures::{Mark, marks};
 }
 
-/// Closed forms of single contacts: for comparisons with theory.
+/// Closed forms of single contacts, for comparisons with theory.
 pub mod closed_forms {
     pub use crate::closed_form::{ClosedForm, flat_punch, ideal_adhesion_force};
 }

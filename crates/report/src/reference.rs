@@ -70,7 +70,7 @@ impl ReferenceProgress {
         }
     }
 
-    /// What is lost where the comparison is stopped now, in words.
+    /// Returns in words what is lost if the comparison is stopped now.
     pub fn lost(&self) -> String {
         match self.maps {
             0 => "stopped before the first square".to_owned(),

@@ -28,7 +28,7 @@ pub use scene::open::open;
 pub use simulation::outcome::{Outcome, RunError};
 pub use simulation::stages::Simulation;
 
-/// Errors by the number of springs, the springs for a tolerance, and what they cost: for whoever chooses the number of springs.
+/// Number of springs: estimated errors, the number for a tolerance, and the cost of smaller errors.
 pub mod discretisation {
     pub use crate::accuracy::choice::{Choice, ChoiceError, choose, parse_tolerance};
     pub use crate::accuracy::estimate::Evidence;
@@ -37,7 +37,7 @@ pub mod discretisation {
     pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, QUANTITIES, Row, Timing};
 }
 
-/// Table of the fields of a scene with names, units and ranges, and the values as a tree: for editors and plans of studies.
+/// Table of the fields of a scene with names, units and ranges, and the values of a scene as a tree.
 pub mod fields {
     pub use crate::scene::changes::Change;
     pub use crate::scene::effects::Effect;
@@ -50,7 +50,7 @@ pub mod fields {
     pub use crate::scene::tree::Tree;
 }
 
-/// Texts of scenes, plans and commands, and what is meant by a misspelt name: for editors that keep comments.
+/// Texts of scenes and of shell commands, edits that keep comments, and suggestions for misspelt names.
 pub mod text {
     pub use crate::scene::command::{command_line, quoted};
     pub use crate::scene::document::LONGEST_TEXT;
@@ -61,7 +61,7 @@ pub mod text {
     pub use crate::scene::tree::to_ron;
 }
 
-/// Stages of a loading as text: for editors of a loading.
+/// Loading stages as text.
 pub mod loading {
     pub use crate::scene::stages::{
         STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_loading, read_stage,
@@ -69,13 +69,13 @@ pub mod loading {
     };
 }
 
-/// Scenes by name: built-in, of the user, in a folder: for programs that open them.
+/// Scenes by name: built-in scenes, scenes of the user, and scenes in a folder.
 pub mod library {
     pub use crate::scene::library::{DEFAULT, Entry, Source, find_scene, own_folder, scenes, typed_path};
     pub use crate::scene::open::{is_file_name, is_path, open_argument};
 }
 
-/// Numbers and closed forms of theories beside the model: for reports that compare with them.
+/// Numbers and closed forms of theories, for comparison with the model.
 pub mod theory {
     pub use crate::analysis::governing::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, SteepWaves, scene_tabor_number};
     pub use crate::analysis::regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
@@ -83,14 +83,14 @@ pub mod theory {
     pub use crate::reference::closed_form;
 }
 
-/// Displacements of an instrument of finite stiffness and its jumps: for comparisons with measured force curves.
+/// Force over the displacement of an instrument with a finite stiffness.
 pub mod instrument {
     pub use crate::analysis::instrument::{
         DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,
     };
 }
 
-/// Stages of a computation, with their memory and their reach: for programs that show progress or split work.
+/// Parts of the computation of a scene with their times and memory, and the deepest loading that the model covers.
 pub mod stages {
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};

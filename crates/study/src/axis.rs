@@ -57,7 +57,7 @@ pub struct Axis {
     pub unit: &'static str,
     /// Spacing of the values.
     pub spacing: Spacing,
-    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::Grid).
+    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::maps::Grid).
     pub values: Vec<f64>,
     pub(super) target: Target,
 }

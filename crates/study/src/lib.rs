@@ -65,7 +65,7 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Built-in plans, and numbers of a plan as text: for the command line.
+/// Built-in plans, and readers of the numbers of a plan from text, which the command line uses.
 pub mod plans {
     pub use crate::axis::DERIVED;
     pub use crate::plan::{MOST_CELLS, StiffnessRange};
@@ -74,7 +74,7 @@ pub mod plans {
     pub use crate::question::parse_condition;
 }
 
-/// Files of a folder of a study: for programs that show the progress of shards or read their results.
+/// Files in the folder of a study, for programs that show the progress of shards or read results.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};
@@ -82,7 +82,7 @@ pub mod folders {
     pub use crate::tables::{RESULTS, SIDECAR, SUMMARY};
 }
 
-/// Results over two axes, stored or computed while they are looked at: for maps and their boundaries.
+/// Maps of results over two axes, from a stored study or computed for display, and boundaries of adhesion.
 pub mod maps {
     pub use crate::boundary::{
         AdhesionBoundary, Boundaries, Crossing, USUAL_LEVELS, boundaries, protocol_name,
@@ -95,13 +95,13 @@ pub mod maps {
     pub use crate::study_map::StudyMap;
 }
 
-/// Cases with known results: for `asperity check` and its table.
+/// Cases with known results, which `asperity check` computes.
 pub mod checks {
     pub use crate::check::case::Case;
     pub use crate::check::{Check, Verdict, catalogue, checks, judge_case};
 }
 
-/// Comparisons with the half-space in three dimensions: for estimates of the error of the model.
+/// Comparisons of a scene with its contact in three dimensions, which show the error of the model.
 pub mod half_space {
     pub use crate::reference::{
         Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,
@@ -109,7 +109,7 @@ pub mod half_space {
     pub use crate::square_loops::SquareLoops;
 }
 
-/// Errors of a result by their causes, and criteria of other theories: for statements on how far to trust a result.
+/// Errors of a result by their sources, and criteria of other theories, which show how far to trust the result.
 pub mod trust {
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;

@@ -27,7 +27,7 @@ const LEAST_CELLS: usize = 32;
 const LEAST_TIMED: f64 = 0.2;
 /// Factor of the time of a square with twice the cells along its side, without and with adhesion.
 const GROWTH: [f64; 2] = [6.5, 8.5];
-/// Longest time of a comparison, s: a day.
+/// Longest time of a comparison in s, which is a day.
 const LONGEST: f64 = 86_400.0;
 
 /// Options of a comparison of profiles with random squares in three dimensions.
@@ -139,14 +139,14 @@ pub enum ReferenceEvent {
         bytes: u64,
         /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
-        /// Adhesion force of each line in N, or without adhesion its indentation in m under the preload.
+        /// Adhesion force of each profile in N, or its indentation in m under the preload if the scene has no adhesion.
         lines: Vec<f64>,
     },
     /// The computation of a square is finished.
     Square {
         /// Indentations in m and forces in N of the square.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N, or without adhesion its indentation in m under the preload.
+        /// Adhesion force of the square in N, or its indentation in m under the preload if the scene has no adhesion.
         headline: f64,
     },
 }
