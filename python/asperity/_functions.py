@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 #: Function that is called with the numbers of finished parts and of all parts. An exception in it stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
-#: Name of a built-in scene, path of a scene file, text of a scene, or a Scene.
-AnyScene: TypeAlias = str | os.PathLike[str] | Scene
+#: Name of a built-in scene, path of a scene file, text of a scene, a Scene, or a Profile that was made of a form and a roughness.
+AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 
 #: Scene of a flat smooth body, in which form and roughness are replaced.
 _PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"
@@ -38,6 +38,11 @@ def scene(scene: AnyScene, /, **fields: Any) -> Scene:
     Each further argument changes a field, with two underscores for each point of its path: `adhesion__work="50 mJ/m²"` changes
     `adhesion.work`. The value None removes an optional part. `docs/scene-file.md` lists the fields.
     """
+    if isinstance(scene, Profile):
+        if scene.scene is None:
+            saved = "numpy.save('line.npy', numpy.c_[profile.x, profile.heights]) and asperity.measured('line.npy', as_line=True)"
+            raise ValueError(f"a profile of heights is no scene; allowed: a profile with the roughness of a file, {saved}")
+        scene = scene.scene
     if not isinstance(scene, Scene):
         text = os.fspath(scene)
         scene = Scene.parse(text) if text.lstrip().startswith("(") else Scene.open(text)
@@ -70,7 +75,12 @@ def wavy_sphere(radius: Quantity, amplitude: Quantity, wavelength: Quantity) -> 
 
 
 def table(file: str | os.PathLike[str], unit: str | None = None) -> Form:
-    """Returns a body of revolution whose radii and depths are in a file. `unit` is their unit if the file states none."""
+    """Returns a body of revolution whose radii and depths are in a file. `unit` is their unit if the file states none.
+
+    `numpy.save("tip.npy", numpy.c_[radii, depths])` writes such a file of two arrays.
+    """
+    if not isinstance(file, (str, os.PathLike)):
+        raise refusal("file", f"an object of the type {type(file).__name__}", "a path, numpy.save('tip.npy', numpy.c_[radii, depths])")
     return Form("Table", file=Path(file).absolute(), unit=unit)
 
 
@@ -100,6 +110,14 @@ def self_affine(
     )
 
 
+def measured(file: AnyPath, **options: Any) -> Form:
+    """Returns the roughness of a measured surface in a file. Options are the fields `roughness.*` of `docs/surfaces.md`.
+
+    Profiles are random and have the measured spectrum. With `as_line=True` the profile is the measured one.
+    """
+    return Form("Measured", file=Path(file).absolute(), **options)
+
+
 def profile(
     length: Quantity,
     points: int = 16384,
@@ -112,7 +130,7 @@ def profile(
 
     A seed gives the same random phases on any machine and for any number of points.
     """
-    if roughness is not None:
+    if roughness is not None and not roughness.values.get("as_line"):
         roughness = Form(roughness.kind, **{**roughness.values, "seed": seed})
     fields = {"length": length, "numerics.points": points, "form": form, "roughness": roughness}
     scene = Scene.parse(_PLAIN).set(in_fields(fields))
@@ -153,7 +171,8 @@ def load(
         works = [work if closing_work is None else closing_work, work]
         stiffness = float("inf") if loading_stiffness is None else loading_stiffness
         foundation = (modulus, works, stiffness)
-        return Loop(_native.Loop.of_heights(profile._native, foundation, (stages, edges == "grid", samples), progress))
+        load = (foundation, (stages, edges == "grid", samples))
+        return Loop(_native.Loop.of_heights(profile._native, load, progress))
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
     fields = {
         "material": {"effective_modulus": modulus},
@@ -163,7 +182,8 @@ def load(
         "numerics.edges": _EDGES[edges],
         "numerics.samples": samples,
     }
-    return Loop(_native.Loop.of_body(profile.scene.set(in_fields(fields)), progress))
+    body = profile.scene.set(in_fields(fields))
+    return Loop(_native.Loop.of_scene(body, progress), body)
 
 
 def run(
@@ -174,15 +194,16 @@ def run(
     `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number
     of finished profiles and the number of all profiles.
     """
-    opened = _scene(scene, fields)
-    return Outcome(opened, *_native.run(opened, _call(profiles, jobs, progress)))
+    call = _call(scene, fields, profiles, jobs, progress)
+    loop = _native.Loop.of_scene(call[0], None)
+    return Outcome(call[0], _native.run(call, loop), loop)
 
 
 def ensemble(
     scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
 ) -> Ensemble:
     """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    return Ensemble(_native.ensemble(_scene(scene, fields), _call(profiles, jobs, progress)))
+    return Ensemble(_native.ensemble(_call(scene, fields, profiles, jobs, progress)))
 
 
 def find(
@@ -203,7 +224,7 @@ def find(
     of the value in the scene.
     """
     searched = None if range is None else _range(range)
-    return Found(_native.find(_scene(scene, fields), field, where, searched, _call(profiles, jobs, progress)))
+    return Found(_native.find(_call(scene, fields, profiles, jobs, progress), field, where, searched))
 
 
 def preloads(
@@ -220,7 +241,7 @@ def preloads(
 ) -> Preloads:
     """Computes the adhesion force after each of `count` preloads between two forces in N, with `log` at equal ratios."""
     axis = f"{_range(between)}:{count}" + (":log" if log else "")
-    return Preloads(_native.preloads(_scene(scene, fields), axis, _call(profiles, jobs, progress)))
+    return Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress), axis))
 
 
 def reversals(
@@ -238,7 +259,7 @@ def reversals(
     """
     ends = None if between is None else _range(between)
     count = whole(count, "count", 2, 512)
-    return Reversals(_native.reversals(_scene(scene, fields), ends, count, _call(None, None, progress)))
+    return Reversals(_native.reversals(_call(scene, fields, None, None, progress), ends, count))
 
 
 def reference(
@@ -246,15 +267,19 @@ def reference(
     /,
     *,
     grid: int = 64,
-    maps: int = 24,
+    maps: int | None = None,
     profiles: int | None = None,
     jobs: int | None = None,
     progress: Progress = None,
     **fields: Any,
 ) -> Reference:
-    """Computes a scene in three dimensions on `maps` random squares of `grid` × `grid` cells, and on random profiles."""
-    cells, count = whole(grid, "grid", 1, 2**16), whole(maps, "maps", 1, 10_000)
-    return Reference(_native.reference(_scene(scene, fields), cells, count, _call(profiles, jobs, progress)))
+    """Computes a scene in three dimensions on random squares of `grid` × `grid` cells, and on random profiles.
+
+    `maps` is the number of squares, by default 24 without and 12 with adhesion.
+    """
+    cells = whole(grid, "grid", 1, 2**16)
+    count = None if maps is None else whole(maps, "maps", 1, 10_000)
+    return Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
 
 
 def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
@@ -279,7 +304,7 @@ def study(
     `record` names the quantities to record; `docs/studies.md` lists them.
     """
     values = [(path, [float(value) for value in axis]) for path, axis in axes.items()]
-    return Study(_native.study(_scene(scene, fields), values, list(record), _call(profiles, jobs, progress)))
+    return Study(_native.study(_call(scene, fields, profiles, jobs, progress), values, list(record)))
 
 
 def surface(
@@ -302,13 +327,13 @@ def surface(
     words = in_words({"opposite": opposite, **options})
     if isinstance(files, (list, tuple)) and files and all(isinstance(one, (str, os.PathLike)) for one in files):
         words += [*in_words({"spacing": spacing}), "--", *map(os.fspath, files)]
-        return Surface(_native.Surface.of_files(words))
+        return Surface(_native.Surface(words, None))
     if spacing is None:
         raise refusal("spacing", None, "the distance between the points of the array, m")
     distances = spacing if isinstance(spacing, tuple) else (spacing, spacing)
     along, across = (quantity(distance, "m", "spacing") for distance in distances)
     heights = numbers(cast("npt.ArrayLike", files), "heights", (1, 2))
-    return Surface(_native.Surface.of_heights(heights.reshape(-1, heights.shape[-1]), [along, across], [*words, "array"]))
+    return Surface(_native.Surface([*words, "array"], (heights.reshape(-1, heights.shape[-1]), [along, across])))
 
 
 def fit(
@@ -337,9 +362,8 @@ def fit(
     all_curves = [_curve(number, curve) for number, curve in enumerate(given, 1)]
     named = [name if ends is None else f"{name}={_range(ends)}" for name, ends in _ranges(free)]
     words = [f"--free={one}" for one in named] + in_words({"profiles": profiles, **(options or {})})
-    report = _native.fit(
-        all_curves, _scene(scene, fields), [*words, "curves", "scene"], is_single, *_call(None, jobs, progress)[1:]
-    )
+    call = _call(scene, fields, None, jobs, progress)
+    report = _native.fit(call, (all_curves, is_single), [*words, "curves", "scene"])
     if profiles is not None:
         return EnsembleFit(report)
     return Fit(report) if is_single else Fits(report)
@@ -347,10 +371,9 @@ def fit(
 
 def _curve(number: int, curve: Any) -> tuple[str, Any]:
     if isinstance(curve, tuple) and len(curve) == 2:
-        columns = numbers(curve[0], "displacement"), numbers(curve[1], "force")
-        return f"curve {number}", columns
+        return f"curve {number}", (numbers(curve[0], "displacement"), numbers(curve[1], "force"))
     if isinstance(curve, (str, os.PathLike)):
-        return os.fspath(curve), os.fspath(curve)
+        return os.fspath(curve), None
     raise refusal("curves", curve, "a file, or a pair of arrays with displacements and forces")
 
 
@@ -381,8 +404,10 @@ def press(
     cells = len(square)
     if square.shape != (cells, cells):
         raise refusal("heights", f"an array of the shape {square.shape}", "a square map")
-    found = Values(_native.press(square, load, periodic, quantity(residual, "1", "residual")))
-    return Values(found, pressure=found.pressure.reshape(cells, cells), gap=found.gap.reshape(cells, cells))
+    maps, figures = _native.press(square, load, periodic, quantity(residual, "1", "residual"))
+    pressure, gap = (found.reshape(cells, cells) for found in maps)
+    found = Values(zip(["force", "indentation", "area", "residual", "convolutions"], figures, strict=True))
+    return Values(found, convolutions=int(found.convolutions), pressure=pressure, gap=gap)
 
 
 def presets() -> list[str]:
@@ -390,14 +415,12 @@ def presets() -> list[str]:
     return _native.presets()
 
 
-def _scene(name: AnyScene, fields: Mapping[str, Any]) -> Scene:
-    return scene(name, **fields)
-
-
-def _call(profiles: int | None, jobs: int | None, progress: Progress) -> tuple[int | None, int | None, Progress]:
+def _call(
+    given: AnyScene, fields: Mapping[str, Any], profiles: int | None, jobs: int | None, progress: Progress
+) -> tuple[Scene, int | None, int | None, Progress]:
     profiles = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     jobs = None if jobs is None else whole(jobs, "jobs", 1, 1024)
-    return profiles, jobs, progress
+    return scene(given, **fields), profiles, jobs, progress
 
 
 def _range(ends: tuple[Quantity, Quantity] | str) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _native
@@ -55,17 +57,21 @@ class Loop:
     #: Pull-off force over the ideal adhesion force, F_a/F_a,max.
     share: float | None
 
-    def __init__(self, native: _native.Loop) -> None:
-        self._native = native
-        self.__dict__.update(native.columns())
-        self.__dict__.update(native.figures())
+    def __init__(self, native: _native.Loop, scene: _native.Scene | None = None) -> None:
+        self._native, self._scene = native, scene
+        (self.stage, self.patches), columns = native.columns()
+        self.d, self.F, self.D, self.length, self.energy, self.released = columns
+        figures, self.regime, self.jumps = native.figures()
+        self.pull_off, self.pull_off_d, self.preload, self.dissipated, self.kappa, self.tabor, self.share = figures
 
-    @property
+    @cached_property
     def pull_off_error(self) -> float | None:
         """Estimated error of the pull-off force in N by the finite number of springs, computed at the first access."""
-        if "_error" not in self.__dict__:
-            self._error = self._native.error()
-        return self._error
+        if self._scene is None:
+            return None
+        report = _native.run((self._scene, 1, None, None), self._native)
+        error: float | None = json.loads(report.write("json"))["adhesion_force_error"]
+        return error
 
     def to_pandas(self) -> pd.DataFrame:
         """Returns the curve as a pandas DataFrame with one row for each point."""

@@ -42,23 +42,23 @@ class Profile:
         self._points, self.spacing, self.length = native.size()
 
     @cached_property
-    def _columns(self) -> dict[str, npt.NDArray[np.float64]]:
+    def _columns(self) -> list[npt.NDArray[np.float64]]:
         return self._native.columns()
 
     @property
     def x(self) -> npt.NDArray[np.float64]:
         """Positions of the points along the profile in m, beginning with 0."""
-        return self._columns["x"]
+        return self._columns[0]
 
     @property
     def heights(self) -> npt.NDArray[np.float64]:
         """Heights of the points in m."""
-        return self._columns["heights"]
+        return self._columns[1]
 
     @property
     def gaps(self) -> npt.NDArray[np.float64]:
         """Gaps in m: depths of the points below the highest point."""
-        return self._columns["gaps"]
+        return self._columns[2]
 
     def __len__(self) -> int:
         return self._points

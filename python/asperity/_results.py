@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _native
@@ -102,17 +103,17 @@ class Outcome(Drawn):
 
     _shown = (("adhesion_force", "N"), ("regime", ""))
 
-    #: Profile of the scene.
-    profile: Profile
-    #: Force loop of this profile.
+    #: Force loop on the profile of the scene.
     loop: Loop
 
-    def __init__(
-        self, scene: _native.Scene, report: _native.Report, profile: _native.Profile, loop: _native.Loop
-    ) -> None:
+    def __init__(self, scene: _native.Scene, report: _native.Report, loop: _native.Loop) -> None:
         super().__init__(report)
-        self.profile = Profile._of(profile, scene)
-        self.loop = Loop(loop)
+        self.loop, self._scene = Loop(loop, scene), scene
+
+    @cached_property
+    def profile(self) -> Profile:
+        """Profile of the scene."""
+        return Profile._of(_native.Profile.of_scene(self._scene), self._scene)
 
 
 class Ensemble(Result):
@@ -205,6 +206,8 @@ class Surface(Drawn):
         `modulus` is the effective modulus in Pa, `work` the work of adhesion in J/m².
         """
         if self.files[0].file == "array":
-            raise ValueError("a surface of an array has no file that a scene could name; allowed: files, or profile()")
-        adhesion = None if work is None else quantity(work, "J/m²", "work")
-        return self._surface.scene(quantity(modulus, "Pa", "modulus"), adhesion).set(in_fields(fields))
+            saved = "numpy.save('map.npy', heights) and asperity.surface('map.npy', unit='m', spacing=...)"
+            raise ValueError(f"a surface of an array has no file that a scene could name; allowed: profile(), or {saved}")
+        if work is not None:
+            fields = {"adhesion": {"work": quantity(work, "J/m²", "work")}, **fields}
+        return self._surface.scene(quantity(modulus, "Pa", "modulus")).set(in_fields(fields))

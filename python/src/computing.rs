@@ -1,6 +1,10 @@
 //! Computations that take long: without the lock of Python, with progress, and stopped by Ctrl-C.
 
 use crate::failure::Failure;
+use crate::scene::Scene;
+use asperity::data::parallel;
+use asperity::scene::Document;
+use asperity::study::Ensemble;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,8 +13,8 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::Duration;
 
-/// Time between two looks for a signal.
-const PAUSE: Duration = Duration::from_millis(50);
+/// Callback of the progress.
+pub type Progress = Option<Py<PyAny>>;
 
 /// What a running computation asks and reports.
 #[derive(Default)]
@@ -18,7 +22,7 @@ pub struct Watch {
     is_stopped: AtomicBool,
     /// The exception of a signal or of the callback.
     raised: Mutex<Option<PyErr>>,
-    progress: Option<Py<PyAny>>,
+    progress: Progress,
 }
 
 impl Watch {
@@ -44,12 +48,9 @@ impl Watch {
 
 /// Result of a computation without the lock of Python. It runs on a thread of its own, so that the calling thread, which may be
 /// the one that receives signals, looks for them meanwhile.
-///
-/// # Errors
-/// The exception of a signal or of the callback, the failure as an exception, or `RuntimeError` for a defect.
 pub fn computed<R: Send>(
     py: Python<'_>,
-    progress: Option<Py<PyAny>>,
+    progress: Progress,
     work: impl FnOnce(&Watch) -> Result<R, Failure> + Send,
 ) -> PyResult<R> {
     let watch = Watch { progress, ..Watch::default() };
@@ -61,19 +62,43 @@ pub fn computed<R: Send>(
             work(&watch)
         };
         scope(|scope| {
-            let worker = Builder::new().spawn_scoped(scope, working)?;
-            while end.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
+            let unstarted = |error| PyRuntimeError::new_err(format!("could not start a thread: {error}"));
+            let worker = Builder::new().spawn_scoped(scope, working).map_err(unstarted)?;
+            while end.recv_timeout(Duration::from_millis(50)) == Err(RecvTimeoutError::Timeout) {
                 watch.keep(Python::attach(|py| py.check_signals()));
             }
-            Ok::<_, std::io::Error>(worker.join())
+            Ok::<_, PyErr>(worker.join())
         })
     });
     if let Some(error) = watch.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(error);
     }
-    match done {
-        Ok(Ok(result)) => Ok(result?),
-        Ok(Err(_)) => Err(PyRuntimeError::new_err("internal error, please report it")),
-        Err(error) => Err(PyRuntimeError::new_err(format!("could not start a thread: {error}"))),
+    Ok(done?.map_err(|_| PyRuntimeError::new_err("internal error, please report it"))??)
+}
+
+/// A scene, number of profiles, number of threads, and callback of the progress; numbers may be left to the program.
+#[derive(FromPyObject)]
+pub struct Call(Py<Scene>, pub Option<u64>, Option<usize>, Progress);
+
+/// A call that is computed.
+pub struct Case<'a> {
+    pub document: Document,
+    pub profiles: u64,
+    pub jobs: usize,
+    pub watch: &'a Watch,
+}
+
+impl Call {
+    /// Computes a result as [`computed`] does.
+    pub fn computed<R: Send>(
+        self,
+        py: Python<'_>,
+        work: impl FnOnce(Case<'_>) -> Result<R, Failure> + Send,
+    ) -> PyResult<R> {
+        let Call(scene, profiles, jobs, progress) = self;
+        let document = scene.get().document.clone();
+        let profiles = profiles.unwrap_or_else(|| Ensemble::profiles_of(document.scene()));
+        let jobs = jobs.unwrap_or_else(parallel::threads);
+        computed(py, progress, move |watch| work(Case { document, profiles, jobs, watch }))
     }
 }

@@ -6,72 +6,57 @@ use asperity::scene::{Error, Origin, RunError, SceneError, SceneErrors};
 use asperity::study::StudyError;
 use asperity::surface::SurfaceError;
 use asperity_half_space::HalfSpaceError;
+use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyMemoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use std::fmt::Display;
 use std::fs::File;
 use std::path::PathBuf;
 
-/// Reason why a computation has no result, each with its sentence.
-pub enum Failure {
-    /// A value that is not allowed: its name, the value, and what is allowed.
-    Field(String, [String; 3]),
-    /// A loading stage out of reach: its number from 1, and the smallest force within reach, N.
-    Loading(String, (usize, Option<f64>)),
-    /// A file that cannot be read.
-    File(String),
-    Memory(String),
-    /// Any other input that is not allowed.
-    Value(String),
-}
+/// Reason why a computation has no result, as the exception with its sentence.
+pub struct Failure(PyErr);
 
 impl Failure {
+    /// An exception of this class of the package with its values.
+    fn of_class(name: &str, values: impl for<'py> PyCallArgs<'py>) -> Failure {
+        Failure(Python::attach(|py| {
+            let class = py.import("asperity._errors").and_then(|errors| errors.getattr(name));
+            class.and_then(|class| class.call1(values)).map_or_else(|error| error, PyErr::from_value)
+        }))
+    }
+
+    /// A value that is not allowed, with what is allowed.
+    fn field(message: String, field: &str, value: &str, allowed: &str) -> Failure {
+        Failure::of_class("FieldError", (message, field, value, allowed))
+    }
+
     /// A text that is not understood, for this reason.
     pub fn explained(field: &str, value: &str, reason: &impl Display) -> Failure {
-        let message = format!("{field} = {value:?}: {reason}");
-        Failure::Field(message, [field.to_owned(), value.to_owned(), reason.to_string()])
+        Failure::field(format!("{field} = {value:?}: {reason}"), field, value, &reason.to_string())
     }
 
     /// The failure to read files if one of them does not open, otherwise the failure that their content explains.
-    pub fn of_files(files: &[PathBuf], error: impl Display) -> Failure {
+    pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
         let is_missing = |path: &PathBuf| path.is_dir() || File::open(path).is_err();
         let is_any_missing = files.iter().any(is_missing);
-        if is_any_missing { Failure::File(error.to_string()) } else { Failure::Value(error.to_string()) }
+        if is_any_missing { Failure(PyOSError::new_err(error.to_string())) } else { error.into() }
     }
 
     /// The sentence of the exception.
-    pub fn message(&self) -> &str {
-        match self {
-            Failure::Field(message, _) | Failure::Loading(message, _) => message,
-            Failure::File(message) | Failure::Memory(message) | Failure::Value(message) => message,
-        }
+    pub fn message(&self) -> String {
+        Python::attach(|py| self.0.value(py).to_string())
     }
 }
 
-/// The exception of Python; those with values are classes of the package.
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> PyErr {
-        Python::attach(|py| {
-            let class = |name| py.import("asperity._errors").and_then(|errors| errors.getattr(name));
-            let made = match failure {
-                Failure::Field(message, [field, value, allowed]) => {
-                    class("FieldError").and_then(|class| class.call1((message, field, value, allowed)))
-                }
-                Failure::Loading(message, (stage, smallest)) => {
-                    class("LoadingError").and_then(|class| class.call1((message, stage, smallest)))
-                }
-                Failure::File(message) => return PyOSError::new_err(message),
-                Failure::Memory(message) => return PyMemoryError::new_err(message),
-                Failure::Value(message) => return PyValueError::new_err(message),
-            };
-            made.map_or_else(|error| error, PyErr::from_value)
-        })
+        failure.0
     }
 }
 
 impl From<String> for Failure {
     fn from(message: String) -> Failure {
-        Failure::Value(message)
+        Failure(PyValueError::new_err(message))
     }
 }
 
@@ -79,17 +64,12 @@ impl From<SceneErrors> for Failure {
     fn from(errors: SceneErrors) -> Failure {
         // The options of the command line are no part of Python.
         let line = |error: &SceneError| match error.origin {
-            Origin::Overrides(_) if error.field.is_empty() => error.to_string().replace("--set ", ""),
-            Origin::Overrides(_) => error.what(),
-            _ => error.to_string(),
+            Origin::Overrides(_) if !error.field.is_empty() => error.what(),
+            _ => error.to_string().replace("--set ", ""),
         };
         let message = errors.iter().map(line).collect::<Vec<_>>().join("\n");
-        let SceneError { field, value, allowed, .. } = errors.first().clone();
-        if field.is_empty() {
-            Failure::Value(message)
-        } else {
-            Failure::Field(message, [field, value, allowed])
-        }
+        let SceneError { field, value, allowed, .. } = errors.first();
+        if field.is_empty() { message.into() } else { Failure::field(message, field, value, allowed) }
     }
 }
 
@@ -97,12 +77,14 @@ impl From<ContactError> for Failure {
     fn from(error: ContactError) -> Failure {
         let message = error.to_string();
         match (error.stage(), &error) {
-            (Some(stage), _) => Failure::Loading(message, (stage + 1, error.smallest_force())),
-            (None, ContactError::OutOfMemory(_)) => Failure::Memory(message),
-            (None, ContactError::Value { name, value, allowed }) => {
-                Failure::Field(message, [name.clone(), value.to_string(), (*allowed).to_owned()])
+            (Some(stage), _) => {
+                Failure::of_class("LoadingError", (message, stage + 1, error.smallest_force()))
             }
-            _ => Failure::Value(message),
+            (None, ContactError::OutOfMemory(_)) => Failure(PyMemoryError::new_err(message)),
+            (None, ContactError::Value { name, value, allowed }) => {
+                Failure::field(message, name, &value.to_string(), allowed)
+            }
+            _ => message.into(),
         }
     }
 }
@@ -114,9 +96,9 @@ macro_rules! failures {
             fn from(error: $error) -> Failure {
                 match error {
                     $($error::$inner(inner) => inner.into(),)*
-                    $($error::$memory { .. } => Failure::Memory(error.to_string()),)*
-                    $($error::$file { .. } => Failure::File(error.to_string()),)*
-                    _ => Failure::Value(error.to_string()),
+                    $($error::$memory { .. } => Failure(PyMemoryError::new_err(error.to_string())),)*
+                    $($error::$file { .. } => Failure(PyOSError::new_err(error.to_string())),)*
+                    _ => error.to_string().into(),
                 }
             }
         }
@@ -136,8 +118,10 @@ impl From<StudyError> for Failure {
         match error {
             StudyError::Measured(error) => error.into(),
             StudyError::Run { place, error } if place.is_empty() => error.into(),
-            StudyError::TooManyRecords(_) | StudyError::Memory { .. } => Failure::Memory(error.to_string()),
-            error => Failure::Value(error.to_string()),
+            StudyError::TooManyRecords(_) | StudyError::Memory { .. } => {
+                Failure(PyMemoryError::new_err(error.to_string()))
+            }
+            error => error.to_string().into(),
         }
     }
 }

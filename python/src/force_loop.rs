@@ -1,151 +1,154 @@
-//! The force loop of a loading: its curve as arrays, its figures, and its picture.
+//! Profiles of rigid bodies and their force loops: the curve as arrays, its figures, and its picture.
 
-use crate::computing::computed;
+use crate::computing::{Progress, computed};
 use crate::failure::Failure;
-use crate::profile::Profile;
-use crate::quantity::array;
+use crate::quantity::{Array, array};
 use crate::scene::Scene;
-use asperity::contact::Mark;
-use asperity::contact::{CurvePoint, Figures, LegRecord};
+use asperity::contact::{Figures, LegRecord, Mark};
 use asperity::scene::instrument::displacements;
 use asperity::scene::loading::read_loading;
-use asperity::scene::{Document, Outcome, Simulation, estimate};
-use asperity::{Contact, Cycle, Edges, LoadOptions, Modulus};
+use asperity::scene::{Outcome, Simulation};
+use asperity::{Contact, Edges, LoadOptions, Modulus};
 use asperity_plot::Figure;
 use asperity_report::{ForceLoop, LoopUnits, loop_chart};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// The profile of heights or of a scene; `asperity.Profile` gives its parts their names.
+#[pyclass(frozen, module = "asperity._native")]
+pub struct Profile {
+    pub profile: asperity::Profile,
+}
+
+#[pymethods]
+impl Profile {
+    #[new]
+    fn new(heights: PyReadonlyArray1<'_, f64>, spacing: f64) -> PyResult<Self> {
+        let profile = asperity::Profile::from_heights(heights.as_slice()?, spacing);
+        Ok(Profile { profile: profile.map_err(Failure::from)? })
+    }
+
+    /// The profile of a scene.
+    #[staticmethod]
+    fn of_scene(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
+        let document = &scene.document;
+        computed(py, None, |_| {
+            let profile = Simulation::new(document.resolve("")).for_one_scene().profile(document.scene())?;
+            Ok(Profile { profile })
+        })
+    }
+
+    /// Positions, heights and gaps of the points, m.
+    fn columns<'py>(&self, py: Python<'py>) -> [Array<'py, f64>; 3] {
+        let (profile, points) = (&self.profile, 0..self.profile.points());
+        let positions = points.map(|index| profile.position(index)).collect();
+        [positions, profile.heights().collect(), profile.gaps().to_vec()].map(|column| array(py, column))
+    }
+
+    /// Number of points, their distance, m, and the length of the profile, m.
+    fn size(&self) -> (usize, f64, f64) {
+        (self.profile.points(), self.profile.spacing(), self.profile.length())
+    }
+}
+
+/// Modulus (Pa), works of adhesion on closing and on opening (J/m²), loading stiffness (N/m); stages, whole springs or not, samples.
+type Load = ((f64, [f64; 2], f64), (String, bool, u64));
+
+/// Indentation, m, and force, N, of the marked points by their names.
+type Marks = BTreeMap<&'static str, (f64, f64)>;
 
 /// The loop of a profile of heights or of a computed scene; `asperity.Loop` gives its parts their names.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Loop {
-    source: Source,
+    stages: Vec<LegRecord>,
+    figures: Figures,
     /// Stiffness of the instrument, N/m.
     stiffness: f64,
-}
-
-enum Source {
-    Heights(Box<Cycle>),
-    Scene(Box<Document>, Arc<Outcome>),
-}
-
-impl Loop {
-    /// The loop of a computed scene.
-    pub fn of_scene(document: Document, outcome: Arc<Outcome>) -> Loop {
-        let stiffness = document.scene().loading_stiffness.unwrap_or(f64::INFINITY);
-        Loop { source: Source::Scene(Box::new(document), outcome), stiffness }
-    }
-
-    fn stages(&self) -> &[LegRecord] {
-        match &self.source {
-            Source::Heights(cycle) => cycle.stages(),
-            Source::Scene(_, outcome) => &outcome.history.legs,
-        }
-    }
-
-    fn column<T>(&self, of: impl Fn(&CurvePoint) -> T) -> Vec<T> {
-        self.stages().iter().flat_map(|stage| &stage.curve).map(of).collect()
-    }
+    title: String,
+    /// The outcome of a scene.
+    pub outcome: Option<Arc<Outcome>>,
 }
 
 #[pymethods]
 impl Loop {
-    /// Loads a profile of heights: modulus (Pa), works of adhesion on closing and on opening (J/m²), loading stiffness (N/m),
-    /// stages, whole springs or not, and samples on each stage.
+    /// Loads a profile of heights.
     #[staticmethod]
-    fn of_heights(
-        py: Python<'_>,
-        profile: &Profile,
-        foundation: (f64, [f64; 2], f64),
-        loading: (String, bool, u64),
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<Loop> {
-        let ((modulus, works, stiffness), (stages, is_grid, samples)) = (foundation, loading);
+    fn of_heights(py: Python<'_>, profile: &Profile, load: Load, progress: Progress) -> PyResult<Loop> {
+        let ((modulus, works, stiffness), (stages, is_grid, samples)) = load;
         computed(py, progress, |watch| {
-            let legs =
-                read_loading(&stages).map_err(|error| Failure::explained("stages", &stages, &error))?;
-            let contact =
-                Contact::builder(&profile.profile, Modulus::effective(modulus)?).works_of_adhesion(works);
+            let targets = read_loading(&stages);
+            let targets = targets.map_err(|error| Failure::explained("stages", &stages, &error))?;
+            let contact = Contact::builder(&profile.profile, Modulus::effective(modulus)?);
             let edges = if is_grid { Edges::Grid } else { Edges::SubCell };
-            let contact = contact.loading_stiffness(stiffness).edges(edges).build()?;
+            let contact =
+                contact.works_of_adhesion(works).loading_stiffness(stiffness).edges(edges).build()?;
             let mut proceed = |stage| {
-                watch.report(stage as u64, legs.len() as u64);
+                watch.report(stage as u64, targets.len() as u64);
                 !watch.stop()
             };
             let options = LoadOptions::default().samples(samples).before_stage(&mut proceed);
-            Ok(Loop { source: Source::Heights(Box::new(contact.load_with(&legs, options)?)), stiffness })
+            let cycle = contact.load_with(&targets, options)?;
+            let (stages, figures, title) = (cycle.stages().to_vec(), cycle.figures(), String::new());
+            Ok(Loop { stages, figures, stiffness, title, outcome: None })
         })
     }
 
     /// Loads the body of a scene.
     #[staticmethod]
-    fn of_body(py: Python<'_>, scene: &Scene, progress: Option<Py<PyAny>>) -> PyResult<Loop> {
+    fn of_scene(py: Python<'_>, scene: &Scene, progress: Progress) -> PyResult<Loop> {
         let document = scene.document.clone();
         computed(py, progress, |watch| {
+            let (scene, mut done) = (document.scene(), 0);
             let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
-            let (stages, mut done) = (document.scene().loading.len() as u64, 0);
-            let outcome = simulation.run(document.scene(), &|| watch.stop(), &mut |_, _, _| {
+            let outcome = simulation.run(scene, &|| watch.stop(), &mut |_, _, _| {
                 done += 1;
-                watch.report(done, stages);
+                watch.report(done, scene.loading.len() as u64);
                 Ok(())
             })?;
-            Ok(Loop::of_scene(document, Arc::new(outcome)))
+            let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+            let (stages, figures) = (outcome.history.legs.clone(), outcome.figures);
+            let (title, outcome) = (document.title().to_owned(), Some(Arc::new(outcome)));
+            Ok(Loop { stages, figures, stiffness, title, outcome })
         })
     }
 
-    /// Columns of the curve, and the released energy of each stage.
-    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (columns, stages) = (PyDict::new(py), self.stages());
-        let numbered = stages.iter().zip(0_i64..);
-        let stage = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]);
-        let displacement = stages.iter().flat_map(|stage| displacements(stage, self.stiffness));
-        columns.set_item("stage", array::<i64>(py, stage.collect()))?;
-        columns.set_item("d", array(py, self.column(|point| point.indentation)))?;
-        columns.set_item("F", array(py, self.column(|point| point.force)))?;
-        columns.set_item("D", array::<f64>(py, displacement.collect()))?;
-        columns.set_item("length", array(py, self.column(|point| point.contact_length)))?;
-        columns.set_item("patches", array(py, self.column(|point| point.fragments as i64)))?;
-        columns.set_item("energy", array(py, self.column(|point| point.stored_energy)))?;
-        let released = stages.iter().map(|stage| stage.released_energy);
-        columns.set_item("released", array::<f64>(py, released.collect()))?;
-        Ok(columns)
+    /// Columns of the curve, whole numbers first, in the order of `asperity.Loop`, and the released energy of each stage.
+    fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
+        let stages = self.stages.iter();
+        let points = || stages.clone().flat_map(|stage| &stage.curve);
+        let numbered = stages.clone().zip(0_i64..);
+        let numbers = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]);
+        let counts = [numbers.collect(), points().map(|point| point.fragments as i64).collect()];
+        let columns = [
+            points().map(|point| point.indentation).collect(),
+            points().map(|point| point.force).collect(),
+            stages.clone().flat_map(|stage| displacements(stage, self.stiffness)).collect(),
+            points().map(|point| point.contact_length).collect(),
+            points().map(|point| point.stored_energy).collect(),
+            stages.map(|stage| stage.released_energy).collect(),
+        ];
+        (counts.map(|column| array(py, column)), columns.map(|column| array(py, column)))
     }
 
-    /// Figures of the loop, and its marked points.
-    fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (figures, outcome): (Figures, Option<&Outcome>) = match &self.source {
-            Source::Heights(cycle) => (cycle.figures(), None),
-            Source::Scene(_, outcome) => (outcome.figures, Some(outcome)),
-        };
-        let values = PyDict::new(py);
-        values.set_item("pull_off", figures.adhesion_force)?;
-        values.set_item("pull_off_d", figures.pull_off_indentation)?;
-        values.set_item("preload", figures.preload)?;
-        values.set_item("dissipated", figures.dissipated_energy)?;
-        values.set_item("kappa", outcome.and_then(|outcome| outcome.governing.kappa))?;
-        values.set_item("tabor", outcome.and_then(|outcome| outcome.tabor_number))?;
-        values.set_item("regime", outcome.and_then(|outcome| Some(outcome.regime?.name())))?;
-        values.set_item("share", outcome.and_then(Outcome::adhesion_share))?;
-        let named = Mark::all(self.stages()).into_iter();
-        let named: Vec<_> =
-            named.map(|(mark, point)| (mark.name(), (point.indentation, point.force))).collect();
-        values.set_item("jumps", PyDict::from_sequence(&named.into_pyobject(py)?)?)?;
-        Ok(values)
-    }
-
-    /// Estimated error of the pull-off force by the number of springs, N; None for a profile of heights.
-    fn error(&self, py: Python<'_>) -> PyResult<Option<f64>> {
-        let Source::Scene(document, outcome) = &self.source else { return Ok(None) };
-        computed(py, None, |watch| {
-            let found = estimate(document.scene(), &document.resolve(""), outcome, &|| watch.stop());
-            Ok(found.and_then(|found| found.of_adhesion_force(outcome)))
-        })
+    /// Pull-off force, its indentation, preload, dissipated energy, κ, Tabor number and share of ideal contact; the regime; and the
+    /// marked points.
+    fn figures(&self) -> ([Option<f64>; 7], Option<&'static str>, Marks) {
+        let (of, outcome) = (&self.figures, self.outcome.as_ref());
+        let governing = outcome.map(|of| [of.governing.kappa, of.tabor_number, of.adhesion_share()]);
+        let [kappa, tabor, share] = governing.unwrap_or_default();
+        let [pull_off, at] = [of.adhesion_force, of.pull_off_indentation];
+        let figures = [pull_off, at, of.preload, of.dissipated_energy, kappa, tabor, share];
+        let regime = outcome.and_then(|outcome| Some(outcome.regime?.name()));
+        let named = Mark::all(&self.stages).into_iter();
+        let named = named.map(|(mark, point)| (mark.name(), (point.indentation, point.force)));
+        (figures, regime, named.collect())
     }
 
     /// The force curve as a figure in SVG.
     fn svg(&self) -> String {
-        let title = if let Source::Scene(document, _) = &self.source { document.title() } else { "" };
-        Figure::of_chart(title, loop_chart(&[ForceLoop::new(self.stages())], LoopUnits::default())).svg()
+        let chart = loop_chart(&[ForceLoop::new(&self.stages)], LoopUnits::default());
+        Figure::of_chart(&self.title, chart).svg()
     }
 }

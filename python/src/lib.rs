@@ -1,16 +1,13 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-//! The native part of the package `asperity` of Python: arrays, texts and errors of Python on one side, the libraries of
-//! Asperity on the other. It computes nothing itself.
+//! The native part of the package `asperity` of Python, between Python and the libraries of Asperity. It computes nothing itself.
 
 mod computing;
 mod failure;
 mod fit;
 mod force_loop;
 mod press;
-mod profile;
 mod quantity;
-mod report;
 mod results;
 mod scene;
 mod surface;
@@ -23,12 +20,10 @@ mod _native {
     #[pymodule_export]
     use super::{
         fit::fit,
-        force_loop::Loop,
+        force_loop::{Loop, Profile},
         press::press,
-        profile::Profile,
         quantity::{in_words, parsed},
-        report::Report,
-        results::{ensemble, find, preloads, reference, reversals, run, study},
+        results::{Report, ensemble, find, preloads, reference, reversals, run, study},
         scene::{Scene, presets},
         surface::Surface,
     };

@@ -18,7 +18,10 @@ pub fn in_words(value: f64, unit: &str) -> String {
 }
 
 /// An array of Python that cannot be changed.
-pub fn array<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<T>> {
+pub type Array<'py, T> = Bound<'py, PyArray1<T>>;
+
+/// The array of these values.
+pub fn array<T: Element>(py: Python<'_>, values: Vec<T>) -> Array<'_, T> {
     let array = PyArray1::from_vec(py, values);
     array.readwrite().make_nonwriteable();
     array

@@ -1,204 +1,189 @@
 //! Results of scenes: the functions of the libraries, and the reports of the program as their answers.
 
-use crate::computing::{Watch, computed};
+use crate::computing::{Call, Case};
 use crate::failure::Failure;
 use crate::force_loop::Loop;
-use crate::profile::Profile;
-use crate::report::{Report, of_scene};
-use crate::scene::Scene;
-use asperity::data::{Control, parallel};
+use asperity::data::Control;
 use asperity::scene::{Document, Simulation, estimate};
 use asperity::study::Axis;
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity::study::trust::MeasuredAdhesion;
 use asperity::study::{Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
-use asperity_report::{FindReport, PreloadReport, ReferenceReport, ReversalReport, RunReport};
+use asperity_report::{
+    FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport, RunReport,
+    scene_provenance,
+};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use std::sync::Arc;
+use std::io;
+use std::path::Path;
 
-/// Largest number of springs for which the error by the spectrum of a measured surface is computed unasked.
-const MOST_SPRINGS: u64 = 1 << 17;
+/// A result in the formats of the program: JSON, a table as CSV or as an array of NumPy, text, and a figure.
+#[pyclass(frozen, module = "asperity._native")]
+pub struct Report(Box<dyn Fn(Format) -> io::Result<Vec<u8>> + Send + Sync>);
 
-/// Number of profiles, number of threads, and the callback of the progress; each may be left to the program.
-#[derive(FromPyObject)]
-pub struct Call(Option<u64>, Option<usize>, Option<Py<PyAny>>);
-
-impl Call {
-    /// The number of profiles of a scene, the number of threads, and the callback.
-    fn of(self, scene: &Scene) -> (u64, usize, Option<Py<PyAny>>) {
-        let profiles = self.0.unwrap_or_else(|| Ensemble::profiles_of(scene.document.scene()));
-        (profiles, self.1.unwrap_or_else(parallel::threads), self.2)
+impl Report {
+    /// The result of a function that borrows the report of what it owns.
+    pub fn new(write: impl Fn(Format) -> io::Result<Vec<u8>> + Send + Sync + 'static) -> Self {
+        Report(Box::new(write))
     }
 }
 
-/// Computes a report of a scene on a number of profiles and threads.
-fn reported(
-    py: Python<'_>,
-    scene: &Scene,
-    call: Call,
-    work: impl FnOnce(Document, (u64, usize), &Watch) -> Result<Report, Failure> + Send,
-) -> PyResult<Report> {
-    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
-    computed(py, progress, move |watch| work(document, (profiles, jobs), watch))
+/// A report as bytes; tables and figures state its scene.
+pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> io::Result<Vec<u8>> {
+    let mut written = Vec::new();
+    let provenance = of.filter(|_| matches!(format, Format::Csv | Format::Svg)).map(|document| {
+        let (scene, folder) = (document.scene(), document.resolve(""));
+        scene_provenance("import asperity", scene, &folder, Path::new("")).map_err(io::Error::other)
+    });
+    asperity_report::write(&mut written, report, format, &provenance.transpose()?.unwrap_or_default())?;
+    Ok(written)
 }
 
-/// The results of a scene on its random profiles.
-fn on_profiles(
-    document: &Document,
-    (profiles, is_asked): (u64, bool),
-    jobs: usize,
-    watch: &Watch,
-) -> Result<Ensemble, Failure> {
-    let further = if is_asked { &Ensemble::FURTHER[..] } else { &[] };
-    let simulation = Simulation::new(document.resolve(""));
-    let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| watch.report(computed, profiles);
-    Ok(Ensemble::of(document.scene(), further, profiles, (simulation, jobs), &|| watch.stop(), &mut report)?)
+#[pymethods]
+impl Report {
+    /// The result in a format: text, json, csv, npy, svg, png or pdf.
+    fn write(&self, py: Python<'_>, format: &str) -> PyResult<Vec<u8>> {
+        let known = Format::ALL.into_iter().find(|one| one.name() == format || one.extension() == format);
+        let known = known.ok_or_else(|| {
+            let names = Format::ALL.map(Format::extension).join(", ");
+            PyValueError::new_err(format!("format {format:?}; allowed: {names}"))
+        })?;
+        py.detach(|| (self.0)(known)).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
 }
 
-/// Computes a scene: its report, its profile and its loop.
+/// The results of a scene on its random profiles, with these further quantities.
+fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
+    let Case { document, profiles, jobs, watch } = case;
+    let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| watch.report(computed, *profiles);
+    let (scene, simulation) = (document.scene(), (Simulation::new(case.document.resolve("")), *jobs));
+    Ok(Ensemble::of(scene, further, *profiles, simulation, &|| watch.stop(), &mut report)?)
+}
+
+/// The report of a computed scene, with the results on its random profiles.
 #[pyfunction]
-pub fn run(py: Python<'_>, scene: &Scene, call: Call) -> PyResult<(Report, Profile, Loop)> {
-    let (document, is_asked) = (scene.document.clone(), call.0.is_some());
-    let (profiles, jobs, progress) = call.of(scene);
-    computed(py, progress, move |watch| {
-        let (stop, scene) = (|| watch.stop(), document.scene());
-        let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
-        let outcome = Arc::new(simulation.run(scene, &stop, &mut |_, _, _| Ok(()))?);
-        let profile = simulation.profile(scene)?;
-        let on_profiles = || on_profiles(&document, (profiles, is_asked), jobs, watch);
-        let ensemble = (profiles > 1).then(on_profiles).transpose()?;
-        let estimate = estimate(scene, &document.resolve(""), &outcome, &stop);
-        let is_measured = scene.measured().is_some() && scene.numerics.points <= MOST_SPRINGS;
-        let deviation = ensemble
-            .as_ref()
-            .filter(|_| is_measured)
-            .and_then(|_| MeasuredAdhesion::of(&document, profiles as u32, jobs).ok()?.fit_deviation());
-        let (kept, computed) = (document.clone(), Arc::clone(&outcome));
-        let report = Report::new(move |format| {
-            let (title, scene, outcome) = (kept.title(), kept.scene(), &*computed);
+pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
+    let further = if call.1.is_some() { &Ensemble::FURTHER[..] } else { &[] };
+    let outcome = computed.outcome.clone().ok_or_else(|| PyValueError::new_err("no scene"))?;
+    call.computed(py, |case| {
+        let (scene, folder) = (case.document.scene(), case.document.resolve(""));
+        let ensemble = (case.profiles > 1).then(|| on_profiles(&case, further)).transpose()?;
+        let estimate = estimate(scene, &folder, &outcome, &|| case.watch.stop());
+        let deviation = ensemble.as_ref().and_then(|ensemble| {
+            MeasuredAdhesion::quick_deviation(&case.document, ensemble.profiles(), case.jobs)
+        });
+        Ok(Report::new(move |format| {
+            let (title, scene, outcome) = (case.document.title(), case.document.scene(), &*outcome);
             let (estimate, ensemble) = (estimate.as_ref(), ensemble.as_ref());
             let report = RunReport { title, scene, outcome, choice: None, estimate, ensemble, deviation };
-            of_scene(&kept, &report, format)
-        });
-        Ok((report, Profile { profile }, Loop::of_scene(document, outcome)))
+            bytes(Some(&case.document), &report, format)
+        }))
     })
 }
 
 /// Computes a scene on random profiles.
 #[pyfunction]
-pub fn ensemble(py: Python<'_>, scene: &Scene, call: Call) -> PyResult<Report> {
-    reported(py, scene, call, move |document, (profiles, jobs), watch| {
-        let ensemble = on_profiles(&document, (profiles, true), jobs, watch)?;
-        Ok(Report::new(move |format| of_scene(&document, &ensemble, format)))
+pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
+    call.computed(py, |case| {
+        let ensemble = on_profiles(&case, &Ensemble::FURTHER)?;
+        Ok(Report::new(move |format| bytes(Some(&case.document), &ensemble, format)))
     })
 }
 
 /// Finds the number of a scene at which a quantity has a value.
 #[pyfunction]
-pub fn find(
-    py: Python<'_>,
-    scene: &Scene,
-    field: &str,
-    condition: &str,
-    range: Option<&str>,
-    call: Call,
-) -> PyResult<Report> {
-    reported(py, scene, call, move |document, (profiles, jobs), watch| {
-        let (scene, condition) = (document.scene(), Question::parse_condition(condition)?);
-        let mut simulation = Simulation::new(document.resolve(""));
-        let mut question = Question::new(scene, field, condition, profiles, &mut simulation)?;
+pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<&str>) -> PyResult<Report> {
+    call.computed(py, |case| {
+        let (scene, mut simulation) = (case.document.scene(), Simulation::new(case.document.resolve("")));
+        let mut question =
+            Question::new(scene, field, Question::parse_condition(value)?, case.profiles, &mut simulation)?;
         if let Some(range) = range {
             question.searched = Axis::parse_range(range, question.axis.unit)?;
         }
-        let mut report = |done| watch.report(done, profiles);
-        let found = Found::of(question, (simulation, jobs), &|| watch.stop(), &mut report)?;
+        let mut report = |done| case.watch.report(done, case.profiles);
+        let found = Found::of(question, (simulation, case.jobs), &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
-            let (title, scene, found) = (document.title(), document.scene(), &found);
-            of_scene(&document, &FindReport { title, scene, found }, format)
+            let (title, scene, found) = (case.document.title(), case.document.scene(), &found);
+            bytes(Some(&case.document), &FindReport { title, scene, found }, format)
         }))
     })
 }
 
 /// Computes the adhesion force of a scene over preloads, as `asperity run --preloads` takes them.
 #[pyfunction]
-pub fn preloads(py: Python<'_>, scene: &Scene, preloads: &str, call: Call) -> PyResult<Report> {
-    reported(py, scene, call, move |document, (profiles, jobs), watch| {
-        let (stop, axis) = (|| watch.stop(), Axis::parse_preloads(preloads)?);
-        let mut simulation = Simulation::new(document.resolve(""));
-        let staircase = Staircase::find(document.scene(), &axis, &mut simulation, &stop, &mut |_| ())?;
-        let mut results = Results::begin(document.scene(), &Results::OF_PRELOADS, profiles, Some(&axis))?;
+pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
+    call.computed(py, |case| {
+        let (scene, stop, axis) =
+            (case.document.scene(), || case.watch.stop(), Axis::parse_preloads(preloads)?);
+        let mut simulation = Simulation::new(case.document.resolve(""));
+        let staircase = Staircase::find(scene, &axis, &mut simulation, &stop, &mut |_| ())?;
+        let mut results = Results::begin(scene, &Results::OF_PRELOADS, case.profiles, Some(&axis))?;
         let mut done = 0;
-        results.extend((simulation, jobs), &stop, &mut |_| {
+        results.extend((simulation, case.jobs), &stop, &mut |_| {
             done += 1;
-            watch.report(done, profiles);
+            case.watch.report(done, case.profiles);
         })?;
         Ok(Report::new(move |format| {
-            let (title, results, staircase) = (document.title(), &results, Some(&staircase));
+            let (title, results, staircase) = (case.document.title(), &results, Some(&staircase));
             let report = PreloadReport { title, choice: None, results, staircase, curves: false };
-            of_scene(&document, &report, format)
+            bytes(Some(&case.document), &report, format)
         }))
     })
 }
 
 /// Computes the unloading of a scene from each of many turning points.
 #[pyfunction]
-pub fn reversals(
-    py: Python<'_>,
-    scene: &Scene,
-    range: Option<&str>,
-    count: usize,
-    call: Call,
-) -> PyResult<Report> {
-    reported(py, scene, call, move |document, _, watch| {
+pub fn reversals(py: Python<'_>, call: Call, range: Option<&str>, count: usize) -> PyResult<Report> {
+    call.computed(py, |case| {
         let ends = range.map(|range| Axis::parse_range(range, "N")).transpose()?;
-        let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
-        let map = simulation.reversal_map(document.scene(), ends, count, &|| watch.stop())?;
+        let mut simulation = Simulation::new(case.document.resolve("")).for_one_scene();
+        let map = simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
         Ok(Report::new(move |format| {
-            let (title, scene) = (document.title(), document.scene());
+            let (title, scene) = (case.document.title(), case.document.scene());
             let report = ReversalReport { title, scene, map: &map, preloads: None, staircase: None };
-            of_scene(&document, &report, format)
+            bytes(Some(&case.document), &report, format)
         }))
     })
 }
 
 /// Computes a scene as a line and in three dimensions, on squares of `cells` along a side.
 #[pyfunction]
-pub fn reference(py: Python<'_>, scene: &Scene, cells: usize, maps: u64, call: Call) -> PyResult<Report> {
-    let lines = call.0.unwrap_or(16 * maps);
-    reported(py, scene, call, move |document, (_, jobs), watch| {
-        let (options, mut done) = (ReferenceOptions { cells, maps, lines }, 0);
+pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) -> PyResult<Report> {
+    let lines = call.1;
+    call.computed(py, |case| {
+        let (scene, mut done) = (case.document.scene(), 0);
+        let usual = ReferenceOptions::of(scene, maps);
+        let options = ReferenceOptions { cells, lines: lines.unwrap_or(usual.lines), ..usual };
         let mut report = |event| {
             if let ReferenceEvent::Square { .. } = event {
                 done += 1;
-                watch.report(done, maps);
+                case.watch.report(done, options.maps);
             }
         };
-        let simulation = (Simulation::new(document.resolve("")), jobs);
-        let found = Reference::of(document.scene(), options, simulation, &|| watch.stop(), &mut report)?;
+        let simulation = (Simulation::new(case.document.resolve("")), case.jobs);
+        let found = Reference::of(scene, options, simulation, &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
-            let (title, scene, reference) = (document.title(), document.scene(), &found);
-            of_scene(&document, &ReferenceReport { title, scene, reference }, format)
+            let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
+            bytes(Some(&case.document), &ReferenceReport { title, scene, reference }, format)
         }))
     })
 }
 
+/// Paths of fields with their values.
+type Axes = Vec<(String, Vec<f64>)>;
+
 /// Computes a scene for all combinations of values on axes, on random profiles of each.
 #[pyfunction]
-pub fn study(
-    py: Python<'_>,
-    scene: &Scene,
-    axes: Vec<(String, Vec<f64>)>,
-    record: Vec<String>,
-    call: Call,
-) -> PyResult<Report> {
-    reported(py, scene, call, move |document, (profiles, jobs), watch| {
+pub fn study(py: Python<'_>, call: Call, axes: Axes, record: Vec<String>) -> PyResult<Report> {
+    call.computed(py, |case| {
         let record = record.iter().map(|name| Quantity::named(name)).collect::<Result<Vec<_>, _>>()?;
         let axes: Vec<_> = axes.iter().map(|(path, values)| (path.as_str(), values.as_slice())).collect();
-        let plan = Plan::new(&document, &axes, profiles, &record)?;
-        let (stop, all) = (|| watch.stop(), plan.records_in_all());
-        let mut report = |done| watch.report(done, all);
-        let control = Control::default().on_threads(jobs).stopped_by(&stop).reporting_to(&mut report);
+        let plan = Plan::new(&case.document, &axes, case.profiles, &record)?;
+        let (stop, all) = (|| case.watch.stop(), plan.records_in_all());
+        let mut report = |done| case.watch.report(done, all);
+        let control = Control::default().on_threads(case.jobs).stopped_by(&stop).reporting_to(&mut report);
         let results = compute(&plan, control)?;
-        Ok(Report::new(move |format| of_scene(&document, &results, format)))
+        Ok(Report::new(move |format| bytes(Some(&case.document), &results, format)))
     })
 }

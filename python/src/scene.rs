@@ -16,10 +16,11 @@ impl Scene {
     /// Opens a built-in scene by its name, or a scene file by its path.
     #[staticmethod]
     fn open(name: &str) -> Result<Scene, Failure> {
-        match open(name).map_err(Failure::from) {
-            Err(Failure::Value(message)) if is_path(name) => Err(Failure::of_files(&[name.into()], message)),
-            document => Ok(Scene { document: document? }),
-        }
+        let document = open(name).map_err(|errors| match is_path(name) {
+            true => Failure::of_files(&[name.into()], errors),
+            false => errors.into(),
+        });
+        Ok(Scene { document: document? })
     }
 
     /// Reads the text of a scene. Files that the scene names are relative to the working folder.

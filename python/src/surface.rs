@@ -3,12 +3,12 @@
 use crate::computing::computed;
 use crate::failure::Failure;
 use crate::fit::command;
-use crate::profile::Profile;
-use crate::report::{Report, bytes};
+use crate::force_loop::Profile;
+use crate::results::{Report, bytes};
 use crate::scene::Scene;
 use asperity::cli::arguments::Command;
 use asperity::cli::surface::SurfaceArguments;
-use asperity::scene::{Adhesion, Document};
+use asperity::scene::Document;
 use asperity::surface::{EquivalentLine, Topography, analyse};
 use asperity_report::{MeasuredFace, SurfaceFile, SurfaceReport};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
@@ -16,58 +16,43 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// A map of heights, m, and the distances between its points and between its rows, m.
+type Map<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
+
 /// An analysed measured surface, from which profiles and scenes are made.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Surface {
-    arguments: Arc<SurfaceArguments>,
+    arguments: SurfaceArguments,
     report: Arc<SurfaceReport>,
-}
-
-/// Options of `asperity surface` as words of its command line.
-fn parsed(words: Vec<String>) -> Result<SurfaceArguments, Failure> {
-    let Some(Command::Surface(arguments)) = command("surface", words)? else {
-        return Err("surface: no options of a surface".to_owned().into());
-    };
-    Ok(arguments)
-}
-
-impl Surface {
-    fn of(arguments: SurfaceArguments, faces: Vec<MeasuredFace>) -> Surface {
-        let spectra = faces.iter().map(|face| face.analysis.isotropic.clone());
-        let line = EquivalentLine { faces: spectra.collect() };
-        let (modulus, work) = (arguments.modulus, arguments.work);
-        let report = SurfaceReport { faces, line, modulus, work, adhesion: None };
-        Surface { arguments: Arc::new(arguments), report: Arc::new(report) }
-    }
 }
 
 #[pymethods]
 impl Surface {
-    /// Reads and analyses files.
-    #[staticmethod]
-    fn of_files(py: Python<'_>, words: Vec<String>) -> PyResult<Surface> {
+    /// Analyses the files among the words, or a map of heights in m with the distances between points and between rows, m.
+    #[new]
+    fn new(py: Python<'_>, words: Vec<String>, map: Option<Map<'_>>) -> PyResult<Surface> {
+        let map = map.as_ref().map(|(map, at)| Ok::<_, PyErr>((map.as_slice()?, map.shape()[1], *at)));
+        let map = map.transpose()?;
         computed(py, None, |_| {
-            let arguments = parsed(words)?;
-            let faces = arguments.faces().map_err(|error| Failure::of_files(&arguments.files, error))?;
-            Ok(Surface::of(arguments, faces))
-        })
-    }
-
-    /// Analyses a map of heights in m, with the distances between points and between rows, m.
-    #[staticmethod]
-    fn of_heights(
-        py: Python<'_>,
-        heights: PyReadonlyArray2<'_, f64>,
-        spacing: [f64; 2],
-        words: Vec<String>,
-    ) -> PyResult<Surface> {
-        let (heights, columns) = (heights.as_slice()?, heights.shape()[1]);
-        computed(py, None, |_| {
-            let (arguments, surface) = (parsed(words)?, Topography::from_map(heights, columns, spacing)?);
-            let options = arguments.options().map_err(|error| error.to_string())?;
-            let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
-            let analysis = analyse(&[surface], &options.spectrum)?;
-            Ok(Surface::of(arguments, vec![MeasuredFace { files, analysis }]))
+            let Some(Command::Surface(arguments)) = command("surface", words)? else {
+                return Err("surface: no options of a surface".to_owned().into());
+            };
+            let faces = match map {
+                None => arguments
+                    .faces()
+                    .map_err(|error| Failure::of_files(&arguments.files, error.to_string()))?,
+                Some((heights, columns, spacing)) => {
+                    let surface = Topography::from_map(heights, columns, spacing)?;
+                    let options = arguments.options().map_err(|error| error.to_string())?;
+                    let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
+                    vec![MeasuredFace { files, analysis: analyse(&[surface], &options.spectrum)? }]
+                }
+            };
+            let line =
+                EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
+            let (modulus, work) = (arguments.modulus, arguments.work);
+            let report = Arc::new(SurfaceReport { faces, line, modulus, work, adhesion: None });
+            Ok(Surface { arguments, report })
         })
     }
 
@@ -75,7 +60,7 @@ impl Surface {
     #[getter]
     fn report(&self) -> Report {
         let report = Arc::clone(&self.report);
-        Report::new(move |format| bytes(&*report, format, ""))
+        Report::new(move |format| bytes(None, &*report, format))
     }
 
     /// A random profile of the equivalent line.
@@ -88,13 +73,9 @@ impl Surface {
     }
 
     /// A scene of the equivalent line over the length of the scan, on a body of this effective modulus, Pa.
-    fn scene(&self, py: Python<'_>, modulus: f64, work: Option<f64>) -> PyResult<Scene> {
-        computed(py, None, |_| {
-            let SurfaceReport { faces, line, .. } = &*self.report;
-            let scene = self.arguments.scene_of(modulus, faces, line);
-            let mut scene = scene.map_err(|error| error.to_string())?;
-            scene.adhesion = work.map(Adhesion::by_work).or(scene.adhesion);
-            Ok(Scene { document: Document::from_scene(&scene, "scene")? })
-        })
+    fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
+        let scene = self.arguments.scene_of(modulus, &self.report.faces, &self.report.line);
+        let scene = scene.map_err(|error| error.to_string())?;
+        Ok(Scene { document: Document::from_scene(&scene, "scene")? })
     }
 }

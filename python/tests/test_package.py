@@ -20,6 +20,7 @@ import asperity as asp
 HERE = Path(__file__).parent.parent
 #: A scene of which each profile takes a hundredth of a second.
 SCENE = "pressure-sensitive"
+ROUGH = asp.self_affine(0.7, rms_height="50 nm", modes=(4, 100))
 LOAD = {"modulus": "1 MPa", "work": "50 mJ/m²", "stages": "100 µN, separation"}
 
 
@@ -58,6 +59,18 @@ class Loops(unittest.TestCase):
         for same in [list(heights), frozen, spread[::2], heights[::-1][::-1], heights.astype(">f8")]:
             np.testing.assert_array_equal(asp.Profile(same, "100 nm").gaps, expected)
         np.testing.assert_array_equal(asp.Profile([0, 3, 1], 1).gaps, [3, 0, 2])
+
+    def test_heights_in_a_file_are_loaded_as_those_of_an_array(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, body = Path(folder) / "line.npy", asp.profile("100 µm", 1024, roughness=ROUGH)
+            np.save(file, np.c_[body.x, body.heights])
+            saved = asp.profile("100 µm", 1024, roughness=asp.measured(file, as_line=True))
+            np.testing.assert_array_equal(saved.gaps, body.gaps)
+            fields = {"material__effective_modulus": LOAD["modulus"], "adhesion": {"work": LOAD["work"]}}
+            found = asp.preloads(saved, ("1 µN", "100 µN"), count=2, **fields).to_pandas()
+        for preload, force in zip(["1 µN", "100 µN"], found.adhesion_force, strict=True):
+            loop = asp.load(asp.Profile(body.heights, body.spacing), **{**LOAD, "stages": f"{preload}, separation"})
+            self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
 
     def test_an_array_of_a_result_cannot_be_changed(self):
         with self.assertRaisesRegex(ValueError, "read-only"):
@@ -169,6 +182,9 @@ class Computations(unittest.TestCase):
             (lambda: asp.fit(([1], [1]), SCENE, ["wrk"]), "did you mean work"),
             (lambda: asp.fit(([1], [1]), SCENE, ["work"], options={"noise": "-5 nN"}), "allowed: a standard deviation above 0"),
             (lambda: asp.study(SCENE, {"adhesion.kappa": []}), "no values; allowed: at least one"),
+            (lambda: asp.surface(np.arange(64.0) % 3, spacing=1).scene(modulus=1), r"numpy\.save\('map\.npy', heights\)"),
+            (lambda: asp.table([[0, 1], [0, 2]]), r"numpy\.save\('tip\.npy', numpy\.c_\[radii, depths\]\)"),
+            (lambda: asp.run(asp.Profile([0, 1], 1)), r"asperity\.measured\('line\.npy', as_line=True\)"),
             (lambda: asp.press(np.zeros((32, 33)), side=1, modulus=1, force=1), "a square map"),
             (lambda: asp.press(np.zeros((31, 31)), side=1, modulus=1, force=1), "31"),
         ]:

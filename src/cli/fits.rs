@@ -4,11 +4,8 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, command};
 use super::progress::ProgressLine;
 use super::scene::{Overrides, threads};
-use asperity_data::{
-    Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text, write_new,
-};
+use asperity_data::{Control, check_writable, grouped, on_threads, path_name, read_regular_text, write_new};
 use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
-use asperity_report::FitReport;
 use asperity_report::scene_provenance;
 use asperity_report::{CurveRow, FitsReport};
 use asperity_report::{Format, Report, write};
@@ -148,7 +145,7 @@ impl Batch<'_> {
         let worker = || {
             |number: u64| {
                 let index = todo[number as usize];
-                let row = self.row(&files[index], names[index].clone());
+                let row = self.row(&files[index], &names[index]);
                 let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
                 let line = self.text_of(std::slice::from_ref(&row));
                 let written = progress
@@ -168,17 +165,9 @@ impl Batch<'_> {
         Ok(names.iter().filter_map(|name| rows.remove(name)).collect())
     }
 
-    fn row(&self, path: &Path, name: String) -> CurveRow {
-        let fitted = MeasuredCurve::read(path, &self.reading).and_then(|curve| {
-            let fit = self.curves.free.iter().copied().fold(Fit::of(&self.document), Fit::free);
-            let fit = fit.run(&curve, Control::default())?;
-            Ok(CurveRow::of(name.clone(), &FitReport { title: &name, curve: &curve, fit: &fit }))
-        });
-        fitted.unwrap_or_else(|error| CurveRow {
-            file: name,
-            error: printable(&error.to_string()).into_owned(),
-            ..CurveRow::default()
-        })
+    fn row(&self, path: &Path, name: &str) -> CurveRow {
+        let fit = self.curves.free.iter().copied().fold(Fit::of(&self.document), Fit::free);
+        CurveRow::of(name, MeasuredCurve::read(path, &self.reading), &fit, Control::default())
     }
 
     /// The table with these rows as text.

@@ -4,7 +4,6 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE};
 use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments, compute, open_scene, simulation_of};
-use super::surface::MOST_SPRINGS;
 use asperity_contact::LegRecord;
 use asperity_contact::motion::Leg;
 use asperity_data::{grouped, wrap};
@@ -182,17 +181,6 @@ impl RunArguments {
         ensemble.map(Some).map_err(|error| CliError::named(document.name(), error))
     }
 
-    /// Standard deviation of the adhesion force by the spectrum of a measured surface, N, on the profiles of an ensemble; `None`
-    /// for any other scene, and for so many springs that it takes long.
-    fn deviation(&self, chosen: &Chosen<'_>, ensemble: &Ensemble) -> Option<f64> {
-        let Chosen { document, scene, .. } = chosen;
-        if scene.measured().is_none() || scene.numerics.points > MOST_SPRINGS {
-            return None;
-        }
-        let measured = MeasuredAdhesion::of(document, ensemble.profiles() as u32, self.profiles.threads());
-        measured.ok()?.fit_deviation()
-    }
-
     /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads are below zero.
     fn adhesion(
         &self,
@@ -270,7 +258,9 @@ fn run_loadings(
         None => None,
     };
     let (title, estimate, ensemble) = (document.title(), estimate.as_ref(), ensemble.as_ref());
-    let deviation = ensemble.and_then(|ensemble| arguments.deviation(one, ensemble));
+    let deviation = ensemble.and_then(|ensemble| {
+        MeasuredAdhesion::quick_deviation(document, ensemble.profiles(), arguments.profiles.threads())
+    });
     write(&RunReport { title, scene, outcome: &outcome, choice, estimate, ensemble, deviation })
 }
 

@@ -40,10 +40,8 @@ profile is a cut through the surface; the contact is computed on its equivalent 
 
 JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
-/// Number of random profiles for the adhesion force by default, and the largest number of springs for which it is computed
-/// without a request, since that takes some seconds.
+/// Number of random profiles for the adhesion force by default.
 const LINES: u32 = 16;
-pub(super) const MOST_SPRINGS: u64 = 1 << 17;
 
 /// Arguments of `asperity surface`.
 #[derive(Args, Debug)]
@@ -85,7 +83,7 @@ pub struct SurfaceArguments {
     /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
     pub work: Option<f64>,
-    /// Preload, such as 1mN; default: turned at first touch
+    /// Preload, such as 1mN; default: turned at zero force
     #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = |text: &str| positive(text, "N"))]
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
@@ -226,7 +224,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let is_asked = arguments.work.is_some() && matches!(format, Format::Text | Format::Json);
     let adhesion = scene.filter(|_| is_asked).map(|scene| {
         let scene = scene.checked()?;
-        let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
+        let unasked = (scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS).then_some(LINES);
         let solve = |lines: u32| MeasuredAdhesion::of_line(&scene, &line, lines, threads(None));
         let solved = arguments.lines.or(unasked).map(solve).transpose();
         let solved = solved.map_err(|error| CliError::named(path_name(&arguments.files[0]), error))?;

@@ -190,8 +190,11 @@ fn check_claims(folder: &Path) {
     assert_eq!(corner.rows.len(), 5 * 2 * 3);
     let corner = |kappa: f64, preload: f64| {
         let at = |hurst: f64| [("roughness.hurst", hurst), ("adhesion.kappa", kappa), ("preload", preload)];
-        HURST.map(|hurst| two_digits(corner.value(coefficient, &at(hurst)))).join(", ")
+        HURST.map(|hurst| corner.value(coefficient, &at(hurst)))
     };
+    let (near, far) = (corner(12.5, 1.0), corner(25.0, 0.01));
+    assert!(near.is_sorted_by(|before, after| before > after) && far[1..].iter().all(|one| *one > far[0]));
+    let [near, far] = [near, far].map(|values| [values[0], values[4]].map(two_digits));
     let skewness = [10, 20].map(|exponent| format!("{:.2}", skewness(exponent)));
     assert_says(
         "docs/findings.md",
@@ -205,8 +208,8 @@ fn check_claims(folder: &Path) {
         (
             "three regimes (Fig. 4)",
             "holds",
-            "F_a stays constant, grows with the preload, or is negligible: `asperity run ideal-adhesion pressure-sensitive non-adhesive \
-             --preloads 1e-6..2e-5 -o figure-4.svg`"
+            "F_a stays constant, grows with the preload, or is negligible: `asperity run ideal-adhesion \
+             pressure-sensitive non-adhesive --preloads 1e-6..2e-5 -o figure-4.svg`"
                 .to_owned(),
         ),
         (
@@ -271,10 +274,9 @@ fn check_claims(folder: &Path) {
             "adhesion vanishes in the corner of large κ and H (Fig. 5b)",
             "in part",
             format!(
-                "for H = 0.1, 0.3 … 0.9: F_a/F_n falls with H at κ = 12.5 and F_n = E\\* h L ({}), but not at κ = 25 and \
-                 F_n = 0.01 E\\* h L ({}): `figure-5b`",
-                corner(12.5, 1.0),
-                corner(25.0, 0.01)
+                "at κ = 12.5 and F_n = E\\* h L, F_a/F_n falls with H, from {} for H = 0.1 to {} for H = 0.9; at κ = 25 and \
+                 F_n = 0.01 E\\* h L, F_a/F_n is smallest for H = 0.1, {} against {} for H = 0.9: `figure-5b`",
+                near[0], near[1], far[0], far[1]
             ),
         ),
     ];

@@ -73,7 +73,8 @@ pub enum ContactError {
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
     TooManySteps(f64),
-    /// A motion or a search needs a [`Leg`](crate::motion::Leg) of the exact solver, but the leg belongs to the stepwise solver.
+    /// A motion or a search needs a [`Leg`](crate::motion::Leg) of the exact solver, but the leg belongs to the stepwise
+    /// solver.
     #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
     Stepwise,
     /// The program has a defect; the field describes the state that should not occur.

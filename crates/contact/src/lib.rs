@@ -25,11 +25,11 @@
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
-//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A [`Leg`](motion::Leg) is the
-//! contact at all indentations of a motion in one direction, and a [`Body`](motion::Body) is a leg with the position on it. A [`Leg`](motion::Leg) follows
-//! from these rules in one pass over a tree. [`Stepwise`](motion::Stepwise) moves by small steps and relaxes after each step, as the paper does.
-//! Any function that allocates may return [`ContactError::OutOfMemory`]; the documentation of a function lists all other
-//! errors.
+//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A
+//! [`Leg`](motion::Leg) is the contact at all indentations of a motion in one direction, and a [`Body`](motion::Body) is a leg
+//! with the position on it. A leg follows from these rules in one pass over a tree. [`Stepwise`](motion::Stepwise) moves by
+//! small steps and relaxes after each step, as the paper does. Any function that allocates may return
+//! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 
 mod adhesive;
 mod body;
@@ -64,7 +64,8 @@ pub use modulus::Modulus;
 pub use profile::Profile;
 pub use target::Move;
 
-/// Contacts that are moved step by step, as programs for instruments and for many particles do.
+/// Bodies that move from target to target, as instruments and particle codes need them. The stepwise solver serves to check the
+/// exact one.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion, MovingBody, load_body};

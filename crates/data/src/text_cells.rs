@@ -2,7 +2,8 @@
 
 use crate::text_lines::TextFault;
 
-/// Separator of the columns of a text: a semicolon, a tab, a comma, or white space. The first line of numbers determines it.
+/// Separator of the columns of a text: a semicolon, a tab, a comma, or white space. The first line of numbers determines the
+/// separator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
@@ -78,7 +79,7 @@ pub const ONE_MARK: &str =
 /// Characters that separate thousands. A comma or a point may also be a decimal mark.
 const GROUPING: [char; 8] = [',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}'];
 
-/// Decimal mark and separator of thousands in a text. The first numbers that are read determine them.
+/// Decimal mark and separator of thousands in a text. The first numbers that are read determine both marks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark.

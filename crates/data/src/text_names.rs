@@ -49,7 +49,7 @@ pub struct TextColumn {
 /// Number of last lines in which names of columns are searched.
 const LAST_LINES: usize = 64;
 
-/// Last lines above the numbers of a text. One of them may name the columns.
+/// Last lines above the numbers of a text. One of these lines may name the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadLines(VecDeque<String>);
 
@@ -62,9 +62,9 @@ impl HeadLines {
         self.0.push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
 
-    /// Returns names, meanings and units of `count` columns. They are read from the last line that has a name for each
-    /// column, and from a row of units. Separators at the end of such a line may add empty cells, up to `cells` cells. If
-    /// there is no such line, all names are empty.
+    /// Returns names, meanings and units of `count` columns. The names are read from the last line that has a name for each
+    /// column, units also from a row of units. Separators at the end of such a line may add empty cells, up to `cells` cells.
+    /// If there is no such line, all names are empty.
     pub fn columns(
         &self,
         count: usize,

@@ -3,11 +3,14 @@
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use asperity_data::{AxisScale, Kind, Table};
-use asperity_data::{format_quantity, format_range, format_within, grouped, object, one_unit, quantile};
-use asperity_experiment::Parameter;
+use asperity_data::{AxisScale, Control, Kind, Table};
+use asperity_data::{
+    format_quantity, format_range, format_within, grouped, object, one_unit, printable, quantile,
+};
+use asperity_experiment::{Fit, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
 use asperity_scene::Scene;
+use std::fmt::Display;
 
 /// Smallest and largest number of bars of a histogram.
 const BARS: (usize, usize) = (5, 40);
@@ -35,14 +38,32 @@ pub struct CurveRow {
 const FACTS: [&str; 4] = ["pull_off_force", "pull_off_work", "residual_over_noise", "noise"];
 
 impl CurveRow {
+    /// Makes the row of a curve that is fitted here. The row has the reason if the curve was not read or cannot be fitted.
+    pub fn of(
+        title: &str,
+        curve: Result<MeasuredCurve, impl Display>,
+        fit: &Fit<'_>,
+        control: Control<'_>,
+    ) -> Self {
+        let curve = curve.map_err(|error| error.to_string());
+        let fitted = curve.and_then(|curve| match fit.run(&curve, control) {
+            Ok(fit) => Ok(CurveRow::fitted(&FitReport { title, curve: &curve, fit: &fit })),
+            Err(error) => Err(error.to_string()),
+        });
+        fitted.unwrap_or_else(|error| {
+            let (file, error) = (title.to_owned(), printable(&error).into_owned());
+            CurveRow { file, error, ..CurveRow::default() }
+        })
+    }
+
     /// Makes the row of a curve that was fitted.
-    pub fn of(file: String, report: &FitReport<'_>) -> Self {
-        let FitReport { curve, fit, .. } = *report;
+    fn fitted(report: &FitReport<'_>) -> Self {
+        let FitReport { title, curve, fit } = *report;
         let force = curve.pull_off_force();
         let work = force.and_then(|force| report.pull_off_work(force));
         let values = fit.parameters.iter().map(|one| [one.value, one.interval.0, one.interval.1]);
         CurveRow {
-            file,
+            file: title.to_owned(),
             parameters: values.collect(),
             facts: [force, work, Some(fit.residual_over_noise), Some(curve.noise)],
             points: Some(curve.points as u64),

@@ -78,14 +78,14 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Files of the folder of a study, for programs that show the progress of its shards.
+/// Files in the folder of a study, for programs that show the progress of shards or read results.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Results over two axes, read from a study or computed while a map is on the screen.
+/// Maps of results over two axes, from a stored study or computed for display, and boundaries of adhesion.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
@@ -100,7 +100,7 @@ pub mod checks {
     pub use crate::check::{Check, Verdict};
 }
 
-/// Comparison of the model with rough squares on a half-space in three dimensions.
+/// Comparisons of a scene with its contact in three dimensions, which show the error of the model.
 pub mod half_space {
     pub use crate::reference::{
         Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,
@@ -108,7 +108,7 @@ pub mod half_space {
     pub use crate::square_loops::SquareLoops;
 }
 
-/// Causes of the error of a result, and criteria of other theories for adhesion.
+/// Errors of a result by their sources, and criteria of other theories, which show how far to trust the result.
 pub mod trust {
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;

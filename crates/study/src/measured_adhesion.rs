@@ -113,6 +113,16 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::of_line(scene, &line, count, jobs)
     }
 
+    /// Largest number of springs for which the adhesion force is computed without a request, in some seconds.
+    pub const MOST_SPRINGS: u64 = 1 << 17;
+
+    /// Deviation [`MeasuredAdhesion::fit_deviation`] of a scene, N; `None` for more springs than
+    /// [`MeasuredAdhesion::MOST_SPRINGS`], and without an equivalent line of a measured surface.
+    pub fn quick_deviation(document: &Document, count: u64, jobs: usize) -> Option<f64> {
+        let is_quick = document.scene().numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
+        is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
+    }
+
     /// Computes a scene on `count` profiles of this equivalent line, as [`MeasuredAdhesion::of`] does. The line replaces the
     /// measured surface of the scene, whose options of reading and analysis are not used.
     ///

@@ -141,7 +141,7 @@ quantities! {
         symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
-        name: "contact_fraction", meaning: "largest contact length over the length",
+        name: "contact_fraction", meaning: "largest contact length over the length L of the profile",
         bounds: SHARE, of: |case| case.contact_fraction(),
     }
     Fragments {

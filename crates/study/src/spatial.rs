@@ -72,7 +72,7 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    /// The adhesion force, N, or without adhesion the indentation, m, under the last force.
+    /// Returns the adhesion force in N, or the indentation in m under the last force if there is no adhesion.
     pub fn headline(&self) -> Option<f64> {
         match &self.pulling {
             Some(pulling) => Some(pulling.adhesion_force),

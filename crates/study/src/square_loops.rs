@@ -14,9 +14,9 @@ pub struct SquareLoops {
     pub maps: u64,
     /// Indentation in m and force in N of each computed square, from first touch on.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force of each line in N, or without adhesion the indentation in m under the preload.
+    /// Adhesion force of each random profile in N, or its indentation in m under the preload if the scene has no adhesion.
     pub lines: Vec<f64>,
-    /// The same number of each computed square.
+    /// Adhesion force or indentation, in the same way, of each computed square.
     pub squares: Vec<f64>,
     /// Comparison with random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
@@ -49,15 +49,15 @@ impl SquareLoops {
         Ok(SquareLoops { reference: Some(reference), ..loops })
     }
 
-    /// The adhesion force, or without adhesion the indentation under the preload, of the lines and of the squares so far;
-    /// `None` before the first square.
+    /// Returns the adhesion force of the profiles and of the squares so far, or their indentation under the preload if the
+    /// scene has no adhesion; `None` before the first square.
     pub fn headline(&self) -> Option<Compared> {
         compared(self.lines.iter().copied(), self.squares.iter().copied())
     }
 
-    /// Curves of the mean force of the squares so far less and plus its standard deviation, and of the mean, as
-    /// (lower, mean, upper): one for the loading, and with adhesion one for the unloading. They end at the indentation
-    /// that all squares reach.
+    /// Returns curves of the mean force of the squares so far, with the mean minus and plus the standard deviation as
+    /// (lower, mean, upper). The first curve is the loading, and with adhesion the second one is the unloading. Both end at
+    /// the indentation that all squares reach.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let stages = |curve: &Vec<(f64, f64)>| {
             let deepest = (0..curve.len()).max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0)).unwrap_or(0);
@@ -93,7 +93,7 @@ impl SquareLoops {
 /// Steps of a band.
 const BAND_POINTS: usize = 100;
 
-/// The force, N, at an indentation, m, between points in the order of their indentations.
+/// Returns the force in N at an indentation in m, between points in the order of their indentations.
 fn force_at(points: &[(f64, f64)], indentation: f64) -> f64 {
     let after = points.partition_point(|point| point.0 < indentation).clamp(1, points.len() - 1);
     let [one, other] = [points[after - 1], points[after]];

@@ -41,7 +41,7 @@ pub mod files {
     pub use crate::topography::open::{content, unpacked};
 }
 
-/// Lines of random and of measured roughness, on which a scene is computed.
+/// Rigid profiles with random or measured roughness, for the computation of scenes.
 pub mod lines {
     pub use crate::line::equivalent::MeasuredRoughness;
     pub use crate::line::form::{power_law_factor, struve_0};
@@ -52,7 +52,7 @@ pub mod lines {
     pub use crate::line::table::Rows;
 }
 
-/// Powers by wavenumber, for figures of measured spectra.
+/// Spectra of measured surfaces over the wave number, for figures.
 pub mod spectra {
     pub use crate::spectrum::isotropic::{End, IsotropicSpectrum, Node};
     pub use crate::spectrum::periodogram::{Along, Bin, line_spectrum};

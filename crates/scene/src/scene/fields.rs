@@ -143,7 +143,7 @@ pub const FIELDS: &[Field] = &[
     row("roughness.periodic", SWITCH).of("Measured").name("periodic surface").default("false")
         .meaning("true: the surface repeats itself at its borders, so no window is used"),
     row("roughness.unit", UNIT).of("Measured").name("unit of the file").default("\"\"")
-        .meaning("unit of the lengths if the file states none; with as_line m if empty"),
+        .meaning("unit of the lengths if the file states none; m if empty and as_line is true"),
     row("roughness.height_unit", UNIT).of("Measured").name("unit of heights of the file").default("\"\"")
         .meaning("unit of the heights if the file states none; roughness.unit if empty"),
     row("roughness.spacing", Range::closed(1e-18, 1e9)).of("Measured").quantity("distance between points of the file", "", "m").default("None")
@@ -162,7 +162,7 @@ pub const FIELDS: &[Field] = &[
     row("roughness.channel", Whole(0, u32::MAX as u64)).of("Measured").name("channel of the file")
         .step(Integer(1, 10)).default("None").meaning("number of the channel of the file, from 0"),
     row("roughness.continue_to", Range::closed(1e-15, 10.0)).of("Measured").quantity("shortest wavelength", "λ_s", "m").default("None")
-        .meaning("wavelength down to which the spectrum continues as a power law; the shortest resolved one if left out"),
+        .meaning("wavelength down to which the spectrum continues as a power law; by default the shortest resolved wavelength"),
     row("roughness.seed", Whole(0, u64::MAX)).of("Measured").name("seed of the equivalent line")
         .step(Integer(1, 100)).default("1").meaning("seed of the random phases of the measured spectrum"),
     row("adhesion", Choice(&["(work: 0.05)", "(kappa: 2.0)", "(elastic_energy_ratio: 0.5)"])).default("None")
