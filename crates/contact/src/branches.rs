@@ -67,7 +67,7 @@ impl Branch {
     /// separation and before the last unloading count.
     ///
     /// ```
-    /// use asperity_contact::{Contact, Modulus, Move, Profile};
+    /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};
     ///
     /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
     /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

@@ -66,12 +66,12 @@ pub mod fields {
 /// Texts of scenes and of shell commands, edits that keep comments, and suggestions for misspelt names.
 pub mod text {
     pub use crate::scene::command::{command_line, quoted};
-    pub use crate::scene::document::LONGEST_TEXT;
     pub use crate::scene::errors::{did_you_mean, nearest};
     pub use crate::scene::read::explain;
     pub use crate::scene::text::index::{Text, TextSpan, line_column};
     pub use crate::scene::text::{read_ron, ron_float, ron_string};
     pub use crate::scene::tree::to_ron;
+    pub use crate::scene::typed::LONGEST_TEXT;
 }
 
 /// Loading stages as text.

@@ -6,9 +6,10 @@ use std::path::{Component, Path, PathBuf, is_separator};
 
 use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
-use super::document::{Document, LONGEST_TEXT};
+use super::document::Document;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::text::index::Text;
+use super::typed::LONGEST_TEXT;
 use asperity_data::{ReadError, read_regular_text};
 use asperity_data::{path_name, printable};
 

@@ -5,10 +5,11 @@ use std::io;
 use std::io::{BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 
-use super::document::{Document, LONGEST_TEXT};
+use super::document::Document;
 use super::errors::did_you_mean;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{describe, find_scene, own_folder, own_names, own_scene, presets};
+use super::typed::LONGEST_TEXT;
 use asperity_data::printable;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 
