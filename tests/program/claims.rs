@@ -192,9 +192,11 @@ fn check_claims(folder: &Path) {
         let at = |hurst: f64| [("roughness.hurst", hurst), ("adhesion.kappa", kappa), ("preload", preload)];
         HURST.map(|hurst| corner.value(coefficient, &at(hurst)))
     };
-    let (near, far) = (corner(12.5, 1.0), corner(25.0, 0.01));
-    assert!(near.is_sorted_by(|before, after| before > after) && far[1..].iter().all(|one| *one > far[0]));
-    let [near, far] = [near, far].map(|values| [values[0], values[4]].map(two_digits));
+    let (near, beyond) = (corner(12.5, 1.0), corner(25.0, 0.01));
+    assert!(
+        near.is_sorted_by(|before, after| before > after) && beyond[1..].iter().all(|one| *one > beyond[0])
+    );
+    let [near, beyond] = [near, beyond].map(|values| [values[0], values[4]].map(two_digits));
     let skewness = [10, 20].map(|exponent| format!("{:.2}", skewness(exponent)));
     assert_says(
         "docs/findings.md",
@@ -276,7 +278,7 @@ fn check_claims(folder: &Path) {
             format!(
                 "at κ = 12.5 and F_n = E\\* h L, F_a/F_n falls with H, from {} for H = 0.1 to {} for H = 0.9; at κ = 25 and \
                  F_n = 0.01 E\\* h L, F_a/F_n is smallest for H = 0.1, {} against {} for H = 0.9: `figure-5b`",
-                near[0], near[1], far[0], far[1]
+                near[0], near[1], beyond[0], beyond[1]
             ),
         ),
     ];
