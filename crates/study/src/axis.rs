@@ -345,7 +345,8 @@ impl Target {
 }
 
 pub(super) fn check_logarithm(from: f64) -> Result<(), StudyError> {
-    let refused = || StudyError::refused(None, format!("from {from:?}"), "a logarithmic axis begins above 0");
+    let refused =
+        || StudyError::refused(None, format!("a logarithmic axis from {from:?}"), "one that begins above 0");
     if from > 0.0 { Ok(()) } else { Err(refused()) }
 }
 
@@ -356,10 +357,10 @@ pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<()
         return Err(StudyError::refused(None, format!("count = {count}"), allowed));
     }
     if !(from.is_finite() && to.is_finite()) {
-        return refused("both ends must be finite");
+        return refused("two finite ends");
     }
     if from >= to {
-        return refused("`from` must be less than `to`");
+        return refused("`from` less than `to`");
     }
     Ok(())
 }
@@ -389,8 +390,8 @@ mod tests {
         for (text, said) in [
             ("Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)", "you mean roughness.hurst?"),
             ("Linear(path: \"kappa\", from: 0.1, to: 0.9, count: 3)", "did you mean adhesion.kappa?"),
-            ("Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)", "must be less than `to`"),
-            ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "both ends must be finite"),
+            ("Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)", "less than `to`"),
+            ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "two finite ends"),
             ("Linear(path: \"adhesion.kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
             ("Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 999999999)", "from 2 to 1000000"),
             ("Logarithmic(path: \"adhesion.kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),

@@ -41,7 +41,7 @@ impl Axis {
     ///
     /// let axis = Axis::parse_preloads("1nN..1uN:4:log").expect("two forces");
     /// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
-    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().to_string().contains("`from` must be less than `to`"));
+    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().to_string().contains("`from` less than `to`"));
     /// ```
     pub fn parse_preloads(text: &str) -> Result<Axis, StudyError> {
         let mut parts = text.split(':').map(str::trim);
@@ -383,8 +383,8 @@ mod tests {
             ("0..1:-5", "two forces"),
             ("0..1m/s", "two forces"),
             ("0..inf", "two forces"),
-            ("2..1", "`from` must be less than `to`"),
-            ("1..1", "`from` must be less than `to`"),
+            ("2..1", "`from` less than `to`"),
+            ("1..1", "`from` less than `to`"),
             ("0..1:1", "allowed: from 2 to 512"),
             ("0..1:513", "allowed: from 2 to 512"),
             ("0..1:log", "begins above 0"),
