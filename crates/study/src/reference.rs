@@ -497,7 +497,9 @@ mod tests {
             "1024 cells: 24 squares take about 3 days, longer than one day; allowed: a grid of at most 512 cells \
              along the side, or at most 8 squares"
         );
-        assert!(refused(50.0 * LONGEST, 0.4).ends_with("allowed: a grid of at most 64 cells along the side"));
+        assert!(
+            refused(50.0 * LONGEST, 0.4).ends_with("allowed: a grid of at most 128 cells along the side")
+        );
         let never = check_time(&options(8192, 1), 1e300, 0.0, true).unwrap_err().to_string();
         assert!(never.contains("at most 32 cells"), "{never}");
     }
