@@ -96,8 +96,8 @@ fn check_boundaries(folder: &Path) {
     assert_says(
         "docs/findings.md",
         &format!(
-            "F_a(F=0) falls to a tenth of F_a,max at e_el/γ = {low:.1} to {high:.1}, a factor of {:.1}. The other three \
-             boundaries extend over factors of {least:.1} to {most:.1} in e_el/γ",
+            "F_a(F=0) falls to a tenth of F_a,max at e_el/γ = {low:.1} to {high:.1}, a factor of {:.1}. For each of the \
+             other three columns the largest e_el/γ is {least:.1} to {most:.1} times the smallest",
             high / low
         ),
     );
@@ -200,7 +200,7 @@ fn check_claims(folder: &Path) {
     let skewness = [10, 20].map(|exponent| format!("{:.2}", skewness(exponent)));
     assert_says(
         "docs/findings.md",
-        &format!("modes up to N/2, its root mean square stays {} for each N", skewness[0]),
+        &format!("modes up to N/2, the root mean square of the skewness stays {} for each N", skewness[0]),
     );
 
     assert!(range(&section.of_rows(share, &[])).0 > 0.0, "never zero");
