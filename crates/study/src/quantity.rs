@@ -76,7 +76,8 @@ quantities! {
         symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
     }
     ElasticEnergyRatio {
-        name: "elastic_energy_ratio", meaning: "elastic energy that flattens the roughness, divided by the work of adhesion",
+        name: "elastic_energy_ratio",
+        meaning: "elastic energy that flattens the roughness, divided by the work of adhesion",
         symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
     }
     WorkOfAdhesion {
