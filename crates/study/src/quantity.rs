@@ -76,7 +76,8 @@ quantities! {
         symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
     }
     ElasticEnergyRatio {
-        name: "elastic_energy_ratio", meaning: "elastic energy that flattens the roughness over the work of adhesion",
+        name: "elastic_energy_ratio",
+        meaning: "elastic energy that flattens the roughness, divided by the work of adhesion",
         symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
     }
     WorkOfAdhesion {
@@ -93,7 +94,7 @@ quantities! {
     }
     FirstTouchAdhesionShare {
         name: "first_touch_adhesion_share",
-        meaning: "F_a(d=0) over the ideal adhesion force",
+        meaning: "F_a(d=0) divided by the ideal adhesion force",
         symbol: "F_a(d=0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
         of: |case| case.share(case.first_touch),
     }
@@ -104,7 +105,7 @@ quantities! {
     }
     ZeroForceAdhesionShare {
         name: "zero_force_adhesion_share",
-        meaning: "F_a(F=0) over the ideal adhesion force",
+        meaning: "F_a(F=0) divided by the ideal adhesion force",
         symbol: "F_a(F=0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
         of: |case| case.share(case.zero_force),
     }
@@ -121,11 +122,11 @@ quantities! {
         symbol: "F_a", unit: "N", of: |case| case.loading.figures.adhesion_force,
     }
     AdhesionShare {
-        name: "adhesion_share", meaning: "adhesion force over the ideal adhesion force",
+        name: "adhesion_share", meaning: "adhesion force divided by the ideal adhesion force",
         symbol: "F_a/F_a,max", bounds: SHARE, of: |case| case.share(case.loading.figures.adhesion_force),
     }
     AdhesionCoefficient {
-        name: "adhesion_coefficient", meaning: "adhesion force over preload",
+        name: "adhesion_coefficient", meaning: "adhesion force divided by the preload",
         symbol: "F_a/F_n", of: |case| case.loading.figures.adhesion_coefficient,
     }
     PullOffIndentation {
@@ -133,7 +134,7 @@ quantities! {
         symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.pull_off_indentation,
     }
     DissipatedEnergy {
-        name: "dissipated_energy", meaning: "energy lost over the loop",
+        name: "dissipated_energy", meaning: "energy lost in the loop",
         symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {
@@ -141,7 +142,7 @@ quantities! {
         symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
-        name: "contact_fraction", meaning: "largest contact length over the length L of the profile",
+        name: "contact_fraction", meaning: "largest contact length divided by the length L of the profile",
         bounds: SHARE, of: |case| case.contact_fraction(),
     }
     Fragments {
@@ -179,7 +180,7 @@ quantities! {
         bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.1),
     }
     SummitHeight {
-        name: "summit_height", meaning: "height of the summit over the rms height",
+        name: "summit_height", meaning: "height of the summit divided by the rms height",
         needs: Needs::Heights, of: |case| case.profile.summit,
     }
 }
