@@ -4,8 +4,8 @@
 use super::modulus::Modulus;
 use std::f64::consts::PI;
 
-/// Closed forms of a body with the equivalent profile g(x) = c |x|ⁿ on an elastic half-space with adhesion. Force and
-/// indentation follow from the contact radius.
+/// Closed-form solution for a body with the equivalent profile g(x) = c |x|ⁿ on an elastic half-space with adhesion. It gives
+/// the force and the indentation at any contact radius.
 ///
 /// ```
 /// use asperity_contact::ClosedForm;
@@ -97,8 +97,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. No force of the
-    /// contact is smaller.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This is the
+    /// smallest force that the contact can have.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
