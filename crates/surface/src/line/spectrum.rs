@@ -4,8 +4,9 @@
 use asperity_data::{integral_of_power, sum_of_powers};
 use std::f64::consts::TAU;
 
-/// Self-affine spectrum of the modes k = `first` … `last`, whose wave numbers are q_k = 2πk/L. The amplitudes are A_k ∝
-/// k^(−H−1/2). Below the roll-off the spectrum C₂D of the surface is flat, and by eq. (8) of Popov and Filippov (2012) A_k ∝ √k.
+/// Self-affine spectrum of a profile. The modes k = `first` … `last` are waves with k periods over the length L and the wave
+/// numbers q_k = 2πk/L. Their amplitudes are A_k ∝ k^(−H−1/2). For modes below the roll-off the spectrum C₂D of the surface is
+/// flat, and A_k ∝ √k by eq. (8) of Popov and Filippov (2012).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
@@ -20,7 +21,7 @@ pub struct SelfAffine {
 }
 
 impl SelfAffine {
-    /// Returns the amplitude of mode k over A₁, the amplitude of mode 1 without a roll-off.
+    /// Returns A_k/A₁, where A_k is the amplitude of mode k and A₁ the amplitude that mode 1 would have without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
@@ -34,10 +35,10 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the part A_k²/(4πk) of one wave in the mean square height of a surface, divided by A₁² of
-    /// [`Self::relative_amplitude`]. The wave has k = `waves` waves per length. k need not be a whole number, because waves of
-    /// a surface lie in all directions. The surface has the spectrum C₂D, and its equivalent profile has this spectrum, C₁D =
-    /// πq C₂D. The part is zero more than half a wave beyond the first and the last mode.
+    /// Returns the contribution A_k²/(4πk) of one wave to the mean square height of a surface, divided by the A₁² of
+    /// [`Self::relative_amplitude`]. The wave has k = `waves` periods over the length. k need not be a whole number, because
+    /// waves of a surface lie in all directions. The profile has the spectrum `self`, C₁D(q). The surface has the spectrum
+    /// C₂D(q) = C₁D(q)/(πq). The contribution is zero if k is below `first` or above `last` by more than ½.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -186,9 +187,9 @@ impl Amplitude {
         }
     }
 
-    /// Returns the elastic energy of conformity per area in J/m²: e_el = (E*/8) Σ q_k A_k². It is the energy of a half-space of
-    /// effective modulus E* (Pa) in full contact with an isotropic surface. The surface has the rms height, rms gradient and
-    /// mean wave number of the profile (Persson and Tosatti, 2001).
+    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in J/m². A half-space of
+    /// effective modulus E* (Pa) has this energy in full contact with an isotropic surface. The surface has the rms height, rms
+    /// gradient and mean wave number of the profile (Persson and Tosatti, 2001).
     ///
     /// ```
     /// use asperity_surface::SelfAffine;

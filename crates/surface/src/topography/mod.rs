@@ -39,7 +39,7 @@ const UNITS: [(&str, &str, f64); 7] = [
     ("pm", "picometer picometre", 1e12),
 ];
 
-/// A unit of length, such as µm.
+/// A unit of length that a file or an option may state, such as µm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     name: &'static str,
