@@ -49,7 +49,7 @@ impl Branch {
         branches
     }
 
-    /// Returns the last branch that unloads a body in contact; `None` if there is none.
+    /// Returns the last branch that unloads a body in contact; `None` if no branch does.
     pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
         let unloads = |branch: &Branch| {
             branch.direction == Direction::Unloading && branch.touching(legs).next().is_some()
@@ -88,7 +88,7 @@ impl Branch {
         largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
     }
 
-    /// Finds the pull-off, the point of the smallest force of the last unloading in contact, and the index of its stage. `None` if
+    /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of its stage. Returns `None` if
     /// this force is above zero, or if the unloading ends in contact while the force still falls.
     pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let unloading = Branch::last_unloading(legs)?;

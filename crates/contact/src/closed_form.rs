@@ -31,8 +31,9 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). Here γ is the work of adhesion in
-    /// J/m² and E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
+    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L in m. Here γ is the work of
+    /// adhesion in J/m² and E* the effective modulus in Pa. The formula is eq. (14) of Popov and Filippov (2012), after Kendall
+    /// (1971).
     pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
         (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
     }

@@ -132,7 +132,8 @@ impl Contact {
         self.load_with(stages, LoadOptions::default())
     }
 
-    /// Loads the separated body as [`Contact::load`] does, with options.
+    /// Moves the body as [`Contact::load`] does. The options set the points of the force curve, and a function that may stop
+    /// the loading.
     ///
     /// # Errors
     /// Returns the errors of [`Contact::load`], and [`ContactError::Value`] for an option out of its range. Returns

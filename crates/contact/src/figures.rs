@@ -40,7 +40,7 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// Computes the figures of a history.
+    /// Computes preload, pull-off and dissipated energy from the records of a history.
     pub fn of(history: &History) -> Self {
         let legs = &history.legs;
         let ends_separated =

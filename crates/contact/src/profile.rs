@@ -125,7 +125,7 @@ impl Profile {
         Ok(Profile { summit, ..self })
     }
 
-    /// Returns the number of points.
+    /// Returns the number of points N, one for each spring under the profile.
     pub fn points(&self) -> usize {
         self.gaps().len()
     }
@@ -171,8 +171,9 @@ impl Profile {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the [contact tree](ContactTree) for an edge model, unless the profile has it already. Without this call the first
-    /// contact with adhesion builds the tree. `memory` is an old tree; the new tree takes over its memory.
+    /// Builds the [contact tree](ContactTree) for contacts with this model of their [`Edges`], unless the profile has it
+    /// already. Without this call the first contact with adhesion builds the tree. `memory` is an old tree; the new tree takes
+    /// over its memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.

@@ -105,7 +105,7 @@ impl AdhesiveSquare {
         Ok(AdhesiveSquare { grid, cells, side: scale, effective_modulus, works, opened })
     }
 
-    /// Returns the number of convolutions over the grid computed so far. They measure the computing work.
+    /// Returns the number of convolutions over the grid computed so far, a measure of the computing work.
     pub fn convolutions(&self) -> u64 {
         self.grid.operators.convolutions
     }

@@ -19,7 +19,7 @@ pub struct Square<'a> {
     pub effective_modulus: f64,
 }
 
-/// The force or the indentation, whichever is prescribed.
+/// What is prescribed for a contact: its force or its indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     /// Force in N, positive in compression. With [`Boundary::Periodic`] it is the force on one of the repeated squares.
@@ -49,12 +49,12 @@ pub struct Pressed {
     pub residual: f64,
     /// True if `residual` is within the required tolerance; false if the solver used up its steps before.
     pub is_reached: bool,
-    /// Number of convolutions computed on the finest grid. They measure the computing work.
+    /// Number of convolutions computed on the finest grid, a measure of the computing work.
     pub convolutions: u64,
 }
 
-/// Solver for contacts of squares that have a fixed number of cells. It keeps its planned Fourier transforms and its
-/// memory from one contact to the next.
+/// Solver for contacts of squares that have a fixed number of cells. It solves a contact on a coarse grid first, and then on
+/// finer and finer grids. It keeps its planned Fourier transforms and its memory for the next contact.
 pub struct HalfSpace {
     boundary: Boundary,
     /// Nested grids, the finest one last.

@@ -122,7 +122,7 @@ impl SurfaceError {
         self.place().all().find_map(of)
     }
 
-    /// Returns the number of the line of the fault, from 1; `None` for a fault elsewhere.
+    /// Returns the number of the line with the fault, from 1; `None` if the place is not a line of a text.
     pub fn line(&self) -> Option<usize> {
         self.find(|place| if let Place::Line(number) = place { Some(*number) } else { None })
     }

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// twice the length.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
-/// Options of a scene for its measured surfaces.
+/// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
     /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. `None`: the rigid profile

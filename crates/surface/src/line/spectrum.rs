@@ -11,9 +11,9 @@ use std::f64::consts::TAU;
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
     pub hurst: f64,
-    /// First mode, at least 1.
+    /// First mode, the longest wave; at least 1.
     pub first: u64,
-    /// Last mode, at least `first`.
+    /// Last mode, the shortest wave; at least `first`.
     pub last: u64,
     /// Mode of the roll-off: the length L over the roll-off wavelength, above which the spectrum of the surface is flat. It
     /// need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
@@ -89,8 +89,9 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m for a continuum of modes. By eqs. (5)–(7) and (12) of Popov and Filippov (2012) its
-    /// square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
+    /// Returns the ratio ⟨∇z⟩/h in 1/m of a profile with waves at all wave numbers, instead of modes, between q_min and q_max
+    /// of the first and the last mode. By eqs. (5)–(7) and (12) of Popov and Filippov (2012) its square is ∫ q^(1−2H) dq / ∫
+    /// q^(−1−2H) dq.
     ///
     /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. It is zero
     /// for a single mode.

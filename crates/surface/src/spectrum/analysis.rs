@@ -40,12 +40,12 @@ const CONTINUED: f64 = 4.0;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. With `None` it is the polynomial that the container of the surface states. If
-    /// none is stated, it is the tilt, or for a periodic surface only the mean. To remove a plane from a periodic surface would
-    /// leave a step at its borders.
+    /// Polynomial removed before the analysis. With `None` it is the polynomial that a container, an archive of
+    /// contact.engineering, states for the surface. If none is stated, it is the tilt, or for a periodic surface only the mean.
+    /// To remove a plane from a periodic surface would leave a step at its borders.
     pub detrend: Option<Detrend>,
-    /// True for a surface that continues periodically at its borders. The analysis then uses no window function. A container,
-    /// an archive with several measurements, may also state that its surface is periodic.
+    /// True for a surface that continues periodically at its borders. The analysis then uses no window function. A container
+    /// may also state that its surface is periodic.
     pub periodic: bool,
     /// Whether the surface has waves shorter than the shortest wave that its points resolve.
     pub end: End,
@@ -110,7 +110,7 @@ struct Powers {
 ///
 /// # Errors
 /// Returns an error for a surface with uneven points, with too few points or without roughness. Returns an error for an
-/// [`End::Continues`] that the surfaces already resolve.
+/// [`End::Continues`] with a wave number that the points already resolve.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};
@@ -396,7 +396,7 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 
 impl Analysis {
     /// Returns the share of the mean square height that comes from waves longer than a quarter of the scan. A scan has only few
-    /// such waves, so a large share makes the rms height uncertain.
+    /// such waves, so with a large share the rms height depends on the length of the scan.
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

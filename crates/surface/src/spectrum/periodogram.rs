@@ -13,12 +13,12 @@ const BINS_PER_DECADE: f64 = 10.0;
 /// Direction of the waves of a measured spectrum. Each direction has its own spectral density in m³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Waves along a profile or along the rows of a map. The spectral density is the one-dimensional one, C1D.
+    /// Waves along a profile or along the rows of a map. Their spectral density is the one-dimensional density C1D.
     X,
-    /// Waves along the columns of a map. The spectral density is the one-dimensional one, C1D.
+    /// Waves along the columns of a map. Their spectral density is the one-dimensional density C1D.
     Y,
-    /// Waves in all directions of a map. The spectral density at the wave number q is q C2D/π, where C2D is the two-dimensional
-    /// one.
+    /// Waves in all directions of a map. Their spectral density at the wave number q is q C2D/π, where C2D is the
+    /// two-dimensional density.
     Radial,
 }
 
