@@ -101,8 +101,8 @@ pub struct Motion {
 }
 
 impl Body {
-    /// Creates a separated body at d = 0, just before first touch. The force curve of each motion has `samples` points, at
-    /// least 2, and the points of the extremes.
+    /// Creates a separated body at d = 0, just before first touch. The force curve of each motion is computed at `samples`
+    /// points, at least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
@@ -111,7 +111,8 @@ impl Body {
     /// back.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise). May also return
+    /// [`ContactError::OutOfMemory`].
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -304,9 +305,9 @@ impl Body {
     }
 
     /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For both the body is loaded from separation and then unloaded.
-    /// It turns at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0). An adhesion force is `None` if
-    /// the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading never returns to zero force. The
-    /// body itself stays in place.
+    /// The body turns at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0). An adhesion force is
+    /// `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading never returns to zero
+    /// force. The body itself stays in place.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -391,7 +392,7 @@ impl MovingBody for Body {
 /// record and the leg of the stage.
 ///
 /// # Errors
-/// Returns the error of the first stage that fails, or the first error of `after`.
+/// Returns the error of the first stage that fails, or the first error that `after` returns.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, load_body};

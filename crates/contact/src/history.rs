@@ -34,8 +34,8 @@ pub struct LegRecord {
     pub curve: Vec<CurvePoint>,
     /// Point of the largest force. On loading it is exact to rounding. On unloading it is the first point of the motion.
     pub largest: CurvePoint,
-    /// Point of the smallest force. On unloading it is exact to rounding. On loading it is the smallest one among the points in
-    /// `curve`.
+    /// Point of the smallest force. On unloading it is exact to rounding. On loading it is the point of the smallest force
+    /// among the points in `curve`.
     pub smallest: CurvePoint,
     /// Number of springs that attached in this stage.
     pub attached: u64,
@@ -186,8 +186,8 @@ pub struct Work {
     pub passes_without_preload: u64,
     /// Number of times that the rule of Hess was evaluated for a patch.
     pub hess_evaluations: u64,
-    /// Number of events that were sorted by indentation to find extremes of the force. An event is a spring that attaches or
-    /// detaches, or several at once.
+    /// Number of events that were sorted by indentation to find extremes of the force. An event is an indentation at which
+    /// springs attach or detach.
     pub events_sorted: u64,
     /// Number of springs that attached during the loading history. Files call it `joins`.
     #[cfg_attr(feature = "serde", serde(rename = "joins"))]

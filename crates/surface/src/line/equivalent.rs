@@ -71,8 +71,8 @@ impl EquivalentLine {
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }
 
-    /// Computes the moments of the line, such as the rms height, with their standard errors. They include all wave numbers from
-    /// half the first to the last one of [`EquivalentLine::range`].
+    /// Computes the moments of the line, such as the rms height, with their standard errors. The moments include all wave
+    /// numbers from half the first to the last one of [`EquivalentLine::range`].
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
@@ -159,8 +159,8 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Takes the measured profile of one file as the rigid profile if [`MeasuredOptions::as_line`] is given. Otherwise analyses
-    /// the files of one or two [faces](crate::lines::Face), and takes their equivalent line.
+    /// Reads the files of one or two [faces](crate::lines::Face). If [`MeasuredOptions::as_line`] is given and there is only
+    /// one file, its measured profile is the rigid profile. Otherwise the rigid profile is the equivalent line of the faces.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read or has no spectrum.

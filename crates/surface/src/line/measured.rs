@@ -36,7 +36,7 @@ pub struct MeasuredOptions {
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
     pub positions: Vec<f64>,
-    /// Heights z in m as measured, one for each position.
+    /// Heights z in m, one for each position. If a polynomial had to be removed, it has been subtracted.
     pub heights: Vec<f64>,
 }
 

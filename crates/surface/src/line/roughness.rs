@@ -124,8 +124,8 @@ impl Synthesizer {
 
 impl SelfAffine {
     /// Computes a random profile with this spectrum by eqs. (8) and (9) of Popov and Filippov (2012). The heights, in units of
-    /// the rms height, are at x = (i + ½)L/N on N = `points` springs. `points` is at least twice the last mode. The heights
-    /// depend only on the spectrum, the seed, and the number and positions of the points, not on the length.
+    /// the rms height, are at x = (i + ½)L/N on N = `points` springs. `points` has to be at least twice the last mode. The
+    /// heights depend only on the spectrum, the seed, and the number and positions of the points, not on the length.
     ///
     /// The rms height is the rms of the sum of cosines over the whole length. With other numbers of springs the same profile is
     /// sampled, to within the rounding of the Fourier transform.

@@ -89,9 +89,9 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m of a profile with waves at all wave numbers, instead of modes, between q_min and q_max
-    /// of the first and the last mode. By eqs. (5)–(7) and (12) of Popov and Filippov (2012) its square is ∫ q^(1−2H) dq / ∫
-    /// q^(−1−2H) dq.
+    /// Returns the ratio ⟨∇z⟩/h in 1/m as if the profile had waves at all wave numbers from the first to the last mode. Without
+    /// a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, by eqs. (5)–(7) and (12) of Popov and
+    /// Filippov (2012).
     ///
     /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. It is zero
     /// for a single mode.
@@ -148,7 +148,7 @@ pub struct Amplitude {
 }
 
 impl Amplitude {
-    /// Returns the amplitude of the profile whose heights are all multiplied by a factor.
+    /// Returns the roughness amplitude of the profile after all its heights are multiplied by a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
@@ -158,7 +158,7 @@ impl Amplitude {
         }
     }
 
-    /// Returns the amplitude of the profile that is stretched to `times` its length.
+    /// Returns the roughness amplitude of the profile after it is stretched to `times` its length.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,

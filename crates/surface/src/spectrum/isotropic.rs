@@ -43,8 +43,7 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     terms.sum::<f64>() * wave_number / PI
 }
 
-/// End of a spectrum: whether it has waves shorter than the shortest wave that the measured points resolve, the last resolved
-/// wave.
+/// Whether a spectrum continues beyond the last resolved wave, the shortest wave that the measured points resolve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
     /// The surface has no waves beyond the last resolved one.
@@ -76,8 +75,8 @@ pub struct Moment {
     /// Standard error of the method. One part is the difference between the moment of the fitted spectrum and the moment of the
     /// measured powers. The other part is the error by interpolated points.
     pub method: f64,
-    /// Largest change of the value if the surface has waves down to a quarter of the last resolved wavelength, by a power law. Such
-    /// waves are missing in the value, and by aliasing they add to the power of longer waves. The change is zero with
+    /// Largest change of the value if the spectrum continues by a power law down to a quarter of the last resolved wavelength.
+    /// These waves are missing in the value, and by aliasing they add to the power of longer waves. The change is zero with
     /// [`End::Continues`], and if the spectrum ends before the last resolved wave.
     pub missing_short_waves: f64,
 }
