@@ -12,7 +12,7 @@ pub struct PointStatistics {
     pub rms_height: f64,
     /// Root mean square slope along rows, PΔq, from the differences between the heights of neighbouring points.
     pub rms_slope: f64,
-    /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` for profiles.
+    /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if any surface is a profile.
     pub rms_gradient: Option<f64>,
     /// Skewness: the mean cube of the height over the cube of the rms height.
     pub skewness: f64,

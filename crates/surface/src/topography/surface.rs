@@ -20,7 +20,7 @@ pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Opti
     positions.iter().enumerate().position(|point| !is_even(point))
 }
 
-/// A row or a column of a map, counted from 1.
+/// A row or a column of a map that is read as a profile. Rows and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
     /// The row with this number.
