@@ -9,7 +9,8 @@ use super::model::{FEW_SAMPLES, Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. A changed scene is checked anew.
+/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. [`CheckedScene::with`] changes fields and
+/// checks the scene anew.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -32,8 +33,8 @@ impl Scene {
 }
 
 impl Scene {
-    /// Removes what the forces and energies do not depend on: title, notes, recorded quantities, and points of the force
-    /// curve. Two points remain on each stage. Forces and energies do not depend on the number of points.
+    /// Removes what forces and energies do not depend on: the title, the notes, the [`Observer`]s, and all points of the
+    /// force curve except two on each loading stage.
     pub fn strip(&mut self) {
         self.title.clear();
         self.notice.clear();
@@ -91,7 +92,7 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with one more quantity recorded.
+    /// Returns this scene with `observer` among the quantities that are recorded in addition to the force curve.
     pub fn observing(&self, observer: Observer) -> CheckedScene {
         let mut scene = self.0.clone();
         if !scene.observe.contains(&observer) {
@@ -100,7 +101,7 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with other names of its measured files. A name is checked when its file is read.
+    /// Returns this scene with its measured files renamed by `rename`. A name is checked when its file is read.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

@@ -20,8 +20,9 @@ use asperity_contact::Move;
 /// Largest length of the text of a scene in bytes. A longer text is refused unread; most scenes have a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
 
-/// A checked scene with its text in RON, and with the overrides that have changed it. An override is the path of a field and
-/// its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it was.
+/// A checked scene with its text in RON (Rusty Object Notation), and with the overrides that have changed it. An override is
+/// the path of a field and its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it
+/// was.
 ///
 /// ```
 /// use asperity_scene::Document;
@@ -52,8 +53,8 @@ impl Document {
     /// Reads and checks the text of a scene. Errors state `name`, the name of a file or of a built-in scene.
     ///
     /// # Errors
-    /// Returns the first syntax error or all invalid values, each with line and column. If the version is not supported, this
-    /// is the only error.
+    /// Returns the first syntax error, or an error for each invalid value, with line and column. If the version of the file
+    /// is not supported, this is the only error.
     ///
     /// ```
     /// use asperity_scene::Document;
@@ -109,7 +110,8 @@ impl Document {
     /// checked once, at the end, so values that are only allowed together may come in any order.
     ///
     /// # Errors
-    /// Returns all errors, each with the overrides that cause it.
+    /// Returns an error for each override that cannot be read and each value that is invalid, with the overrides that cause
+    /// it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let (mut new, mut errors) = (self.clone(), Vec::new());
         for (path, value) in overrides {
@@ -191,7 +193,7 @@ impl Document {
         field.variant.is_none() || field.variant == self.text.variant(field.parent())
     }
 
-    /// Returns the name of the file or of the built-in scene.
+    /// Returns the name of the file or of the built-in scene from which the document was read.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -202,8 +204,8 @@ impl Document {
         if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
     }
 
-    /// Returns the overrides since the text was opened. An override that a later one replaces is left out. If they are
-    /// applied to the opened text, the result is the scene of this document.
+    /// Returns the changes since the text was opened, each as the path of a field and its new value. A change that a later
+    /// one replaces is left out. Applied to [`Self::opened`], the changes give the scene of this document.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
@@ -213,13 +215,13 @@ impl Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// Returns the lines above the scene in the table of results from which the scene was read. Scenes from other sources
-    /// have no such lines.
+    /// Returns the lines above the scene in the file from which it was read, if the file is a table of results that repeats
+    /// its scene. For any other file the text is empty.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
 
-    /// Returns the number of comments in the text. A new value also removes the comments inside the old value.
+    /// Returns the number of comments in the text. [`Self::set`] keeps all comments except those inside the old value.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
@@ -245,8 +247,8 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with new names of its measured files. If a name changes, the text is written anew, without
-    /// comments.
+    /// Returns this document with its measured files renamed by `rename`. If a name changes, the text is written anew,
+    /// without comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.

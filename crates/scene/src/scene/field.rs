@@ -40,8 +40,8 @@ pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 pub enum Step {
     /// Adds the first number, or the second for a large step. The result is a multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number. For a small step there are twenty such numbers per decade (Renard series R20), for
-    /// a large step 1, 2 and 5.
+    /// Goes to the next preferred number. A small step has twenty such numbers per decade (Renard series R20). A large step
+    /// has three: 1, 2 and 5 times a power of ten.
     Logarithmic,
     /// Adds the first integer, or the second for a large step.
     Integer(u64, u64),
@@ -106,7 +106,8 @@ impl Field {
 }
 
 impl Field {
-    /// Returns a row for a program's own list of parameters. The row is no field of a scene, and the program keeps the value.
+    /// Returns a description of a parameter that a program has in addition to the fields of a scene. The program itself keeps
+    /// the value of the parameter.
     pub const fn beside(
         path: &'static str,
         name: &'static str,
@@ -116,7 +117,7 @@ impl Field {
         row(path, range).name(name).meaning(meaning)
     }
 
-    /// Returns the same row for a quantity with this SI unit.
+    /// Returns this description with this SI unit.
     pub const fn in_unit(self, unit: &'static str) -> Field {
         Field { unit, ..self }
     }
@@ -129,8 +130,8 @@ impl Field {
         }
     }
 
-    /// Formats a value of this field with its unit. `written` is a number or a pair of wavelengths in RON, `format` the
-    /// function that formats each number: `100 µm, 200 nm`. Returns `None` for other values.
+    /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is a number or a pair of wavelengths
+    /// in RON, and `format` is called for each number and its unit. Returns `None` for any other value.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         let ends = match self.range {
             Range::Real(..) => vec![written.parse().ok()?],
@@ -171,35 +172,36 @@ impl PartialEq for Field {
 
 pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
 
-/// Force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce). Its path is `loading.0.0` for the first
-/// stage.
+/// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce). In a scene the force of
+/// the first stage has the path `loading.0.0`.
 pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
     .of("ToForce")
     .quantity("force of stage", "F", "N")
     .meaning("target: the stage ends where the force first reaches this value; compression is positive");
 
-/// Indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation). Its path is `loading.0.0`
-/// for the first stage.
+/// Description of the indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation). In a
+/// scene the indentation of the first stage has the path `loading.0.0`.
 pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToIndentation")
     .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
-/// Loading stage as a whole, including a stage without a number. Its path is `loading.0` for the first stage.
+/// Description of a loading stage as a whole, with or without a number. In a scene the first stage has the path `loading.0`.
 pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
-/// Displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement). Its path is
-/// `loading.0.0` for the first stage.
+/// Description of the displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement). In a
+/// scene the displacement of the first stage has the path `loading.0.0`.
 pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToDisplacement")
     .quantity("displacement of stage", "D", "m")
     .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
-/// Fields of the numbers that end loading stages: force, indentation and displacement.
+/// Descriptions of the numbers that end loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-/// Returns the field and the number that end a loading stage; `None` for a stage without a number, such as separation.
+/// Returns the number that ends a loading stage, after its description. Returns `None` for a stage without a number, such as
+/// separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
         Move::ToForce(force) => Some((&LEG_FORCE, force)),
@@ -214,12 +216,13 @@ const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
     /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of the field: `50 mJ/m²`,
-    /// `16k`. A text needs no quotes. The name of a file becomes a measured roughness or a table of the form. A work with its
-    /// unit becomes an adhesion. `none` omits an optional part. A loading may be a list of stages as
-    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text stays, without blanks around it.
+    /// `16k`. A text needs no quotes. The name of a file becomes a measured surface for the field `roughness`, and a table
+    /// for the field `form`. A work with its unit becomes an adhesion for the field `adhesion`. `none` omits an optional
+    /// part. A loading may be a list of stages as [`loading_text`](crate::scene::stages::loading_text) writes it. Any other
+    /// text stays, without blanks around it.
     ///
     /// # Errors
-    /// Returns an error for a number with another unit, or a number that is too large.
+    /// Returns an error for a number with another unit, a number that is too large, or a choice without its numbers.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         match typed.trim() {
             // As an omitted part is shown.

@@ -12,7 +12,7 @@ use super::text::index::Text;
 use asperity_data::{ReadError, read_regular_text};
 use asperity_data::{path_name, printable};
 
-/// Name of the built-in scene with which the program begins.
+/// Name of the built-in scene that the program opens if no other scene is named.
 pub const DEFAULT: &str = "pressure-sensitive";
 
 /// A built-in scene, or a built-in plan of a study.
@@ -24,7 +24,7 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Makes [`Preset`]s of the built-in files of a folder, by their names.
+/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder of it, which are named without their ending `.ron`.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
@@ -52,7 +52,7 @@ const PRESETS: &[Preset] = built_in!["":
     "elastic-energy-above",
 ];
 
-/// Returns all built-in scenes, in the recommended order.
+/// Returns all built-in scenes, in the order in which lists show them.
 ///
 /// ```
 /// use asperity_scene::presets;
@@ -89,7 +89,7 @@ pub enum Source {
     Working,
 }
 
-/// A scene of the library, or a file in RON that may be a scene.
+/// Entry of the list that [`scenes`] returns: a scene, or a file ending in `.ron` that is no valid scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Name of the scene. A file of the working folder has the ending `.ron` in its name, a scene of the user's own folder

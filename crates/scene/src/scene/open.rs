@@ -13,8 +13,9 @@ use asperity_data::printable;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 
 /// Opens a scene. A name that ends in `.ron`, contains a path separator or belongs to a file is opened as a file. Other names
-/// are searched among the built-in scenes, then in the user's [`own_folder`]. A table of results in CSV opens as the scene
-/// that it contains. Only regular files are read, because a pipe or a terminal would wait.
+/// are searched among the built-in scenes, then in the user's [`own_folder`]. A table of results in CSV repeats the scene
+/// that was computed, and opens as this scene. Only regular files are read, because a pipe or a terminal would make the
+/// program wait.
 ///
 /// # Errors
 /// Returns an error if there is no such scene, if its file cannot be read, or if the scene has errors.

@@ -38,7 +38,7 @@ pub struct Outcome {
     pub regime_after_zero_force: Option<Regime>,
     /// Main forces and energies of the loading, such as preload, adhesion force and dissipated energy.
     pub figures: Figures,
-    /// Results over the displacement of the instrument; `None` for a rigid instrument.
+    /// Pull-off displacement and loop area of the instrument; `None` for a rigid instrument.
     pub instrument: Option<InstrumentFigures>,
     /// Force curves of all loading stages, and the contact at their ends.
     pub history: History,
@@ -46,7 +46,7 @@ pub struct Outcome {
     pub fragments: Vec<Vec<Patch>>,
     /// Histogram of the heights of the profile; `None` unless the scene records it.
     pub histogram: Option<Histogram>,
-    /// Times of the computation.
+    /// Times that the parts of the computation have taken.
     pub timings: Timings,
 }
 
@@ -78,12 +78,12 @@ pub struct LineFacts {
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient by the integrals of eq. (12) for the same rms height, in place of sums over modes; `None` unless
-    /// self-affine.
+    /// Rms gradient of a continuous spectrum with the same rms height, by the integrals of eq. (12). The profile itself is a
+    /// sum of modes. `None` unless the roughness is self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// Times of the parts of a computation in s; zero for a part that was not repeated.
+/// Times in s that the parts of a computation have taken. The time is zero for a part whose earlier result was used again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
     /// Time in s for making the profile.
@@ -123,7 +123,7 @@ pub enum RunError {
         /// Required memory in bytes.
         bytes: u64,
     },
-    /// The profile could not be made.
+    /// The profile could not be computed from the form and the roughness.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
     /// Unloadings from many turning points were requested, which need the exact solver.
@@ -146,7 +146,7 @@ pub enum RunError {
         /// Force at first touch in N.
         touch: f64,
     },
-    /// A loading stage presses the body deeper than one length of the profile beyond full contact.
+    /// A loading stage presses the body deeper than one length of the profile beyond full contact, where all springs touch.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
     /// The contact could not be computed.
