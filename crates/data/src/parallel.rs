@@ -1,4 +1,4 @@
-//! Independent computations in parallel. No result depends on the number of threads.
+//! Runs independent computations on several threads. No result depends on the number of threads.
 
 use std::cell::Cell;
 use std::io;
@@ -39,11 +39,11 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the results in order. Each thread
-/// first calls `worker` and then computes its results with the function that it gets. If the system refuses some threads, the
-/// others do all the work.
+/// first calls `worker`, and then computes its results with the function that `worker` returns. If the system refuses some
+/// threads, the others do all the work.
 ///
 /// # Errors
-/// Returns the error of the smallest number that fails.
+/// Returns an error if the function returns one for a number. Of several errors it is the one of the smallest number.
 ///
 /// ```
 /// use asperity_data::on_threads;

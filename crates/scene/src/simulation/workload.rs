@@ -42,13 +42,13 @@ pub enum Stage {
     MeasuredProfile,
     /// Contact tree: the tree of the gaps from which the exact solver finds where patches form, merge, split and detach.
     Tree,
-    /// Rule of Hess, which limits the stretch of contact patches.
+    /// Rule of Hess, which limits how far the springs of a contact patch may be stretched.
     RuleOfHess,
     /// Search for the indentations at which patches form and merge during loading.
     LoadingPass,
     /// Search for the indentations at which patches split and detach during unloading.
     UnloadingPass,
-    /// Steps and relaxations of the stepwise solver.
+    /// Steps of the stepwise solver. In each step the body moves, then springs attach and detach until no further one does.
     Relaxation,
     /// Loops that turn at first touch and at zero force, for F_a(d=0), F_a(F=0) and the regimes.
     WithoutPreload,
@@ -72,7 +72,8 @@ impl Stage {
     }
 }
 
-/// A part of the computation with its cost. A part that a scene does not need is listed too, with zero cost.
+/// Part of the computation of a scene in a [`Workload`], with its passes and its memory. They are zero for a part that the
+/// scene does not need.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// Part of the computation.
@@ -83,7 +84,7 @@ pub struct PlannedStage {
     pub because: &'static str,
     /// Number of passes over the profile or its tree; `None` if it depends on the loading stages.
     pub passes: Option<u64>,
-    /// Largest number of springs that all passes visit together; `None` if the number of passes is unknown.
+    /// Upper bound of the number of visits to springs, summed over all passes; `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
     /// Memory in bytes of the arrays that this part adds.
     pub bytes: u64,
