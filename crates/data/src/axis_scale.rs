@@ -37,7 +37,7 @@ impl AxisScale {
         }
     }
 
-    /// Returns the number at a coordinate.
+    /// Returns the number at a coordinate. The function is the inverse of [`coordinate`](Self::coordinate).
     pub fn number(self, coordinate: f64) -> f64 {
         if self == AxisScale::Logarithmic { 10_f64.powf(coordinate) } else { coordinate }
     }

@@ -2,8 +2,8 @@
 
 use crate::parallel;
 
-/// Settings of a long computation: the number of threads, when to stop, and where to report progress. The default uses all
-/// cores, never stops early and reports nothing.
+/// Settings of a long computation: the number of threads, a function that stops it, and a function that receives its
+/// progress. The default uses all cores, never stops early and reports nothing.
 ///
 /// ```
 /// use asperity_data::Control;

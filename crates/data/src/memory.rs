@@ -28,8 +28,8 @@ impl OutOfMemory {
     }
 }
 
-/// Returns an error unless the system could provide this many more bytes now. For less than 1 MiB the function returns no
-/// error. No memory stays reserved.
+/// Returns an error unless the system could provide this many more bytes now. For less than 1 MiB it never returns an error.
+/// No memory stays reserved.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());

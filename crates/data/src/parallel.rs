@@ -91,7 +91,8 @@ pub fn threads() -> usize {
     if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
-/// Runs both functions and returns both results. If `worth` is true, the first one runs on a second thread where possible.
+/// Runs the functions `one` and `other`, and returns their results. If `worth` is true, `one` runs on a second thread at the
+/// same time as `other`, where a second thread is possible.
 pub fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,

@@ -18,7 +18,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi, %"),
 ];
 
-/// Error of a typed text that is not a quantity of the expected unit. The string is the whole message.
+/// Error for a typed text that is not a number with the expected unit. The string is the whole message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(pub String);

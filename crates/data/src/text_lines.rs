@@ -36,7 +36,7 @@ pub enum TextFault {
 }
 
 impl TextFault {
-    /// Largest length of a line in bytes. A row of a large matrix is shorter.
+    /// Largest length of a line in bytes. Even the row of a large matrix is shorter.
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 

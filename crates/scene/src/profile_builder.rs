@@ -233,7 +233,7 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// Returns κ, e_el/γ and the amplitude of the roughness for a modulus and an adhesion.
+    /// Returns κ, e_el/γ and the amplitude of the roughness that this profile has with a modulus and an adhesion.
     ///
     /// ```
     /// use asperity_contact::Modulus;
@@ -255,7 +255,7 @@ impl ProfileBuilder {
         Ok(self.simulation().make_line(&scene)?.2)
     }
 
-    /// Loads a contact with this profile and computes all results of a scene. The results are the force curve, forces and
+    /// Loads a contact with this profile by the stages `loading`, and returns all results: the force curve, forces and
     /// energies, κ, e_el/γ, the Tabor number, F_a,max, F_a(d=0), F_a(F=0) and both regimes.
     ///
     /// ```
@@ -272,7 +272,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::governing`], and [`Error::Contact`] if the contact cannot reach the end of a stage.
+    /// Returns the same errors as [`Self::governing`]. Also returns [`Error::Contact`] if the contact cannot reach the end of
+    /// a stage.
     pub fn run(
         &self,
         modulus: Modulus,

@@ -85,8 +85,8 @@ pub enum Evidence {
 ///
 /// If a closed form exists, the estimate is the true error. Otherwise the scene is also solved with about 7/8 and about 2/3
 /// of its springs, with edges between springs. If its waves need more springs, it is solved with about 3/2 and about 2 times
-/// its springs instead. The estimate is four times the larger of the two relative differences from `outcome`. A relative
-/// difference is divided by the smaller of the two values.
+/// its springs instead. The estimate is four times the larger of the two relative differences from `outcome`. Each difference
+/// is divided by the smaller of the two compared values.
 ///
 /// Returns `None` if there is neither an adhesion force nor a force curve, if `stop` returns true, or if one of the two
 /// further solutions fails. A solution fails if its number of springs is not allowed, or if its contact does not reach the

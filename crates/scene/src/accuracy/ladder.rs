@@ -39,7 +39,7 @@ const TRANSFORM_POINTS: usize = 1 << 20;
 pub enum Progress<'a> {
     /// Setting that is varied next, with its next value as text, such as `512 springs`.
     Trying(Knob, &'a str),
-    /// The table so far. Its errors are relative to the finest solution so far.
+    /// Table of the solutions so far. Its errors are relative to the finest of them.
     Rows(&'a CostTable),
 }
 

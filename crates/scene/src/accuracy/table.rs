@@ -103,7 +103,7 @@ pub struct CostReference {
     pub springs: u64,
     /// Adhesion force of the reference in N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// True if a formula gives `adhesion_force`. The other quantities are always from the finest solution.
+    /// True if `adhesion_force` is from an exact formula. The other quantities are always from the finest solution.
     pub closed_form: bool,
     /// Estimated relative errors of the reference itself, one for each of the [`CostTable::QUANTITIES`].
     #[serde(serialize_with = "by_name")]
@@ -122,12 +122,12 @@ pub struct CostTable {
     pub budget: f64,
     /// Time in s that the measurement has taken.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. This time serves as the unit of
-    /// time.
+    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. It is the unit of
+    /// [`Row::transforms`].
     pub transform_seconds: f64,
     /// Finest solution, from which the errors are counted. A closed form may replace its adhesion force.
     pub reference: CostReference,
-    /// Rows of the settings, one [`Knob`] after the other, each from coarse to fine.
+    /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to fine.
     pub rows: Vec<Row>,
     /// Settings, in words, that have no row because time or memory did not suffice.
     pub left_out: Vec<String>,
@@ -165,8 +165,8 @@ impl CostTable {
     }
 
     /// Returns the computing time in s and the main error that the scene has with `numerics`. Between two rows both are
-    /// interpolated. Returns `None` outside the range of the rows, and for a step that was only tried with another number of
-    /// springs.
+    /// interpolated. Returns `None` if the number of springs or the step lies outside the range of the rows. Also returns
+    /// `None` for the stepwise solver if its rows have another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),

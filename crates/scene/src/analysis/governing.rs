@@ -43,7 +43,7 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// Tabor number below which the model overestimates the dissipated energy.
+    /// Tabor number ([`Self::tabor_number`]) below which the model overestimates the dissipated energy.
     pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
     /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`] of its profile when scaled
@@ -188,7 +188,7 @@ fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus:
 /// the contact recedes at its edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
-    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R; below [`SteepWaves::LEAST_RATIO`].
+    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R. It is below [`SteepWaves::LEAST_RATIO`].
     pub ratio: f64,
     /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR theory. The formula holds
     /// for waves much shorter than the contact radius (Kesari and Lew 2011).

@@ -149,8 +149,8 @@ pub struct InstrumentFigures {
 }
 
 impl InstrumentFigures {
-    /// Computes the results from `history`, the computed loading by this instrument, from its forces and energies `figures`,
-    /// and from the stiffness in N/m.
+    /// Computes these results from a computed loading. `history` has its force curves, `figures` its forces and energies.
+    /// `stiffness` is the stiffness of the instrument in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

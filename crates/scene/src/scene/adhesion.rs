@@ -29,7 +29,7 @@ impl RoughnessParameter {
     pub const ALL: [RoughnessParameter; 2] =
         [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
 
-    /// Returns the path of the parameter in a scene: `adhesion.kappa`.
+    /// Returns the path of the parameter in a scene, such as `adhesion.kappa`.
     pub const fn path(self) -> &'static str {
         match self {
             RoughnessParameter::Kappa => "adhesion.kappa",
@@ -37,12 +37,12 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the name of the parameter in scenes, studies and tables: `kappa`.
+    /// Returns the name of the parameter in scenes, studies and tables, such as `kappa`.
     pub fn name(self) -> &'static str {
         self.path().trim_start_matches("adhesion.")
     }
 
-    /// Returns the symbol of the parameter in the equations: `κ`.
+    /// Returns the symbol of the parameter in the equations, such as `κ`.
     pub fn symbol(self) -> &'static str {
         field(self.path(), None).map_or("", |field| field.symbol)
     }

@@ -26,7 +26,7 @@ impl Scene {
     /// Checks all values of this scene.
     ///
     /// # Errors
-    /// Returns all invalid values, each with its field and its allowed range.
+    /// Returns an error for each invalid value, with its field and its allowed range.
     pub fn checked(self) -> Result<CheckedScene, SceneErrors> {
         CheckedScene::of(self, None, |_| Origin::Scene)
     }
@@ -62,7 +62,7 @@ impl CheckedScene {
     /// Returns this scene after `change`, checked anew.
     ///
     /// # Errors
-    /// Returns all values that the change makes invalid.
+    /// Returns an error for each value that the change makes invalid.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;
@@ -85,7 +85,7 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene without what its forces and energies do not need, as [`Scene::strip`] does.
+    /// Returns this scene without the parts that its forces and energies do not depend on, as [`Scene::strip`] removes them.
     pub fn stripped(&self) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.strip();

@@ -21,7 +21,7 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
     }
 }
 
-/// Returns a word as a POSIX shell reads it, in quotes where they are needed.
+/// Returns the text that a POSIX shell reads as this one word. The text is in quotes where they are needed.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);

@@ -86,7 +86,7 @@ impl Document {
         })
     }
 
-    /// Creates a document with a new text for a scene that has none. The text is as [`to_ron`] writes it.
+    /// Creates a document for a scene that has no text. [`to_ron`] writes the text.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -137,7 +137,7 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns the loading stages, each with its index in the loading.
+    /// Returns the loading stages, each with its index in the loading, as [`Document::with_stages`] takes them.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
     }
@@ -183,8 +183,8 @@ impl Document {
         })
     }
 
-    /// Returns the fields that this scene has or may have. Fields of variants that are not selected, such as other forms, are
-    /// left out.
+    /// Returns the fields that this scene has or may have. Fields of another choice, such as the angle of a cone in a scene
+    /// with a sphere, are left out.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -237,12 +237,12 @@ impl Document {
         Document { opened, overrides, ..self }
     }
 
-    /// Returns the text that was opened.
+    /// Returns the text as it was when the document was opened.
     pub fn opened(&self) -> &str {
         &self.opened
     }
 
-    /// Returns true if the text differs from the opened one.
+    /// Returns true if the present text differs from [`Self::opened`].
     pub fn is_changed(&self) -> bool {
         self.text.as_str() != self.opened
     }

@@ -6,15 +6,16 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// A field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). A row describes the field and does not hold its
-/// value.
+/// Description of one field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). The value of the
+/// field in a scene is not part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
     pub path: &'static str,
-    /// Variant that has this field: `Paraboloid` for the radius of a paraboloid. `None` if the field depends on no variant.
+    /// Choice that has this field, such as the form `Paraboloid` for the radius of a paraboloid. `None` if the field does not
+    /// depend on a choice.
     pub variant: Option<&'static str>,
-    /// Name of the field in words: `Hurst exponent`.
+    /// Name of the field in words, such as `Hurst exponent`.
     pub name: &'static str,
     /// Symbol of the field in the equations; empty if it has none.
     pub symbol: &'static str,
@@ -22,7 +23,7 @@ pub struct Field {
     pub unit: &'static str,
     /// Allowed values of the field.
     pub range: Range,
-    /// How one press of a key changes the value.
+    /// How one press of a key in the explorer changes the value of the field.
     pub step: Step,
     /// Value that an omitted field has, in RON; empty if the field is required.
     pub default: &'static str,
@@ -35,15 +36,15 @@ pub struct Field {
 /// Function that converts typed text, without blanks around it, to the value of a field in RON.
 pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 
-/// Change of a value by one press of a key, as a small or a large step.
+/// How one press of a key in the explorer changes the value of a field, by a small or by a large step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// Adds the first number, or the second for a large step. The result is a multiple of the first number.
+    /// A small step adds the first number, a large step the second one. The result is a multiple of the first number.
     Linear(f64, f64),
     /// Goes to the next preferred number. A small step has twenty such numbers per decade (Renard series R20). A large step
     /// has three: 1, 2 and 5 times a power of ten.
     Logarithmic,
-    /// Adds the first integer, or the second for a large step.
+    /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),
     /// Goes to the next power of two; a large step is four small ones.
     Doubling,
@@ -122,7 +123,7 @@ impl Field {
         Field { unit, ..self }
     }
 
-    /// Returns the allowed values in words, with the unit: `from 1 to 1e13 Pa`.
+    /// Returns the allowed values in words, with the unit, such as `from 1 to 1e13 Pa`.
     pub fn allowed(&self) -> String {
         match self.unit {
             "" | "1" => self.range.to_string(),

@@ -105,9 +105,9 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes, which open by their names. The folder is `asperity/presets` in the
-/// configuration folder: `$XDG_CONFIG_HOME` or `~/.config`, on Windows the roaming application data. The folder may not
-/// exist.
+/// Returns the folder of the user's own scenes. A scene in this folder can be opened by its name without `.ron`. The folder
+/// is `asperity/presets` in the configuration folder of the user, and may not exist. The configuration folder is
+/// `$XDG_CONFIG_HOME` or `~/.config`; on Windows it is the roaming application data.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }
@@ -124,8 +124,8 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
     scene_files(own).unwrap_or_default().iter().map(|path| name_of(path, Source::Own)).collect()
 }
 
-/// Lists all scenes: the built-in ones in their order, then the folder `own` of the user, then the folder `working`. Both
-/// folders are sorted by name.
+/// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the scenes in the folder
+/// `working`. The scenes of a folder are sorted by name.
 ///
 /// A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no scene or cannot be read is
 /// listed with its error. Only regular files are opened, and subfolders are not searched.

@@ -16,8 +16,8 @@ use strum::IntoStaticStr;
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
 /// Recommended number of springs on the shortest wave. With this number the adhesion force of a rough profile has an error of
-/// about one per cent, with either edge model ([`Edges`]; see docs/accuracy.md). A scene is refused if the shortest wave has
-/// fewer than two springs, or fewer than four on a wavy sphere.
+/// about one per cent, with either edge model ([`Edges`]; see docs/accuracy.md). A random profile needs at least two springs
+/// on the shortest wave, and a wavy sphere at least four.
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -297,7 +297,7 @@ pub struct Numerics {
     pub points: u64,
     /// Solver for the equilibrium of the springs: exact, or stepwise as in the paper of Popov and Filippov.
     pub solver: Solver,
-    /// Edge model: where the edge of a contact patch may lie, between springs or at whole springs.
+    /// Edge model: the edge of a contact patch may lie between two springs, or a patch consists of whole springs.
     pub edges: Edges,
     /// Number of points of the force curve on each loading stage.
     pub samples: u64,
@@ -347,8 +347,8 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns the edge model of a scene that states none: edges between springs with the exact solver, whole springs with
-    /// the stepwise solver.
+    /// Returns the edge model of a scene that states none: [`Edges::SubCell`] with the exact solver, [`Edges::Grid`] with the
+    /// stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => default_of("numerics.edges"),

@@ -74,7 +74,7 @@ pub fn pressing_force(loading: &[Move]) -> f64 {
     loading.iter().map(force).fold(0.0, f64::max)
 }
 
-/// Returns a loading stage in RON: `ToForce(1.0e-5)`.
+/// Returns a loading stage in RON, such as `ToForce(1.0e-5)`.
 pub fn stage_in_ron(stage: &Move) -> String {
     let (kind, number) = StageKind::of(stage);
     let name = choice_name(STAGES[kind]);
@@ -93,9 +93,9 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// Formats a loading as text for readers: `10 µN, 3 loops 0 N to 10 µN, separation`. Repeated loops between two stages become
-/// one item. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text into the same
-/// loading again.
+/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. Repeated loops between two
+/// stages become one item. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text
+/// into the same loading again.
 ///
 /// ```
 /// use asperity_contact::Move;

@@ -22,13 +22,13 @@ pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError
 
 impl Simulation {
     /// Computes unloadings to separation from several turning points. Each stage in `ends` loads the separated bodies up to
-    /// one turning point; the stages are ordered from the shallowest to the deepest. `see` receives each unloading with the
-    /// index of its stage in `ends`. Each unloading has its forces at the indentations `points`, which are in m and ascend.
-    /// The computation ends when `stop` returns true.
+    /// one turning point. The stages must be ordered from the shallowest to the deepest. `see` receives each unloading with
+    /// the index of its stage in `ends`. Each unloading has its forces at the indentations `points`, which are in m and
+    /// ascend. The computation ends when `stop` returns true.
     ///
     /// # Errors
-    /// Returns an error if the scene has the stepwise solver, if the profile cannot be made, or if the contact cannot reach a
-    /// stage. A stopped computation is also an error.
+    /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if the contact cannot reach
+    /// the end of a stage, or if `stop` returned true.
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
@@ -52,7 +52,7 @@ impl Simulation {
     /// Returns the deepest state up to which loadings of a scene are computed.
     ///
     /// # Errors
-    /// Returns an error if the profile cannot be made.
+    /// Returns an error if the profile cannot be computed.
     pub fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
         let plan = Workload::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))

@@ -304,7 +304,7 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Returns the contact of a checked scene before its loading, and its governing parameters.
+    /// Returns the contact of a scene before its loading, and the governing parameters.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`]. Also returns an error if a value of the contact is out of its range.
