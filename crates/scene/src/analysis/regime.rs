@@ -50,10 +50,10 @@ impl Regime {
     /// `turned` is F_a(d=0) for the regime turned at first touch, or F_a(F=0) for the regime turned at zero force. `smooth`
     /// is the adhesion force of the same body without roughness. `turned` and `smooth` are in N, and `None` without adhesion.
     ///
-    /// F_a is the adhesion force after the preload F_n. The regime is pressure-insensitive if `turned` is at least
-    /// [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the regime is non-adhesive if
-    /// F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive if F_a is below
-    /// [`Regime::VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
+    /// F_a is the adhesion force after the preload F_n, both of this loading. The regime is pressure-insensitive if `turned`
+    /// is at least [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the
+    /// regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive
+    /// if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
