@@ -68,8 +68,8 @@ pub mod fields {
     pub use crate::scene::tree::Tree;
 }
 
-/// Text of scenes in RON: reading, writing, and edits that keep comments. Also shell commands that open a scene, and
-/// suggestions for misspelt names.
+/// Reads, writes and edits the text of scenes in RON; edits keep the comments. Other functions write the shell command that
+/// opens a scene, and find the name that a misspelt name probably means.
 pub mod text {
     pub use crate::scene::command::{command_line, quoted};
     pub use crate::scene::document::LONGEST_TEXT;
@@ -108,7 +108,8 @@ pub mod instrument {
     };
 }
 
-/// Stages of the computation of a scene, with their times and memory. Also the largest indentation for which the model holds.
+/// Parts of the computation of a scene, which are called stages here, with their times and memory. [`Reach`](stages::Reach)
+/// is the deepest state up to which a loading is computed.
 pub mod stages {
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};

@@ -129,9 +129,9 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 ///
 /// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Without a
 /// closed form the error of the adhesion force is the largest of three: with the target forces and indentations of the scene,
-/// with half of them, and with twice of them. It includes the estimated error of the finest solution. If both edge models
-/// need the same number of springs, [`Edges::SubCell`] is chosen. The choice does not depend on the speed of the machine. The
-/// search ends when `stop` returns true. `trying` receives each number of springs before it is tried.
+/// with half of these targets, and with twice these targets. It includes the estimated error of the finest solution. If both
+/// edge models need the same number of springs, [`Edges::SubCell`] is chosen. The choice does not depend on the speed of the
+/// machine. The search ends when `stop` returns true. `trying` receives each number of springs before it is tried.
 ///
 /// # Errors
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene has the stepwise solver,

@@ -19,11 +19,11 @@ use strum::IntoStaticStr;
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Regime {
-    /// A mere touch gives at least half of the adhesion force after the preload (Fig. 4a).
+    /// Without the preload the adhesion force is at least half of the adhesion force after it (Fig. 4a).
     PressureInsensitive,
-    /// A mere touch gives less than half of the adhesion force after the preload (Fig. 4b).
+    /// Without the preload the adhesion force is less than half of the adhesion force after it (Fig. 4b).
     PressureSensitive,
-    /// The adhesion force is at most a hundredth of the preload (Fig. 4c).
+    /// There is no adhesion, or the adhesion force is at most a hundredth of the preload (Fig. 4c).
     NonAdhesive,
 }
 

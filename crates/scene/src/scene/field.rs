@@ -201,8 +201,8 @@ pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
 /// Descriptions of the numbers that end loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-/// Returns the number that ends a loading stage, after its description. Returns `None` for a stage without a number, such as
-/// separation.
+/// Returns the description of the number that ends a loading stage, and the number itself. Returns `None` for a stage without
+/// a number, such as separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
         Move::ToForce(force) => Some((&LEG_FORCE, force)),

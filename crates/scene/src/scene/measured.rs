@@ -66,7 +66,7 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_name: Option<String>,
-    /// Number of the channel to read from a file with several channels, from 0.
+    /// Number of the channel to read from a file with several channels, counted from 0.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<u64>,

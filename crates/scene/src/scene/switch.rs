@@ -17,8 +17,9 @@ impl Document {
     /// Returns this document without an effect; unchanged if the effect is already off.
     ///
     /// If the roughness is removed, κ or e_el/γ can no longer give the work of adhesion. The scene then gets the work of
-    /// adhesion that it had before κ or e_el/γ was chosen, or 50 mJ/m². If the unloading is removed, one stage remains: the
-    /// stage with the largest target force or, if there is none, with the deepest indentation.
+    /// adhesion that it had before [`Self::with_next_choice`] chose κ or e_el/γ. If there is none, it gets 50 mJ/m². If the
+    /// unloading is removed, one stage remains: the stage with the largest target force or, if there is none, with the
+    /// deepest indentation.
     ///
     /// # Errors
     /// Returns an error if the scene is not valid without the effect.

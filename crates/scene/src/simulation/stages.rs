@@ -321,8 +321,8 @@ impl Simulation {
         self.run(scene, &|| false, &mut |_, _, _| Ok(()))
     }
 
-    /// Computes all results of a scene. The run ends when `stop` returns true, which is asked between parts of the
-    /// computation and after each loading stage. `after` is called after each loading stage.
+    /// Computes all results of a scene. `stop` is asked between parts of the computation and after each loading stage. If it
+    /// returns true, the run ends. `after` is called after each loading stage.
     ///
     /// # Errors
     /// Returns an error if a part of the computation fails or if `stop` returns true. Results of earlier parts are kept for
