@@ -57,20 +57,20 @@ pub struct Axis {
     pub unit: &'static str,
     /// Whether the values have equal differences, equal ratios, or any distances.
     pub spacing: Spacing,
-    /// Values in the unit `unit` and in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) they ascend.
+    /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) they ascend.
     pub values: Vec<f64>,
     pub(super) target: Target,
 }
 
 impl Axis {
-    /// Names of the quantities that an axis may vary although they are no fields of a scene. They are the preload in units of
+    /// Names of the quantities that an axis may vary although a scene has no field for them. They are the preload in units of
     /// E* h L with the rms height h, the preload in N, and the number of springs per shortest wave.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
     /// Creates an axis over the number that a scene has at `path`. The `values` are in the SI unit of this number.
     ///
     /// # Errors
-    /// Returns an error if a scene has no number at this path. The error names the nearest path.
+    /// Returns an error if no scene has a number at this path. The error names the nearest path.
     ///
     /// ```
     /// use asperity_study::{Axis, Spacing};

@@ -68,8 +68,8 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes. For the same values, boundaries of loadings that turn at first touch
-    /// come before those that turn at zero force, each in the order of the requested shares of F_a,max.
+    /// Boundaries, sorted by the values on the other axes. For the same values, loadings that turn at first touch come first,
+    /// and then loadings that turn at zero force. The shares of F_a,max follow in the order in which they were given.
     pub found: Vec<AdhesionBoundary>,
 }
 

@@ -17,7 +17,7 @@ const HALF: f64 = 0.98;
 /// exceeds its number in about 5 of 100 cases. An error is `None` if it is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
-    /// Error due to the finite number of springs, for the scene's own profile.
+    /// Error due to the finite number of springs, for the profile with the seed of the scene.
     pub grid: Option<f64>,
     /// Error of the median over random profiles, due to the finite number of these profiles.
     pub sample: Option<f64>,

@@ -66,7 +66,7 @@ impl Found {
     ///
     /// # Errors
     /// Returns an error if the searched range is not allowed, if the scene does not have the quantity, or if the number does
-    /// not change the quantity. Errors of the computation are returned too, and it is an error if `stop` returned true.
+    /// not change the quantity. It is also an error if a profile cannot be computed, or if `stop` returned true.
     pub fn of(
         question: Question,
         (simulation, jobs): (Simulation, usize),
@@ -159,7 +159,7 @@ impl Found {
         Some(value).filter(|value| value.is_finite())
     }
 
-    /// Returns the smallest and the largest found number over all profiles; `None` if none was found.
+    /// Returns the smallest and the largest of [`Found::values`]; `None` if no profile has a value.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = || self.values().into_iter().flatten();
         values().reduce(f64::min).zip(values().reduce(f64::max))

@@ -15,13 +15,14 @@ pub struct GridCell {
     /// Statistics over the random profiles for the quantity of each layer, in the order of [`Grid::layers`]; `None` if no
     /// profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime. The first are for the regime that follows from F_a(d=0), the second for F_a(F=0).
+    /// Numbers of profiles in each regime: first for the regime that follows from F_a(d=0), then for the one that follows from
+    /// F_a(F=0).
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime that follows from F_a(F=0) if `quantity` is
-    /// [`Quantity::RegimeAfterZeroForce`]. For any other quantity the regime follows from F_a(d=0).
+    /// Returns the numbers of profiles in each regime. The regime follows from F_a(F=0) if `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other quantity.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -80,7 +81,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid that shows each cell in its own place, also while the cell is not computed yet.
+    /// Creates a grid. A cell that is not computed yet is shown as missing, and not by the results of a cell nearby.
     pub fn new(
         across: Axis,
         up: Option<Axis>,

@@ -9,7 +9,7 @@
 //!   reports its [`StudyProgress`], and [`merge`] makes the tables afterwards. A [`Stop`] ends a computation.
 //! * Results: [`Results`] with [`Statistics`], their [`Spread`], and [`RegimeCounts`].
 //! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`]. [`find`](find()) answers a [`Question`] by
-//!   [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] are the adhesion force over the
+//!   [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force over the
 //!   preload. [`Sensitivity`] has an [`Influence`] for each number of the scene, with the [`Changed`] results.
 //! * Errors: [`StudyError`].
 //!
@@ -101,8 +101,8 @@ pub mod checks {
     pub use crate::check::{Check, Verdict};
 }
 
-/// Comparisons of a scene on profiles with the same contact in three dimensions. They show the error of the profile as a
-/// model.
+/// Comparison of the contact of a scene on profiles with the same contact in three dimensions. It shows the error of the
+/// profile as a model.
 pub mod half_space {
     pub use crate::reference::{
         Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,

@@ -50,7 +50,8 @@ impl Level {
     }
 }
 
-/// Map of a scene over κ or e_el/γ and the Hurst exponent H. It is computed from coarse to fine, and can be shown meanwhile.
+/// Map of a scene over κ or e_el/γ and the Hurst exponent H, with a cell for each combination of their values. It is computed
+/// from coarse to fine, and can be shown meanwhile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -106,7 +107,8 @@ impl LiveMap {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true if no cell is left to compute. On a map with many springs, not all cells of [`Level::Whole`] are computed.
+    /// Returns true if no cell is left to compute. On a map with many springs, only a coarser level than [`Level::Whole`] is
+    /// computed.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }

@@ -35,7 +35,7 @@ fn kappas() -> Vec<f64> {
 }
 
 impl Plan {
-    /// Number of random profiles in each cell of a map of self-affine roughness.
+    /// Number of random profiles in each cell of a map of self-affine roughness. The map of a measured surface has one profile.
     pub const PROFILES_OF_MAP: u64 = 4;
 
     /// Returns the plan of the map of a checked scene, for a [`LiveMap`](crate::maps::LiveMap). One axis is κ, and a second

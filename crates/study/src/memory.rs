@@ -18,7 +18,7 @@ impl Plan {
     /// of the plan that needs the most.
     ///
     /// # Errors
-    /// Returns an error if the system provides less memory now.
+    /// Returns an error if the study needs more memory than the system provides now.
     pub fn memory(&self, jobs: u64) -> Result<u64, StudyError> {
         let of_cell = |cell| {
             let scene = self.scene_of(cell).ok()?;

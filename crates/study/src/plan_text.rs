@@ -72,8 +72,8 @@ impl Plan {
     /// file is relative to the folder of the plan. `changes` are made before the plan is checked.
     ///
     /// # Errors
-    /// Returns an error if the plan cannot be read, or if the plan or the scene of a cell is not allowed. The error lists all
-    /// reasons in the plan and those of the first cells.
+    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a cell has an error. All errors of
+    /// the plan are listed, or the errors of the first cells.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};
@@ -98,7 +98,7 @@ impl Plan {
     /// Each cell has `profiles` random profiles, on which the quantities in `record` are recorded.
     ///
     /// # Errors
-    /// Returns an error if the plan or the scene of a cell is not allowed. The error lists all reasons in the plan and those of
+    /// Returns an error if the plan or the scene of a cell has an error. All errors of the plan are listed, or the errors of
     /// the first cells.
     ///
     /// ```

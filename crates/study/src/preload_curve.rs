@@ -19,8 +19,8 @@ const DECADES: f64 = 6.0;
 /// Relative difference up to which preloads count as equal.
 const SAME: f64 = 1e-9;
 
-/// Adhesion force of a scene as a function of the preload: on its own profile with all steps, and on random profiles. A curve
-/// may be incomplete.
+/// Adhesion force of a scene as a function of the preload: on the scene's own profile with all steps, and on random profiles.
+/// The own profile is the one with the seed of the scene. A curve may be incomplete.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     /// Preloads of the random profiles in N, as an axis.
@@ -41,7 +41,8 @@ impl PreloadCurve {
     ///
     /// # Errors
     /// Returns the reason in words if the scene has no adhesion or no stage that presses the bodies together, or if its solver
-    /// is not the exact one. Errors of the computation are returned too, and it is an error if `stop` returned true.
+    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned
+    /// true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,

@@ -216,8 +216,8 @@ impl Results {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Returns the preloads in N of a study over preloads, each with statistics of the adhesion force in N over the profiles. A
-    /// preload with fewer than two profiles is left out. A profile that never pulls counts as 0 N.
+    /// For a study whose axis has preloads in N, returns each preload with the statistics of the adhesion force in N over the
+    /// profiles. A preload with fewer than two profiles is left out. A profile that never pulls counts as 0 N.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let spread = |cell| {
             let (preload, forces) = self.forces_in(cell);
@@ -227,8 +227,8 @@ impl Results {
         (0..self.plan.cells()).filter_map(spread).collect()
     }
 
-    /// Returns the preload nearest to `preload` in a study over preloads, and the adhesion forces of the computed profiles
-    /// after it. All are in N.
+    /// For a study whose axis has preloads in N, returns the one nearest to `preload`, and the adhesion force in N of each
+    /// computed profile after it.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));

@@ -53,13 +53,13 @@ pub struct Question {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// All found values of the number at which the quantity crosses the target, ascending. Each lies between two tried values
-    /// that differ by a share of 1e-9, or by 1 for whole numbers. Of both, the list has the one at which the quantity is at
-    /// least the target.
+    /// All found values of the number at which the quantity crosses the target, ascending. Each is found between two values
+    /// that differ by at most 1e-9 of their size, or by 1 for whole numbers. The list has the one of both at which the quantity
+    /// is at least the target.
     pub crossings: Vec<f64>,
     /// Whether the quantity is at least the target: first at the smallest searched number, then at the largest.
     pub reached: [bool; 2],
-    /// True if a preload is sought, and F_a(d=0), the adhesion force without a preload, is already at least the target.
+    /// True if the preload for an adhesion force is sought, and a loading that turns at first touch reaches the target already.
     pub at_touch: bool,
     /// Smallest and largest value of the quantity at the numbers with which the search began; `None` if it has no value there.
     pub reachable: Option<(f64, f64)>,
@@ -101,12 +101,12 @@ impl Question {
 
     /// Asks at which value of the number at `path` a quantity has a given value, on `profiles` random profiles of a checked
     /// scene. If `path` is `preload`, asks for the preload. The search goes from a hundredth to a hundred times the value in
-    /// the scene. If a number is only allowed between two ends at most 2 apart, as the Hurst exponent is, nearly this whole
-    /// range is searched. Preloads are searched from 0 N to a hundred times the largest force of the loading.
+    /// the scene. For a number whose allowed range is at most 2 wide, such as the Hurst exponent, nearly this whole range is
+    /// searched. Preloads are searched from 0 N to a hundred times the largest force of the loading.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the profile of the scene is
-    /// fixed. It is also an error to ask for a preload if the solver of the scene is not the exact one.
+    /// fixed. It is also an error to ask for a preload if the solver of the scene is not [`Solver::Exact`].
     pub fn new(
         scene: &CheckedScene,
         path: &str,

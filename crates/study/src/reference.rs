@@ -30,7 +30,8 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 const LONGEST: f64 = 86_400.0;
 
-/// Numbers of random profiles and of random squares in a [`Reference`], and how finely a square is divided.
+/// Options of a [`Reference`]: numbers of random profiles and of random squares, and number of cells into which a square is
+/// divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of cells along the side of a square, a power of two.
@@ -81,7 +82,8 @@ pub struct Loaded {
     pub area: f64,
 }
 
-/// Comparison of one scene on random profiles and on random squares in three dimensions.
+/// Comparison of one scene on random profiles and on random squares in three dimensions. A square is a rigid rough body of the
+/// side L on an elastic half-space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Options of the comparison.
@@ -118,8 +120,8 @@ pub struct Reference {
 pub struct ReferenceBudget {
     /// Largest violation of the conditions on the gap in contacts of squares without adhesion, in units of the rms height.
     pub solver: f64,
-    /// Relative difference of the mean from that of squares with half as many cells along the side; `None` if these have too
-    /// few cells.
+    /// Relative difference between the mean over the squares and the mean over the same squares with half as many cells along
+    /// the side; `None` if the latter have too few cells.
     pub grid: Option<f64>,
     /// Half the width of the 95 % interval of [`Compared::ratio`] over this ratio, due to the finite numbers of squares and
     /// profiles.

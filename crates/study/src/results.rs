@@ -101,7 +101,7 @@ impl Results {
     ///
     /// # Errors
     /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an error if `preloads` are
-    /// given and the solver of the scene is not the exact one, or if the memory does not suffice for the study.
+    /// given and the solver of the scene is not [`Solver::Exact`], or if the memory does not suffice for the study.
     pub fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -137,8 +137,8 @@ impl Results {
     }
 
     /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` is a pair: the simulation with which
-    /// the first thread computes, and the number of threads. After each profile the calling thread gives the results to
-    /// `report`.
+    /// the first thread computes, and the number of threads. After each profile `report` is called on this thread, with the
+    /// results so far.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
@@ -292,8 +292,8 @@ impl Results {
         &self.plan
     }
 
-    /// Returns the values of a cell on the profile with the index `line`, in the order of [`Plan::record`]. They are `None` if
-    /// they are not computed or cannot be computed. A quantity without a value is NaN. A regime is an index into
+    /// Returns the values of a cell on the profile with the index `line`, in the order of [`Plan::record`]. `None` if the
+    /// profile is not computed or cannot be computed. A quantity without a value is NaN. A regime is an index into
     /// [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)

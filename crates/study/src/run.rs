@@ -63,8 +63,8 @@ impl StudyProgress {
 /// progress several times a second and at the end.
 ///
 /// # Errors
-/// Returns an error if the memory does not suffice for a record, or if a file cannot be read or written. Earlier records are
-/// kept.
+/// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file cannot be read or written.
+/// Earlier records are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,

@@ -23,7 +23,7 @@ type Values = [Option<f64>; 3];
 pub struct Changed {
     /// Medians over the profiles in SI units, in the order of [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// Smallest and largest relative change on a single profile, for each result; `None` for a fixed profile.
+    /// Smallest and largest relative change that a result has on a single profile, for each result; `None` for a fixed profile.
     pub range: [Option<(f64, f64)>; 3],
 }
 

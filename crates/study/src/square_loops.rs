@@ -7,7 +7,8 @@ use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Force curves of random squares in three dimensions, as far as they are computed, for a figure with those of the profiles.
+/// Force curves of the random squares of a [`Reference`], as far as they are computed. A figure shows them beside the force
+/// curve of the profile.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of squares when all are computed.
@@ -23,9 +24,9 @@ pub struct SquareLoops {
 }
 
 impl SquareLoops {
-    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` is the
-    /// simulation of the profiles and the number of threads. `report` receives the curves so far at the beginning and after
-    /// each square.
+    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` is a pair: the
+    /// simulation that finds the measured files of the scene, and the number of threads. `report` receives the curves so far at
+    /// the beginning and after each square.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].

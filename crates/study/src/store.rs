@@ -44,7 +44,7 @@ pub struct Folder {
     plan: Plan,
 }
 
-/// First line of a [`ShardFile`], which states which process computes which part of which plan.
+/// First line of a [`ShardFile`]. It states which process computes which part of which plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
     /// Version of the format of shard files.
@@ -197,7 +197,7 @@ impl Folder {
     /// the header is left out, because it has no results.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read, or belongs to another plan or to another version of the program.
+    /// Returns an error if a file cannot be read, or if it belongs to another plan or has another version of the format.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let listed =

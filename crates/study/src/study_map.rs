@@ -56,7 +56,7 @@ impl StudyMap {
         &self.folder
     }
 
-    /// Returns the name of the folder without the folders that contain it.
+    /// Returns the last part of the path of the folder, which names the study.
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()

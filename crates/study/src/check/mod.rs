@@ -16,7 +16,7 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// [`Case`] that is checked with one model of the edges of patches.
+/// Check of the program: a [`Case`], computed with one rule for the edges of patches, and the largest allowed error.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// Case that is checked.
@@ -28,7 +28,8 @@ pub struct Check {
 }
 
 impl Check {
-    /// Returns the checks of the cases for which `choose` returns true, one for each case and each model of the edges in it.
+    /// Returns the checks of the cases for which `choose` returns true. A case that is checked with both kinds of [`Edges`] has
+    /// two checks.
     ///
     /// ```
     /// use asperity_study::checks::Check;
