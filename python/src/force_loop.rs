@@ -119,8 +119,7 @@ impl Loop {
     fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
         let stages = self.stages.iter();
         let points = || stages.clone().flat_map(|stage| &stage.curve);
-        let numbered = stages.clone().zip(0_i64..);
-        let numbers = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]);
+        let numbers = stages.clone().zip(0_i64..).flat_map(|(stage, number)| vec![number; stage.curve.len()]);
         let counts = [numbers.collect(), points().map(|point| point.fragments as i64).collect()];
         let columns = [
             points().map(|point| point.indentation).collect(),
@@ -142,8 +141,8 @@ impl Loop {
         let [pull_off, at] = [of.adhesion_force, of.pull_off_indentation];
         let figures = [pull_off, at, of.preload, of.dissipated_energy, kappa, tabor, share];
         let regime = outcome.and_then(|outcome| Some(outcome.regime?.name()));
-        let named = marks(&self.stages).into_iter();
-        let named = named.map(|(mark, point)| (mark.name(), (point.indentation, point.force)));
+        let named =
+            marks(&self.stages).into_iter().map(|(mark, at)| (mark.name(), (at.indentation, at.force)));
         (figures, regime, named.collect())
     }
 
