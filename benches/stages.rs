@@ -7,7 +7,7 @@
 //! `--hurst 0.2` and `--kappa 100` take other lines and another adhesion, with ten times this κ beside it. Without
 //! `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
-use asperity::contact::closed_forms::ideal_adhesion_force;
+use asperity::contact::ClosedForm;
 use asperity::contact::motion::{Body, ContactTree, Leg, MovingBody};
 use asperity::contact::{Contact, Edges, LegRecord, Modulus, Move, Profile, Work};
 use asperity::scene::Simulation;
@@ -432,7 +432,8 @@ impl Timed {
             work.tree_nodes, work.hess_evaluations, work.events_sorted, work.attached, work.detached
         );
         let [loading, unloading] = &self.records[..] else { return };
-        let ideal = ideal_adhesion_force(rough.work_of_adhesion(kappa), EFFECTIVE_MODULUS, LENGTH);
+        let ideal =
+            ClosedForm::ideal_adhesion_force(rough.work_of_adhesion(kappa), EFFECTIVE_MODULUS, LENGTH);
         println!(
             "    under load {:.1} % in contact; adhesion force {:.2e} of the load, {:.2e} of the ideal",
             1e2 * loading.attached as f64 / rough.points as f64,

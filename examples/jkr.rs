@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release --example jkr`
 
+use asperity::contact::ClosedForm;
 use asperity::contact::Direction;
-use asperity::contact::closed_forms::ClosedForm;
 use asperity::{Contact, Modulus, Move, ProfileBuilder};
 
 fn main() -> Result<(), asperity::Error> {

@@ -4,8 +4,7 @@ use crate::computing::{Progress, computed};
 use crate::failure::Failure;
 use crate::quantity::{Array, array};
 use crate::scene::Scene;
-use asperity::contact::points::marks;
-use asperity::contact::{Figures, LegRecord};
+use asperity::contact::{Figures, LegRecord, Mark};
 use asperity::scene::instrument::displacements;
 use asperity::scene::loading::read_loading;
 use asperity::scene::{Outcome, Simulation};
@@ -141,8 +140,8 @@ impl Loop {
         let [pull_off, at] = [of.adhesion_force, of.pull_off_indentation];
         let figures = [pull_off, at, of.preload, of.dissipated_energy, kappa, tabor, share];
         let regime = outcome.and_then(|outcome| Some(outcome.regime?.name()));
-        let named =
-            marks(&self.stages).into_iter().map(|(mark, at)| (mark.name(), (at.indentation, at.force)));
+        let named = Mark::all(&self.stages).into_iter();
+        let named = named.map(|(mark, point)| (mark.name(), (point.indentation, point.force)));
         (figures, regime, named.collect())
     }
 

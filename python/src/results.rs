@@ -6,9 +6,8 @@ use crate::force_loop::Loop;
 use asperity::data::Control;
 use asperity::scene::{Document, Simulation, estimate};
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
-use asperity::study::plans::{parse_condition, parse_preloads, parse_range};
 use asperity::study::trust::MeasuredAdhesion;
-use asperity::study::{Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
+use asperity::study::{Axis, Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport, RunReport,
     scene_provenance,
@@ -97,9 +96,9 @@ pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<
     call.computed(py, |case| {
         let (scene, mut simulation) = (case.document.scene(), Simulation::new(case.document.resolve("")));
         let mut question =
-            Question::new(scene, field, parse_condition(value)?, case.profiles, &mut simulation)?;
+            Question::new(scene, field, Question::parse_condition(value)?, case.profiles, &mut simulation)?;
         if let Some(range) = range {
-            question.searched = parse_range(range, question.axis.unit)?;
+            question.searched = Axis::parse_range(range, question.axis.unit)?;
         }
         let mut report = |done| case.watch.report(done, case.profiles);
         let found = Found::of(question, (simulation, case.jobs), &|| case.watch.stop(), &mut report)?;
@@ -114,7 +113,8 @@ pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<
 #[pyfunction]
 pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
     call.computed(py, |case| {
-        let (scene, stop, axis) = (case.document.scene(), || case.watch.stop(), parse_preloads(preloads)?);
+        let (scene, stop, axis) =
+            (case.document.scene(), || case.watch.stop(), Axis::parse_preloads(preloads)?);
         let mut simulation = Simulation::new(case.document.resolve(""));
         let staircase = Staircase::find(scene, &axis, &mut simulation, &stop, &mut |_| ())?;
         let mut results = Results::begin(scene, &Results::OF_PRELOADS, case.profiles, Some(&axis))?;
@@ -135,7 +135,7 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
 #[pyfunction]
 pub fn reversals(py: Python<'_>, call: Call, range: Option<&str>, count: usize) -> PyResult<Report> {
     call.computed(py, |case| {
-        let ends = range.map(|range| parse_range(range, "N")).transpose()?;
+        let ends = range.map(|range| Axis::parse_range(range, "N")).transpose()?;
         let mut simulation = Simulation::new(case.document.resolve("")).for_one_scene();
         let map = simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
         Ok(Report::new(move |format| {

@@ -5,7 +5,7 @@ use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
 use super::removed;
 use asperity_report::Format;
-use asperity_study::checks::{Case, Check, Verdict, catalogue, checks, judge_case};
+use asperity_study::checks::{Case, Check, Verdict};
 use clap::Args;
 use std::io::Write;
 
@@ -31,17 +31,17 @@ impl CheckArguments {
     fn chosen(&self) -> Result<Vec<Check>, CliError> {
         let has = |case: &Case, word: &String| case.name.contains(word.as_str());
         for word in &self.words {
-            if !catalogue().iter().any(|case| has(case, word)) {
+            if !Case::all().iter().any(|case| has(case, word)) {
                 if let Some(why) = removed::instead_of_case(word) {
                     return Err(CliError::message(why));
                 }
-                let allowed: Vec<&str> = catalogue().into_iter().map(|case| case.name).collect();
+                let allowed: Vec<&str> = Case::all().into_iter().map(|case| case.name).collect();
                 let none = format!("no case has this in its name; allowed: parts of {}", allowed.join(", "));
                 return Err(CliError::named(word, none));
             }
         }
         let is_meant = |case: &Case| self.words.is_empty() || self.words.iter().any(|word| has(case, word));
-        Ok(checks(is_meant))
+        Ok(Check::of(is_meant))
     }
 }
 
@@ -51,7 +51,7 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     let (mut progress, count) = (ProgressLine::default(), chosen.len());
     let run = |(index, check): (usize, Check)| {
         progress.show(&format!("{}/{count} {}", index + 1, check.case.name), None);
-        judge_case(check)
+        Check::judge(check)
     };
     let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
     progress.clear();
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn a_failing_case_is_an_error() {
         let verdicts = |errors: &[f64]| -> Vec<Verdict> {
-            let checks = checks(|case| case.name == "flat-line");
+            let checks = Check::of(|case| case.name == "flat-line");
             let verdict = |(check, &error)| Verdict { check, error: Ok(error), seconds: 0.0 };
             checks.into_iter().zip(errors).map(verdict).collect()
         };

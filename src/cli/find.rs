@@ -6,7 +6,7 @@ use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
 use asperity_report::{FindReport, Format};
 use asperity_scene::Simulation;
-use asperity_study::plans::{parse_condition, parse_range};
+use asperity_study::Axis;
 use asperity_study::{Found, Quantity, Question};
 use clap::Args;
 use std::io::Write;
@@ -29,7 +29,7 @@ pub struct FindArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
     /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
-    #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
+    #[arg(long = "where", value_name = "CONDITION", value_parser = Question::parse_condition)]
     pub condition: (Quantity, f64),
     /// Searched range, as 10nm..1um; default: two decades down and up
     ///
@@ -52,7 +52,7 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let question = Question::new(scene, &arguments.field, arguments.condition, profiles, &mut simulation);
     let mut question = question.map_err(failed)?;
     if let Some(range) = &arguments.range {
-        let range = parse_range(range, question.axis.unit);
+        let range = Axis::parse_range(range, question.axis.unit);
         question.searched = range.map_err(|error| CliError::named("--range", error))?;
     }
     let mut progress = ProgressLine::default();

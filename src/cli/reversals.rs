@@ -7,8 +7,7 @@ use asperity_data::AxisScale;
 use asperity_report::Format;
 use asperity_report::ReversalReport;
 use asperity_scene::RunError;
-use asperity_scene::stages::TURNING_POINTS;
-use asperity_study::plans::{PRELOADS, parse_range};
+use asperity_scene::theory::ReversalMap;
 use asperity_study::{Axis, Results, Staircase};
 use clap::Args;
 use std::io::Write;
@@ -43,17 +42,17 @@ const USUAL: usize = 64;
 /// Parses two forces and, after a colon, the number of turning points; without forces they are those of the scene.
 fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     let (forces, count) = text.split_once(':').map_or((text, None), |(forces, count)| (forces, Some(count)));
-    let (least, most) = (TURNING_POINTS.start(), TURNING_POINTS.end());
+    let (least, most) = (ReversalMap::TURNING_POINTS.start(), ReversalMap::TURNING_POINTS.end());
     let allowed = || format!("allowed: after the colon a number of turning points from {least} to {most}");
     let count = count.map_or(Ok(USUAL), |count| count.trim().parse().map_err(|_| allowed()))?;
-    if !TURNING_POINTS.contains(&count) {
+    if !ReversalMap::TURNING_POINTS.contains(&count) {
         return Err(allowed());
     }
     if forces.is_empty() && text.starts_with(':') {
         return Ok((None, count));
     }
-    let ends = parse_range(forces, "N")?;
-    Axis::of_preloads(ends, *PRELOADS.start(), AxisScale::Linear).map(|_| (Some(ends), count))
+    let ends = Axis::parse_range(forces, "N")?;
+    Axis::of_preloads(ends, *Axis::PRELOADS.start(), AxisScale::Linear).map(|_| (Some(ends), count))
 }
 
 pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {

@@ -17,7 +17,6 @@ use asperity_report::{Format, Report};
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
 use asperity_scene::estimate;
 use asperity_scene::{CheckedScene, Document, Scene, Simulation};
-use asperity_study::plans::parse_preloads;
 use asperity_study::trust::MeasuredAdhesion;
 use asperity_study::{Axis, Ensemble, Results, Staircase};
 use clap::{Args, ValueEnum};
@@ -88,7 +87,7 @@ pub struct RunArguments {
     /// equal ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload.
     /// Several profiles give median, quartiles, range and mean. A preload below 0 N turns while
     /// the bodies are still drawn together, and is at least the force at first touch.
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true, value_parser = parse_preloads, verbatim_doc_comment)]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true, value_parser = Axis::parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
     /// Write a table of the drawn curves instead of all profiles
     #[arg(long, requires = "preloads")]

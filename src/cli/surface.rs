@@ -83,7 +83,7 @@ pub struct SurfaceArguments {
     /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
     pub work: Option<f64>,
-    /// Preload, such as 1mN; default: turned at first touch
+    /// Preload, such as 1mN; default: turned at zero force
     #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = |text: &str| positive(text, "N"))]
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work

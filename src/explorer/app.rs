@@ -18,7 +18,7 @@ use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::LegRecord;
-use asperity_contact::points::marks;
+use asperity_contact::Mark;
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::LoopQuantities;
 use asperity_report::Section;
@@ -374,7 +374,7 @@ impl App {
     /// Returns a force of the shown scene, N; zero if it is a rounding error of the largest marked force, as after a stage
     /// to zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
-        let largest = marks(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
+        let largest = Mark::all(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
         if force.abs() < 1e-12 * largest { 0.0 } else { force }
     }
 

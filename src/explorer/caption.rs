@@ -2,7 +2,7 @@
 
 use super::app::App;
 use super::request::Drive;
-use asperity_contact::points::Branch;
+use asperity_contact::Branch;
 use asperity_report::event;
 
 /// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and while

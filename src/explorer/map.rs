@@ -1,7 +1,7 @@
 //! State of the shown map, over H and κ or over the axes of a study.
 
 use asperity_scene::Scene;
-use asperity_study::maps::{Grid, LiveMap, StudyMap, live_plan};
+use asperity_study::maps::{Grid, LiveMap, StudyMap};
 use asperity_study::{Plan, Quantity};
 use std::sync::Arc;
 
@@ -62,7 +62,7 @@ impl MapState {
     }
 
     pub(super) fn plan(&self, scene: &Scene) -> Option<Plan> {
-        live_plan(scene).ok()
+        Plan::of_map(scene).ok()
     }
 
     /// Key of the live map of a scene; it stays the same while only κ and H change.

@@ -1,7 +1,7 @@
 //! State of the animation, and the indentation that it shows.
 
+use asperity_contact::Branch;
 use asperity_contact::LegRecord;
-use asperity_contact::points::pull_off_point;
 
 /// Height, as a share of the range of indentations, at which the body begins above first touch.
 const LIFT: f64 = 0.12;
@@ -83,7 +83,7 @@ impl Player {
 
 /// Loading stage and indentation (m) of the pull-off; `None` without a tensile force in the last unloading.
 fn pull_off(legs: &[LegRecord]) -> Option<(usize, f64)> {
-    let (leg, point) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0)?;
+    let (leg, point) = Branch::pull_off(legs).filter(|(_, point)| point.force < 0.0)?;
     Some((leg, point.indentation))
 }
 

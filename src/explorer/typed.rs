@@ -6,7 +6,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::reading::OPTIONS;
 use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_scene::fields::target_field;
-use asperity_scene::loading::{kind_and_number, loading_text, pressing_force, read_stage};
+use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stage};
 
 /// Force that determines the prefix of a typed force if the loading has no force, N.
 const USUAL_FORCE: f64 = 1e-5;
@@ -58,7 +58,7 @@ pub fn reading(app: &App) -> Option<String> {
             let parameter = app.edit.parameter()?;
             let typed = with_unit(app, parameter, typed);
             if let Some(leg) = parameter.leg {
-                let kind = kind_and_number(app.edit.document.scene().loading.get(leg)?).0;
+                let kind = StageKind::of(app.edit.document.scene().loading.get(leg)?).0;
                 let stage = read_stage(&typed, Some(kind)).ok()?;
                 (target_field(stage)?.0.unit, loading_text(&[stage], format_quantity))
             } else {

@@ -10,9 +10,9 @@ use asperity::explorer::config::Config;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::row;
 use asperity::scene::Document;
+use asperity::scene::Regime;
 use asperity::scene::Simulation;
 use asperity::scene::fields::{FIELDS, Field, LEG_FORCE, Range};
-use asperity::scene::theory::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -283,7 +283,7 @@ fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
 #[test]
 fn the_tour_begins_with_the_question() {
     let scene = asperity::scene::open(asperity::scene::library::DEFAULT).unwrap();
-    let condition = asperity::study::plans::parse_condition("F_a/F_a,max = 20 %").unwrap();
+    let condition = asperity::study::Question::parse_condition("F_a/F_a,max = 20 %").unwrap();
     let mut simulation = Simulation::default();
     let question = Question::new(scene.scene(), "preload", condition, Ensemble::PROFILES, &mut simulation);
     let found = Found::of(question.unwrap(), (simulation, 2), &|| false, &mut |_| ()).unwrap();
@@ -313,10 +313,14 @@ fn the_regimes_are_those_of_the_program() {
     let model = read("docs/model.md");
     for row in [
         format!(
-            "| pressure-insensitive | F_a(d=0) ≥ {INSENSITIVE_SHARE} F_a and F_a(d=0) ≥ {VANISHING_SHARE} F_smooth |"
+            "| pressure-insensitive | F_a(d=0) ≥ {} F_a and F_a(d=0) ≥ {} F_smooth |",
+            Regime::INSENSITIVE_SHARE,
+            Regime::VANISHING_SHARE
         ),
         format!(
-            "| non-adhesive | F_a ≤ {NEGLIGIBLE_COEFFICIENT} F_n; without a preload: F_a < {VANISHING_SHARE} F_smooth |"
+            "| non-adhesive | F_a ≤ {} F_n; without a preload: F_a < {} F_smooth |",
+            Regime::NEGLIGIBLE_COEFFICIENT,
+            Regime::VANISHING_SHARE
         ),
     ] {
         assert!(model.contains(&row), "docs/model.md lacks: {row}");

@@ -5,7 +5,7 @@ use asperity::contact::Move;
 use asperity::scene::Regime;
 use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
 use asperity::scene::{Outcome, Simulation};
-use asperity::study::folders::{RESULTS, SUMMARY, Status};
+use asperity::study::folders::{Merged, Status};
 use asperity::study::maps::StudyMap;
 use asperity::study::{
     Changes, Folder, Plan, Quantity, Results, Shard, Spread, Statistics, merge, run_study,
@@ -74,7 +74,7 @@ fn computed(plan: &Plan) -> (TempDir, Folder) {
 }
 
 fn tables(folder: &Folder) -> [String; 2] {
-    [RESULTS, SUMMARY].map(|name| fs::read_to_string(folder.path().join(name)).unwrap())
+    [Merged::RESULTS, Merged::SUMMARY].map(|name| fs::read_to_string(folder.path().join(name)).unwrap())
 }
 
 fn shard_files(folder: &Folder) -> Vec<PathBuf> {
@@ -219,7 +219,7 @@ fn results_that_differ_are_stated() {
         error.contains(&format!("two records differ, in {file} and ")) && error.contains("zz.shard;"),
         "{error}"
     );
-    assert!(!folder.path().join(RESULTS).exists());
+    assert!(!folder.path().join(Merged::RESULTS).exists());
 }
 
 #[test]

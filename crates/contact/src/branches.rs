@@ -12,7 +12,7 @@ const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 /// Consecutive loading stages of a history that move the body in one direction, as one motion.
 ///
 /// ```
-/// use asperity_contact::points::Branch;
+/// use asperity_contact::Branch;
 /// use asperity_contact::{Contact, Direction, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
@@ -63,6 +63,42 @@ impl Branch {
         touching(legs, self.stages.clone(), self.direction)
     }
 
+    /// Finds the preload, the point of the largest force while loading, and the index of its stage. Only stages after the last
+    /// separation and before the last unloading count.
+    ///
+    /// ```
+    /// use asperity_contact::{Contact, Modulus, Move, Profile};
+    ///
+    /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+    /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+    /// let cycle = contact.load(&[Move::ToForce(1.0e-5), Move::ToForce(-1.0e-5), Move::ToForce(2.0e-5), Move::ToSeparation])?;
+    /// // The preload is reached by the third stage, the pull-off by the last.
+    /// assert_eq!(Branch::preload(cycle.stages()).map(|(stage, _)| stage), Some(2));
+    /// assert_eq!(Branch::pull_off(cycle.stages()).map(|(stage, _)| stage), Some(3));
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
+    pub fn preload(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+        let end = Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
+        let separates =
+            |leg: &LegRecord| leg.direction == Direction::Unloading && leg.end_in_contact().is_none();
+        let start = legs[..end].iter().rposition(separates).map_or(0, |stage| stage + 1);
+        let largest = touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
+        // Of equal forces the last one, as on one stage.
+        largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
+    }
+
+    /// Finds the pull-off, the point of the smallest force of the last unloading in contact, and the index of its stage. `None` if
+    /// this force is above zero, or if the unloading ends in contact while the force still falls.
+    pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+        let unloading = Branch::last_unloading(legs)?;
+        let (stage, least) = unloading.smallest(legs)?;
+        let (first, last) = (legs.get(unloading.stages.start)?, legs.get(unloading.stages.end - 1)?);
+        let end = last.curve.last()?;
+        let is_passed = end.springs == 0 || least.force < end.force - ROUNDING * first.largest.force.abs();
+        Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
+    }
+
     /// Returns the point of the smallest force in contact, and the index of its stage; `None` without contact.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let smallest = self.touching(legs).map(|(stage, leg)| (stage, leg.smallest));
@@ -87,40 +123,4 @@ fn touching(
     let touches = |leg: &LegRecord| leg.curve.iter().any(|point| point.springs > 0);
     let numbered = stages.clone().zip(&legs[stages]);
     numbered.filter(move |(_, leg)| leg.direction == direction && touches(leg))
-}
-
-/// Finds the preload, the point of the largest force while loading, and the index of its stage. Only stages after the last
-/// separation and before the last unloading count.
-///
-/// ```
-/// use asperity_contact::{Contact, Modulus, Move, Profile};
-/// use asperity_contact::points::{preload_point, pull_off_point};
-///
-/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
-/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
-/// let cycle = contact.load(&[Move::ToForce(1.0e-5), Move::ToForce(-1.0e-5), Move::ToForce(2.0e-5), Move::ToSeparation])?;
-/// // The preload is reached by the third stage, the pull-off by the last.
-/// assert_eq!(preload_point(cycle.stages()).map(|(stage, _)| stage), Some(2));
-/// assert_eq!(pull_off_point(cycle.stages()).map(|(stage, _)| stage), Some(3));
-/// # Ok::<(), asperity_contact::ContactError>(())
-/// ```
-pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-    let end = Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
-    let separates = |leg: &LegRecord| leg.direction == Direction::Unloading && leg.end_in_contact().is_none();
-    let start = legs[..end].iter().rposition(separates).map_or(0, |stage| stage + 1);
-    let largest = touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
-    // Of equal forces the last one, as on one stage.
-    largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
-}
-
-/// Finds the pull-off, the point of the smallest force of the last unloading in contact, and the index of its stage. `None` if
-/// this force is above zero, or if the unloading ends in contact while the force still falls.
-pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-    let unloading = Branch::last_unloading(legs)?;
-    let (stage, least) = unloading.smallest(legs)?;
-    let (first, last) = (legs.get(unloading.stages.start)?, legs.get(unloading.stages.end - 1)?);
-    let end = last.curve.last()?;
-    let is_passed = end.springs == 0 || least.force < end.force - ROUNDING * first.largest.force.abs();
-    Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
 }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 /// indentation follow from the contact radius.
 ///
 /// ```
-/// use asperity_contact::closed_forms::ClosedForm;
+/// use asperity_contact::ClosedForm;
 /// use asperity_contact::Modulus;
 ///
 /// let sphere = ClosedForm::sphere(1.0e-4, Modulus::effective(1.0e6)?, 0.05);
@@ -31,6 +31,26 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
+    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). Here γ is the work of adhesion in
+    /// J/m² and E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
+    pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
+        (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
+    }
+
+    /// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall (1971). Here E* is the
+    /// effective modulus in Pa and γ the work of adhesion in J/m².
+    ///
+    /// ```
+    /// use asperity_contact::ClosedForm;
+    ///
+    /// // A punch as wide as the profile is a flat face: L = 2a.
+    /// let [punch, face] = [ClosedForm::flat_punch(1.0e-5, 1.0e6, 0.05), ClosedForm::ideal_adhesion_force(0.05, 1.0e6, 2.0e-5)];
+    /// assert!((punch / face - 1.0).abs() < 1e-14);
+    /// ```
+    pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
+        (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
+    }
+
     /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. The closed forms
     /// also hold for a paraboloid with this radius of curvature at its summit.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
@@ -41,7 +61,7 @@ impl ClosedForm {
     /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface: g(x) = (π/2) |x| tan θ.
     ///
     /// ```
-    /// use asperity_contact::closed_forms::ClosedForm;
+    /// use asperity_contact::ClosedForm;
     /// use asperity_contact::Modulus;
     ///
     /// let cone = ClosedForm::cone(0.1, Modulus::effective(1.0e6)?, 0.05);
@@ -100,28 +120,8 @@ impl ClosedForm {
     }
 
     fn detaching(&self, radius: f64) -> f64 {
-        flat_punch(radius, self.effective_modulus, self.work_of_adhesion)
+        ClosedForm::flat_punch(radius, self.effective_modulus, self.work_of_adhesion)
     }
-}
-
-/// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall (1971). Here E* is the
-/// effective modulus in Pa and γ the work of adhesion in J/m².
-///
-/// ```
-/// use asperity_contact::closed_forms::{flat_punch, ideal_adhesion_force};
-///
-/// // A punch as wide as the profile is a flat face: L = 2a.
-/// let [punch, face] = [flat_punch(1.0e-5, 1.0e6, 0.05), ideal_adhesion_force(0.05, 1.0e6, 2.0e-5)];
-/// assert!((punch / face - 1.0).abs() < 1e-14);
-/// ```
-pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
-    (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
-}
-
-/// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). Here γ is the work of adhesion in
-/// J/m² and E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
-pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
-    (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
 
 #[cfg(test)]

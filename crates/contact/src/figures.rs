@@ -1,7 +1,7 @@
 //! The figures of a loading history, such as its preload and pull-off force, and the marked points of its force curve.
 
 use super::body::Reversal;
-use super::branches::{Branch, ROUNDING, preload_point, pull_off_point};
+use super::branches::{Branch, ROUNDING};
 use super::history::{CurvePoint, Direction, History, LegRecord};
 use super::target::Move;
 
@@ -45,8 +45,8 @@ impl Figures {
         let ends_separated =
             legs.last().and_then(|leg| leg.curve.last()).is_some_and(|point| point.springs == 0);
         Figures::at(
-            preload_point(legs).map(|(stage, point)| (legs[stage].target, point)),
-            pull_off_point(legs).map(|(_, point)| point),
+            Branch::preload(legs).map(|(stage, point)| (legs[stage].target, point)),
+            Branch::pull_off(legs).map(|(_, point)| point),
             ends_separated.then(|| legs.iter().map(|leg| leg.released_energy).sum::<f64>()),
         )
     }
@@ -87,13 +87,13 @@ impl Figures {
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
-/// use asperity_contact::points::{Mark, marks};
+/// use asperity_contact::Mark;
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
 /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
-/// let found = marks(cycle.stages()).into_iter().map(|(mark, _)| mark);
+/// let found = Mark::all(cycle.stages()).into_iter().map(|(mark, _)| mark);
 /// assert!(found.eq([Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut]));
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
@@ -101,15 +101,45 @@ impl Figures {
 pub enum Mark {
     /// First point in contact, if the contact forms in a jump and the force there is tensile.
     JumpIn,
-    /// Point of the preload; see [`preload_point`].
+    /// Point of the preload; see [`Branch::preload`].
     Preload,
-    /// Point of the pull-off, if the force there is tensile; see [`pull_off_point`].
+    /// Point of the pull-off, if the force there is tensile; see [`Branch::pull_off`].
     PullOff,
     /// Last point in contact after the pull-off, if the contact is lost there in a jump.
     JumpOut,
 }
 
 impl Mark {
+    /// Finds the marked points of a loading history, in the order of the [`Mark`] variants.
+    pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
+        let into_contact = |leg: &LegRecord| {
+            let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
+            Some(pair[1]).filter(|_| leg.direction == Direction::Loading)
+        };
+        let out_of_contact = |leg: &LegRecord| {
+            let pair = leg.curve.windows(2).rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
+            Some(pair[0])
+        };
+        let jump_in = legs.iter().find_map(into_contact);
+        let pull_off = Branch::pull_off(legs);
+        let jump_out = pull_off.and_then(|(_, least)| {
+            let unloading = Branch::last_unloading(legs)?;
+            let last = legs[unloading.stages].iter().rev().find_map(out_of_contact)?;
+            Some(last).filter(|last| last.force > least.force * (1.0 - ROUNDING))
+        });
+        let found = [
+            (Mark::JumpIn, jump_in),
+            (
+                Mark::Preload,
+                Branch::preload(legs).map(|(stage, point)| without_rounding(legs[stage].target, point)),
+            ),
+            (Mark::PullOff, pull_off.map(|(_, point)| point)),
+            (Mark::JumpOut, jump_out),
+        ];
+        let found = found.into_iter().filter_map(|(mark, point)| Some((mark, point?)));
+        found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
+    }
+
     /// Returns the technical name of the mark, such as `pull-off`.
     pub fn name(self) -> &'static str {
         match self {
@@ -127,36 +157,6 @@ fn without_rounding(target: Move, end: CurvePoint) -> CurvePoint {
         Move::ToForce(0.0) | Move::ToZeroForce => CurvePoint { force: 0.0, ..end },
         _ => end,
     }
-}
-
-/// Finds the marked points of a loading history, in the order of the [`Mark`] variants.
-pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
-    let into_contact = |leg: &LegRecord| {
-        let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
-        Some(pair[1]).filter(|_| leg.direction == Direction::Loading)
-    };
-    let out_of_contact = |leg: &LegRecord| {
-        let pair = leg.curve.windows(2).rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
-        Some(pair[0])
-    };
-    let jump_in = legs.iter().find_map(into_contact);
-    let pull_off = pull_off_point(legs);
-    let jump_out = pull_off.and_then(|(_, least)| {
-        let unloading = Branch::last_unloading(legs)?;
-        let last = legs[unloading.stages].iter().rev().find_map(out_of_contact)?;
-        Some(last).filter(|last| last.force > least.force * (1.0 - ROUNDING))
-    });
-    let found = [
-        (Mark::JumpIn, jump_in),
-        (
-            Mark::Preload,
-            preload_point(legs).map(|(stage, point)| without_rounding(legs[stage].target, point)),
-        ),
-        (Mark::PullOff, pull_off.map(|(_, point)| point)),
-        (Mark::JumpOut, jump_out),
-    ];
-    let found = found.into_iter().filter_map(|(mark, point)| Some((mark, point?)));
-    found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
 }
 
 #[cfg(test)]
@@ -247,9 +247,9 @@ mod tests {
             (Mark::PullOff, down[1]),
             (Mark::JumpOut, down[2]),
         ];
-        assert_eq!(marks(&legs), expected);
+        assert_eq!(Mark::all(&legs), expected);
         legs[1].curve.remove(2);
-        assert_eq!(marks(&legs), expected[..3], "the contact is lost at pull-off");
-        assert_eq!(marks(&[pressed(1.0)]).len(), 1);
+        assert_eq!(Mark::all(&legs), expected[..3], "the contact is lost at pull-off");
+        assert_eq!(Mark::all(&[pressed(1.0)]).len(), 1);
     }
 }

@@ -2,6 +2,18 @@
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
 //!
+//! # Names by task
+//!
+//! * A contact: [`Profile`], [`Modulus`], [`Edges`], and [`Contact`] from a [`ContactBuilder`].
+//! * Loading it: [`Move`]s with [`LoadOptions`], the turning points of [`Contact::reversals`] with a [`Reversal`] each.
+//! * Results: a [`Cycle`] with its [`History`] of [`LegRecord`]s in one [`Direction`] each; the [`Curve`] with its
+//!   [`CurvePoint`]s; the [`Patch`]es at the end; [`Figures`], the marked points ([`Mark`]) and the [`Branch`]es; the
+//!   [`Work`] done by the computer.
+//! * Theory beside them: [`ClosedForm`].
+//! * What is refused: [`ContactError`].
+//!
+//! Programs that move a contact step by step also need the module [`motion`].
+//!
 //! # Rules
 //!
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
@@ -41,10 +53,12 @@ mod totals;
 
 pub use adhesive::levels::Edges;
 pub use body::Reversal;
+pub use branches::Branch;
+pub use closed_form::ClosedForm;
 pub use contact::{Contact, ContactBuilder};
 pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
-pub use figures::Figures;
+pub use figures::{Figures, Mark};
 pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use modulus::Modulus;
 pub use profile::Profile;
@@ -57,15 +71,4 @@ pub mod motion {
     pub use crate::body::{Body, Motion, MovingBody, load_body};
     pub use crate::leg::{Leg, PatchState};
     pub use crate::stepwise::Stepwise;
-}
-
-/// Named points of a force curve, such as preload and pull-off, for figures and readers of curves.
-pub mod points {
-    pub use crate::branches::{Branch, preload_point, pull_off_point};
-    pub use crate::figures::{Mark, marks};
-}
-
-/// Closed forms of single contacts, for comparisons with theory.
-pub mod closed_forms {
-    pub use crate::closed_form::{ClosedForm, flat_punch, ideal_adhesion_force};
 }

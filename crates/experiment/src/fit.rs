@@ -16,7 +16,6 @@ use crate::statistics::{block_error, correlated, correlation, spread, widen};
 use asperity_data::{Control, format_rounded};
 use asperity_scene::Document;
 use asperity_scene::Simulation;
-use asperity_scene::theory::scene_tabor_number;
 
 /// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
 /// parameter is undetermined.
@@ -159,7 +158,7 @@ fn find(
     let free: Vec<Parameter> = space.coordinates.iter().map(|one| one.parameter).collect();
     let found = with_values(&document, &values, |parameter| free.contains(&parameter), curve)?;
     let (_, governing) = simulation.contact(found.scene())?;
-    let tabor = scene_tabor_number(found.scene(), &governing);
+    let tabor = governing.tabor_number(found.scene());
     let reason =
         (misfit > MISFIT).then(|| reason(curve, found.scene(), &mut simulation, (&values, &free), tabor));
     let residual_over_noise = (dot(&rests, &rests) / rests.len() as f64).sqrt();

@@ -1,6 +1,15 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
+//! # Names by task
+//!
+//! * Reading: [`MeasuredCurve`] with [`CurveOptions`]: [`Drift`], [`Tilt`], [`Negate`].
+//! * Fitting one curve: [`Fit`] of [`Free`] [`Parameter`]s, each described by a [`ParameterRow`], returns a [`FitResult`] with
+//!   its [`FittedParameter`]s, or the [`Reason`] why the model does not describe the curve.
+//! * Fitting the curves of one specimen: [`fit_ensemble`] of [`CurveOfEnsemble`]s with [`EnsembleOptions`] returns an
+//!   [`EnsembleFit`] with [`IntervalEstimate`], [`Prospect`], [`RoughnessShifts`], [`Shares`] and [`SummaryDeviation`].
+//! * What is refused: [`ExperimentError`].
 
 mod baseline;
 mod columns;

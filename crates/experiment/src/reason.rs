@@ -9,8 +9,8 @@ use crate::parameter::{Parameter, Values};
 use asperity_data::format_quantity;
 use asperity_data::median;
 use asperity_scene::CheckedScene;
+use asperity_scene::Governing;
 use asperity_scene::Simulation;
-use asperity_scene::theory::LEAST_TABOR_NUMBER;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
@@ -74,9 +74,10 @@ pub enum Reason {
     Step(f64),
     /// The attraction has a long range. The value is the Tabor number.
     #[error(
-        "The Tabor number is {}, below {LEAST_TABOR_NUMBER}: attraction of this range is not that of Johnson, Kendall and \
+        "The Tabor number is {}, below {}: attraction of this range is not that of Johnson, Kendall and \
          Roberts.",
-        format_quantity(*.0, "1")
+        format_quantity(*.0, "1"),
+        Governing::LEAST_TABOR_NUMBER
     )]
     TaborNumber(f64),
     /// The profile of the scene is random, and the specimen has another profile.
@@ -153,7 +154,7 @@ pub(crate) fn reason(
     if step && curve.segment.first() != curve.segment.last() {
         return Ok(Reason::Step(curve.remaining[2]));
     }
-    let low = tabor.filter(|number| *number < LEAST_TABOR_NUMBER);
+    let low = tabor.filter(|number| *number < Governing::LEAST_TABOR_NUMBER);
     if let Some(number) = low.filter(|number| *number < LONG_RANGE) {
         return Ok(Reason::TaborNumber(number));
     }
@@ -312,7 +313,7 @@ mod tests {
         let mut simulation = Simulation::default();
         let (_, governing) = simulation.contact(document.scene()).unwrap();
         let values = values_of(document.scene(), &governing);
-        let tabor = asperity_scene::theory::scene_tabor_number(document.scene(), &governing);
+        let tabor = governing.tabor_number(document.scene());
         let free = [Parameter::Modulus, Parameter::Offset];
         reason(&curve, document.scene(), &mut simulation, (&values, &free), tabor).unwrap()
     }

@@ -4,7 +4,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{Kind, Table};
 use asperity_scene::RoughnessParameter;
-use asperity_study::maps::{AdhesionBoundary, Boundaries, Crossing, protocol_name};
+use asperity_study::maps::{AdhesionBoundary, Boundaries, Crossing};
 use serde_json::{Map, Value, json};
 use std::cmp::Ordering;
 
@@ -13,14 +13,14 @@ impl Report for Boundaries {
         let mut heading: Vec<String> = self.others.iter().map(|axis| axis.symbol_or_path()).collect();
         heading.extend(["protocol", "level", self.symbol(), "95 %"].map(String::from));
         let mut rows = vec![heading];
-        for AdhesionBoundary { others, protocol, level, crossing } in &self.found {
-            let Crossing { value, side, interval } = *crossing;
+        for boundary in &self.found {
+            let Crossing { value, side, interval } = boundary.crossing;
             let beyond = ["< ", "", "> "][(side as i8 + 1) as usize];
             let interval = interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
-            let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
+            let mut row: Vec<String> = boundary.others.iter().map(ToString::to_string).collect();
             row.extend([
-                protocol_name(*protocol).to_owned(),
-                level.to_string(),
+                boundary.protocol_name().to_owned(),
+                boundary.level.to_string(),
                 format!("{beyond}{value:.2}"),
                 interval,
             ]);
@@ -42,7 +42,7 @@ impl Report for Boundaries {
             for (axis, value) in self.others.iter().zip(&boundary.others) {
                 set(&axis.symbol_or_path(), json!(value));
             }
-            set("protocol", json!(protocol_name(boundary.protocol)));
+            set("protocol", json!(boundary.protocol_name()));
             set("level", json!(boundary.level));
             let Crossing { value, side, interval } = boundary.crossing;
             match side {
@@ -68,7 +68,7 @@ impl Report for Boundaries {
             };
         }
         table = table
-            .with("protocol", Kind::Text("zero force".len()), |one| protocol_name(one.protocol))
+            .with("protocol", Kind::Text("zero force".len()), |one| one.protocol_name())
             .real("level", |one| one.level);
         table = table.real(self.over.name(), |one| one.crossing.known().map(|(value, _)| value));
         let beyond = |one: &AdhesionBoundary, side| (one.crossing.side == side).then_some(one.crossing.value);

@@ -3,7 +3,7 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::object;
-use asperity_study::checks::{Check, Verdict, catalogue};
+use asperity_study::checks::{Case, Check, Verdict};
 
 impl Report for [Verdict] {
     /// Returns one row for each check, then the statements of the cases, then the failures.
@@ -25,7 +25,7 @@ impl Report for [Verdict] {
         sheet.table(&rows);
         sheet.heading("Claims");
         let mut sentences = Vec::new();
-        for case in catalogue() {
+        for case in Case::all() {
             if self.iter().any(|verdict| verdict.check.case.name == case.name) {
                 let evidence =
                     format!("{} Evidence: {}; error of {}.", case.holds, case.evidence, case.error_of);
@@ -87,12 +87,12 @@ fn figure(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::report::{Format, write};
-    use asperity_study::checks::checks;
+    use asperity_study::checks::Check;
     use serde_json::Value;
 
     #[test]
     fn what_fails_is_shown_with_its_reason() {
-        let named = |name: &str| checks(|case| case.name == name);
+        let named = |name: &str| Check::of(|case| case.name == name);
         let [one, other] = named("flat-line")[..] else { panic!("not two kinds of edges") };
         let third = named("stepwise-solver")[0];
         let verdict = |check, error| Verdict { check, error, seconds: 0.25 };

@@ -9,11 +9,11 @@ use asperity_data::{Kind, Table};
 use asperity_data::{format_quantity, format_rounded};
 use asperity_plot::Figure;
 use asperity_scene::Scene;
-use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
+use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob, Row};
 use asperity_study::half_space::Reference;
 use serde::Serialize;
 
-/// Headings of the columns of errors, in the order of [`QUANTITIES`].
+/// Headings of the columns of errors, in the order of [`CostTable::QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
 /// Report on the cost of accuracy of a scene: computing time and errors for many settings. JSON has the fields in the order
@@ -101,7 +101,7 @@ impl Report for CostReport<'_> {
             .real("minimum_seconds", |row| row.seconds.map(|time| time.minimum))
             .real("median_seconds", |row| row.seconds.map(|time| time.median))
             .real("transforms", |row| row.transforms);
-        for (index, name) in QUANTITIES.into_iter().enumerate() {
+        for (index, name) in CostTable::QUANTITIES.into_iter().enumerate() {
             let error = move |row: &&Row| row.errors[index];
             table = table
                 .with(format!("{name}_error"), Kind::Real, move |row| error(row).map(|one| one.error))

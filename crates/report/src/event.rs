@@ -1,6 +1,6 @@
 //! The event at a point of a loading history in words, such as first contact, preload, pull-off or separation.
 
-use asperity_contact::points::Branch;
+use asperity_contact::Branch;
 use asperity_contact::{CurvePoint, Direction, LegRecord};
 
 /// Share of the range of indentations of a loading or unloading within which a state counts as its end or its smallest

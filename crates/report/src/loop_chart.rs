@@ -1,6 +1,6 @@
 //! The chart of force loops, which is the same in figures of scenes and in the explorer.
 
-use asperity_contact::points::{Mark, marks};
+use asperity_contact::Mark;
 use asperity_contact::{CurvePoint, Direction, LegRecord};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
@@ -186,7 +186,7 @@ impl<'a> ForceLoop<'a> {
     /// Creates the loop of a loading history with its marked points.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
-        ForceLoop { curves, marks: marks(legs), ..ForceLoop::default() }
+        ForceLoop { curves, marks: Mark::all(legs), ..ForceLoop::default() }
     }
 
     /// Creates the loop of a computed scene with its marked points and its instrument.

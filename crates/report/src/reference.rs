@@ -308,6 +308,28 @@ impl Report for ReferenceReport<'_> {
         });
         let y = axis(&mut { ends }, "indentation", "d", "m");
         let chart = Chart::new(x, y, layers.into_iter().flatten().collect());
-        Some(Figure { title: self.title.to_owned(), charts: vec![chart], ..Figure::default() })
+        Some(Figure::of_chart(self.title, chart))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::{Simulation, open};
+    use asperity_study::ReferenceOptions;
+
+    /// The figure has room for a curve and a band of each model.
+    #[test]
+    fn the_figure_has_both_models() {
+        let document = open("jkr-sphere").unwrap();
+        let options = ReferenceOptions { cells: 32, maps: 1, lines: 1 };
+        let simulation = (Simulation::default(), 1);
+        let found = Reference::of(document.scene(), options, simulation, &|| false, &mut |_| ()).unwrap();
+        let report = ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found };
+        let figure = report.figure().unwrap();
+        assert_eq!(figure.size, Figure::WIDE);
+        let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
+        assert_eq!(legend, ["line, mean and quartiles", "three dimensions, mean and quartiles"]);
+        assert_eq!(figure.charts[0].layers.len(), 4);
     }
 }

@@ -1,8 +1,8 @@
 //! Figures of the contact: the profile in contact, and contact patches over the indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
+use asperity_contact::Branch;
 use asperity_contact::motion::Leg;
-use asperity_contact::points::preload_point;
 use asperity_contact::{CurvePoint, Direction, LegRecord, Patch};
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span, value_label};
@@ -47,7 +47,7 @@ impl ContactSets {
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
-        let preload = preload_point(slice::from_ref(record)).map(|(_, point)| point);
+        let preload = Branch::preload(slice::from_ref(record)).map(|(_, point)| point);
         if let Some(point) = preload.filter(larger) {
             self.preload = Some((point.force, at(point.indentation)));
         }

@@ -49,6 +49,7 @@ impl Sheet {
     pub fn row(&mut self, label: &str, value: impl AsRef<str>) {
         let mut label = label;
         for line in wrap(value.as_ref(), WIDTH - LABEL) {
+            debug_assert!(label.chars().count() < LABEL - 2, "{label}");
             self.line(&format!("  {}{line}", padded(label, LABEL - 2)));
             label = "";
         }

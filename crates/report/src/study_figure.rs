@@ -6,7 +6,6 @@ use asperity_plot::{
     value_label,
 };
 use asperity_scene::Regime;
-use asperity_scene::theory::VANISHING_SHARE;
 use asperity_study::maps::Grid;
 use asperity_study::{Quantity, Statistics};
 
@@ -78,7 +77,7 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
         contour: vanishing(grid, quantity).map(|share| Contour {
             name: vanishing_label(share),
             field: means(&grid.statistics(share, whole)),
-            level: VANISHING_SHARE,
+            level: Regime::VANISHING_SHARE,
         }),
     };
     Some(Chart {
@@ -149,7 +148,7 @@ fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
 /// Returns the name of the boundary in the legend: `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
     let (force, ideal) = share.symbol().split_once('/').unwrap_or((share.symbol(), ""));
-    Label::symbol(&format!("{force} = {VANISHING_SHARE} {ideal}"))
+    Label::symbol(&format!("{force} = {} {ideal}", Regime::VANISHING_SHARE))
 }
 
 fn range(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>], scale: AxisScale) -> Span {
@@ -246,7 +245,7 @@ fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     }
     let ends = places.windows(2).zip(first.unwrap_or_default().windows(2));
     ends.filter_map(|(x, value)| {
-        let (first, second) = (value[0]? - VANISHING_SHARE, value[1]? - VANISHING_SHARE);
+        let (first, second) = (value[0]? - Regime::VANISHING_SHARE, value[1]? - Regime::VANISHING_SHARE);
         let crosses = (first < 0.0) != (second < 0.0);
         crosses.then(|| x[0] + (x[1] - x[0]) * first / (first - second))
     })

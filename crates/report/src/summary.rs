@@ -9,15 +9,14 @@ use asperity_contact::Work;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
 use asperity_scene::Estimate;
+use asperity_scene::Governing;
 use asperity_scene::Outcome;
 use asperity_scene::Regime;
 use asperity_scene::Scene;
 use asperity_scene::discretisation::Choice;
 use asperity_scene::loading::loading_text;
 use asperity_scene::stages::Timings;
-use asperity_scene::theory::{
-    INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, SteepWaves, VANISHING_SHARE,
-};
+use asperity_scene::theory::SteepWaves;
 use asperity_study::{Ensemble, Quantity};
 use asperity_surface::Form;
 
@@ -195,19 +194,19 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     let (zero_force, smooth) = (outcome.zero_force_adhesion_force, outcome.smooth_adhesion_force);
     let preload = outcome.figures.preload;
     let says = ["most of it", "less than half"];
-    share(sheet, "  F_a(d=0)/F_a", first_touch, adhesion, INSENSITIVE_SHARE, says);
+    share(sheet, "  F_a(d=0)/F_a", first_touch, adhesion, Regime::INSENSITIVE_SHARE, says);
     let says = ["adhesion", "vanished"];
-    share(sheet, "  F_a(d=0)/F_smooth", first_touch, smooth, VANISHING_SHARE, says);
+    share(sheet, "  F_a(d=0)/F_smooth", first_touch, smooth, Regime::VANISHING_SHARE, says);
     let says = ["most of it", "less than half"];
-    share(sheet, "  F_a(F=0)/F_a", zero_force, adhesion, INSENSITIVE_SHARE, says);
+    share(sheet, "  F_a(F=0)/F_a", zero_force, adhesion, Regime::INSENSITIVE_SHARE, says);
     let says = ["adhesion", "vanished"];
-    share(sheet, "  F_a(F=0)/F_smooth", zero_force, smooth, VANISHING_SHARE, says);
+    share(sheet, "  F_a(F=0)/F_smooth", zero_force, smooth, Regime::VANISHING_SHARE, says);
     if preload.is_some_and(|preload| preload <= 0.0) && first_touch != adhesion {
         let says = ["adhesion without a preload", "vanished without a preload"];
-        share(sheet, "  F_a/F_smooth", adhesion, smooth, VANISHING_SHARE, says);
+        share(sheet, "  F_a/F_smooth", adhesion, smooth, Regime::VANISHING_SHARE, says);
     }
     let says = ["not negligible", "negligible"];
-    share(sheet, "  F_a/F_n", adhesion, preload, NEGLIGIBLE_COEFFICIENT, says);
+    share(sheet, "  F_a/F_n", adhesion, preload, Regime::NEGLIGIBLE_COEFFICIENT, says);
 }
 
 /// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion: `from_on` at or above the
@@ -238,10 +237,13 @@ fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
 
 pub(crate) fn tabor_number(number: f64) -> String {
     let value = format_quantity(number, "1");
-    if number >= LEAST_TABOR_NUMBER {
+    if number >= Governing::LEAST_TABOR_NUMBER {
         return value;
     }
-    format!("{value}, below {LEAST_TABOR_NUMBER}: attraction of finite range dissipates less than this")
+    format!(
+        "{value}, below {}: attraction of finite range dissipates less than this",
+        Governing::LEAST_TABOR_NUMBER
+    )
 }
 
 fn steep_waves(waves: SteepWaves) -> String {

@@ -171,7 +171,7 @@ struct MomentRow {
     value: Option<Moment>,
 }
 
-/// Returns the preload of the scene of an equivalent line in N; `None` if the scene only touches.
+/// Returns the preload of the scene of an equivalent line in N; `None` if the loading turns at zero force.
 fn preload(scene: &Scene) -> Option<f64> {
     match scene.loading.first() {
         Some(Move::ToForce(force)) => Some(*force),
@@ -182,22 +182,22 @@ fn preload(scene: &Scene) -> Option<f64> {
 fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
     sheet.heading("Adhesion of the equivalent line");
     let loading = preload(scene).map_or_else(
-        || "turned at first touch, d = 0 (--preload presses before)".to_owned(),
+        || "turned at zero force (--preload presses before)".to_owned(),
         |force| format!("to {}, then pull", format_quantity(force, "N")),
     );
     sheet.row("loading", loading);
     let springs = grouped(scene.numerics.points);
     sheet.row("length L", format!("{} on {springs} springs", format_quantity(scene.length, "m")));
+    let label = if preload(scene).is_some() { "adhesion force F_a" } else { "adhesion force F_a(F=0)" };
     let Some(computed) = computed else {
-        return sheet
-            .row("adhesion force F_a", format!("not computed on {springs} springs; --profiles 16 does"));
+        return sheet.row(label, format!("not computed on {springs} springs; --profiles 16 does"));
     };
     let force = measured_adhesion_text(computed);
-    sheet.row("adhesion force F_a", force.unwrap_or_else(|| "none: nothing is pulled".to_owned()));
+    sheet.row(label, force.unwrap_or_else(|| "none: nothing is pulled".to_owned()));
     let forces = computed.adhesion_force();
     forces.and_then(|forces| forces.warning("F_a")).iter().for_each(|warning| sheet.row("", warning));
     let count = computed.profiles.len();
-    let labels = ["regime turned at first touch", "regime turned at zero force"];
+    let labels = ["regimes, first touch", "regimes, zero force"];
     for (label, regimes) in labels.into_iter().zip(computed.regimes()) {
         let each = regimes.present().map(|(name, some)| format!("{name} on {some} of {count}"));
         sheet.row(label, each.collect::<Vec<_>>().join(", ") + " profiles");

@@ -4,15 +4,16 @@ use crate::sheet::Sheet;
 use asperity_data::per_cent;
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
-use asperity_study::trust::{Budget, Criterion, LEAST_TABOR_NUMBER_OF_JKR, criteria};
+use asperity_study::trust::{Budget, Criterion, criteria};
 
 /// Returns the sentence with which a summary begins if JKR theory does not apply; `None` if JKR theory applies.
 pub fn without_jkr(outcome: &Outcome) -> Option<String> {
-    let number = outcome.tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
+    let number = outcome.tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
     let number = asperity_data::format_rounded(number, 2, "1");
     Some(format!(
-        "JKR theory and the rule of Hess do not apply: the Tabor number {number} is below {LEAST_TABOR_NUMBER_OF_JKR}, so \
-         that the attraction reaches beyond the contact. DMT theory applies, by which a loop dissipates next to nothing."
+        "JKR theory and the rule of Hess do not apply: the Tabor number {number} is below {}, so \
+         that the attraction reaches beyond the contact. DMT theory applies, by which a loop dissipates next to nothing.",
+        Criterion::LEAST_TABOR_NUMBER
     ))
 }
 

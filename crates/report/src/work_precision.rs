@@ -41,9 +41,6 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
             layers.push(Layer::new("error below the error of the reference".into(), ink, rings));
         }
     }
-    if let Some(model) = model {
-        layers.push(Layer::new("error of the model".into(), Ink::Quiet, Shape::Level(model)));
-    }
     if let Some((cells, at)) = squares {
         let name = format!("three dimensions, {cells} × {cells} cells");
         let shape = Shape::signs(vec![at], Sign::of_series(series.len()));
@@ -56,7 +53,15 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
         ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
     };
     let times = Span::decades(all.iter().map(|(seconds, _)| seconds.log10()));
-    let errors = Span::decades(all.iter().map(|(_, error)| error.log10()));
+    let mut errors = Span::decades(all.iter().map(|(_, error)| error.log10()));
+    if let Some(model) = model {
+        // Below the curves. Without a decade of its own it is no band.
+        let low = errors.low.min(model.log10().floor() - 1.0);
+        errors.low = low;
+        let ends = [times.low, times.high].map(|time| (10.0_f64.powf(time), 10.0_f64.powf(low), model));
+        let name = "error of the model, which no springs reduce";
+        layers.insert(0, Layer::new(name.into(), Ink::Quiet, Shape::Band(ends.to_vec())));
+    }
     let of_force = table.reference.adhesion_force.is_some();
     let (name, symbol) =
         if of_force { ("relative error of", "F_a") } else { ("relative error of the curve", "") };

@@ -1,6 +1,19 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
+//! # Names by task
+//!
+//! * Scenes: [`open`] and [`presets`] return a [`Document`], the text of a [`Scene`], or [`Preset`]s. A scene has [`Material`],
+//!   [`Adhesion`] with its [`Strength`] or [`RoughnessParameter`], [`Roughness`], which may be [`Measured`], [`Numerics`] with
+//!   the [`Solver`], and [`Observer`]s.
+//! * Computing: [`run`] computes a document, [`Simulation`] many [`CheckedScene`]s. [`ProfileBuilder`] needs no scene.
+//! * Results: an [`Outcome`] with its [`Governing`] numbers and the [`Regime`]; [`estimate`] returns the [`Estimate`] of its error.
+//! * What is refused: [`SceneErrors`] with one [`SceneError`] for each value, their [`Origin`], [`RunError`], and [`Error`] of all.
+//!
+//! The modules are for programs around a scene: [`fields`], [`text`], [`loading`] and [`library`] for editors,
+//! [`discretisation`] for the choice of the number of springs, [`instrument`] and [`theory`] for comparisons, and [`stages`]
+//! for the progress of a computation.
 
 mod accuracy;
 mod analysis;
@@ -34,7 +47,7 @@ pub mod discretisation {
     pub use crate::accuracy::estimate::Evidence;
     pub use crate::accuracy::ladder::{Progress, measure};
     pub use crate::accuracy::solution::Target;
-    pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, QUANTITIES, Row, Timing};
+    pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 }
 
 /// Table of the fields of a scene with names, units and ranges, and the values of a scene as a tree.
@@ -64,8 +77,7 @@ pub mod text {
 /// Loading stages as text.
 pub mod loading {
     pub use crate::scene::stages::{
-        STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_loading, read_stage,
-        stage_in_ron,
+        StageKind, loading_text, pressing_force, read_loading, read_stage, stage_in_ron,
     };
 }
 
@@ -77,8 +89,7 @@ pub mod library {
 
 /// Numbers and closed forms of theories, for comparison with the model.
 pub mod theory {
-    pub use crate::analysis::governing::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, SteepWaves, scene_tabor_number};
-    pub use crate::analysis::regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+    pub use crate::analysis::governing::SteepWaves;
     pub use crate::analysis::reversal_map::ReversalMap;
     pub use crate::reference::closed_form;
 }
@@ -94,7 +105,6 @@ pub mod instrument {
 pub mod stages {
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};
-    pub use crate::simulation::reversals::{FEW_SAMPLES, TURNING_POINTS};
     pub use crate::simulation::roughness::equivalent_springs;
     pub use crate::simulation::stages::AfterLeg;
     pub use crate::simulation::workload::{PlannedStage, Stage, Workload};

@@ -1,6 +1,6 @@
 //! Closed forms: exact formulas for the contact of a form without roughness.
 
-use asperity_contact::closed_forms::{ClosedForm, flat_punch, ideal_adhesion_force};
+use asperity_contact::ClosedForm;
 use asperity_surface::Form;
 
 /// Returns the exact solution for a form whose profile is a power law: paraboloid, cone or power. The effective modulus is in
@@ -32,10 +32,10 @@ pub fn smooth_adhesion_force(
     [closing, work]: [f64; 2],
     preload: f64,
 ) -> Option<f64> {
-    let flat = ideal_adhesion_force(work, effective_modulus, length);
+    let flat = ClosedForm::ideal_adhesion_force(work, effective_modulus, length);
     let Some(form) = form else { return Some(flat) };
     if let Some(radius) = form.flat_end() {
-        return Some(flat_punch(radius, effective_modulus, work).min(flat));
+        return Some(ClosedForm::flat_punch(radius, effective_modulus, work).min(flat));
     }
     let body = closed_form(form, effective_modulus, work)?;
     let (radius, force) = body.force_controlled_pull_off();

@@ -47,7 +47,7 @@ pub enum Spacing {
 /// Axis of a study: a quantity that is varied, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Path of the varied field of a scene, or name of a quantity in [`DERIVED`].
+    /// Path of the varied field of a scene, or name of a quantity in [`Axis::DERIVED`].
     pub path: String,
     /// Name of the quantity in words, such as `Hurst exponent`.
     pub name: String,
@@ -63,6 +63,9 @@ pub struct Axis {
 }
 
 impl Axis {
+    /// Names of the quantities that an axis may vary although no field of a scene holds them.
+    pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
+
     /// Creates an axis over a number of a scene, given by its path.
     ///
     /// # Errors
@@ -218,9 +221,6 @@ impl Axis {
     }
 }
 
-/// Names of the quantities that an axis may vary although no field of a scene holds them.
-pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
-
 /// Paths of numbers that cannot be varied. The version is no parameter, and seeds follow from the seed of the plan.
 const FIXED: &[&str] = &["version", "roughness.seed"];
 
@@ -280,11 +280,12 @@ impl Target {
         number(path).map(Target::Number).or_else(stage).ok_or_else(|| {
             let all = FIELDS.iter().flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
             let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
-            let near =
-                || did_you_mean(path, numbers.iter().map(String::as_str).chain(DERIVED.iter().copied()));
+            let near = || {
+                did_you_mean(path, numbers.iter().map(String::as_str).chain(Axis::DERIVED.iter().copied()))
+            };
             let parameter = RoughnessParameter::named(path);
             let near = parameter.map_or_else(near, |one| format!("; did you mean {}?", one.path()));
-            let derived = DERIVED.join(", ");
+            let derived = Axis::DERIVED.join(", ");
             let allowed = format!("numbers of a scene by their paths, and {derived}");
             StudyError::refused(Some(path), format!("no such number{near}"), allowed)
         })
@@ -404,7 +405,7 @@ mod tests {
     #[test]
     fn steps_go_to_the_next_value_of_the_axis_and_end_with_it() {
         let scene = open("pressure-sensitive").unwrap().scene().clone();
-        let axes = crate::live_plan::live_plan(&scene).unwrap().axes;
+        let axes = crate::plan::Plan::of_map(&scene).unwrap().axes;
         let to = |value, steps| axes[0].next_beyond(value, steps);
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
         // A value of the axis but for rounding.

@@ -18,8 +18,6 @@ use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::path::Path;
 
-/// Shares of F_a,max below which adhesion usually counts as vanished.
-pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 /// Number of random selections of profiles for the confidence interval.
 const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
@@ -76,57 +74,6 @@ pub struct Boundaries {
 /// F_a(d=0)/F_a,max over ascending κ or e_el/γ. Each value has the shares on the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Finds the boundaries where adhesion without a preload vanishes, along the axis of κ or e_el/γ of a study. The study is
-/// in the folder `path` and was merged by [`merge`](crate::merge). `over` is the parameter of the boundaries, and `levels`
-/// are shares of F_a,max.
-///
-/// # Errors
-/// The study has no axis of κ or e_el/γ, or recorded neither F_a(d=0)/F_a,max nor F_a(F=0)/F_a,max. On a measured surface,
-/// the axis has another parameter than `over`. The errors of [`Results::open`] are possible too.
-pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
-    let study = Results::open(path)?;
-    let plan = study.plan();
-    let refuse = |reason: &str| StudyError::folder(path, reason);
-    let mut axes = plan.axes.iter().map(|axis| axis.target).enumerate();
-    let along = axes.find_map(|(place, target)| Some((place, target.parameter()?)));
-    let (along, given) = along.ok_or_else(|| {
-        refuse("this study has no axis adhesion.kappa or adhesion.elastic_energy_ratio, along which a boundary lies")
-    })?;
-    let shares = Quantity::ADHESION_SHARES;
-    let protocols: Vec<Quantity> = shares.into_iter().filter(|share| plan.record.contains(share)).collect();
-    if protocols.is_empty() {
-        return Err(refuse(
-            "this study records neither first_touch_adhesion_share nor zero_force_adhesion_share",
-        ));
-    }
-    let others: Vec<usize> = (0..plan.axes.len()).filter(|axis| *axis != along).collect();
-    let mut found = Vec::new();
-    for number in 0..plan.cells() / plan.axes[along].count() {
-        let cell = plan.cell_at(&plan.places_on(others.iter().copied(), number));
-        for &protocol in &protocols {
-            let curve = curve(&study, cell, along, protocol);
-            if curve.is_empty() {
-                continue;
-            }
-            let to = conversion(plan, cell, given, over).ok_or_else(|| {
-                let path = over.path();
-                refuse(&format!(
-                    "this study has no axis {path}, which does not follow from its measured surface"
-                ))
-            })?;
-            for &level in levels {
-                let Crossing { value, side, interval } = crossing(&curve, level);
-                let interval = interval.map(|(low, high)| (to(low), to(high)));
-                let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
-                let crossing = Crossing { value: to(value), side, interval };
-                found.push(AdhesionBoundary { others, protocol, level, crossing });
-            }
-        }
-    }
-    let others = others.into_iter().map(|axis| plan.axes[axis].clone()).collect();
-    Ok(Boundaries { over, others, lines: plan.lines, found })
-}
-
 /// Returns the shares on the profiles that all cells along an axis have. The first cell is `first`, at the first value of
 /// the axis. Cells without any share are left out.
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
@@ -159,12 +106,69 @@ fn conversion(
     Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
 }
 
-/// Returns in words where the loading turns for the quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max.
-pub fn protocol_name(share: Quantity) -> &'static str {
-    if share == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
+impl AdhesionBoundary {
+    /// Returns in words where the loading turns for the quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max.
+    pub fn protocol_name(&self) -> &'static str {
+        if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
+    }
 }
 
 impl Boundaries {
+    /// Shares of F_a,max below which adhesion usually counts as vanished.
+    pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
+
+    /// Finds the boundaries where adhesion without a preload vanishes, along the axis of κ or e_el/γ of a study. The study is
+    /// in the folder `path` and was merged by [`merge`](crate::merge). `over` is the parameter of the boundaries, and `levels`
+    /// are shares of F_a,max.
+    ///
+    /// # Errors
+    /// The study has no axis of κ or e_el/γ, or recorded neither F_a(d=0)/F_a,max nor F_a(F=0)/F_a,max. On a measured surface,
+    /// the axis has another parameter than `over`. The errors of [`Results::open`] are possible too.
+    pub fn of(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
+        let study = Results::open(path)?;
+        let plan = study.plan();
+        let refuse = |reason: &str| StudyError::folder(path, reason);
+        let mut axes = plan.axes.iter().map(|axis| axis.target).enumerate();
+        let along = axes.find_map(|(place, target)| Some((place, target.parameter()?)));
+        let (along, given) = along.ok_or_else(|| {
+            refuse("this study has no axis adhesion.kappa or adhesion.elastic_energy_ratio, along which a boundary lies")
+        })?;
+        let shares = Quantity::ADHESION_SHARES;
+        let protocols: Vec<Quantity> =
+            shares.into_iter().filter(|share| plan.record.contains(share)).collect();
+        if protocols.is_empty() {
+            return Err(refuse(
+                "this study records neither first_touch_adhesion_share nor zero_force_adhesion_share",
+            ));
+        }
+        let others: Vec<usize> = (0..plan.axes.len()).filter(|axis| *axis != along).collect();
+        let mut found = Vec::new();
+        for number in 0..plan.cells() / plan.axes[along].count() {
+            let cell = plan.cell_at(&plan.places_on(others.iter().copied(), number));
+            for &protocol in &protocols {
+                let curve = curve(&study, cell, along, protocol);
+                if curve.is_empty() {
+                    continue;
+                }
+                let to = conversion(plan, cell, given, over).ok_or_else(|| {
+                    let path = over.path();
+                    refuse(&format!(
+                        "this study has no axis {path}, which does not follow from its measured surface"
+                    ))
+                })?;
+                for &level in levels {
+                    let Crossing { value, side, interval } = crossing(&curve, level);
+                    let interval = interval.map(|(low, high)| (to(low), to(high)));
+                    let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
+                    let crossing = Crossing { value: to(value), side, interval };
+                    found.push(AdhesionBoundary { others, protocol, level, crossing });
+                }
+            }
+        }
+        let others = others.into_iter().map(|axis| plan.axes[axis].clone()).collect();
+        Ok(Boundaries { over, others, lines: plan.lines, found })
+    }
+
     /// Returns the symbol of the boundaries: κ* or (e_el/γ)*.
     pub fn symbol(&self) -> &'static str {
         match self.over {

@@ -1,12 +1,11 @@
 //! The outcome of one loading on one profile, from which all recorded quantities follow.
 
+use asperity_contact::Branch;
+use asperity_contact::ClosedForm;
 use asperity_contact::Figures;
 use asperity_contact::Move;
-use asperity_contact::closed_forms::ideal_adhesion_force;
-use asperity_contact::points::preload_point;
 use asperity_contact::{CurvePoint, History, LegRecord, Reversal};
 use asperity_scene::Scene;
-use asperity_scene::theory::scene_tabor_number;
 use asperity_scene::{Governing, Regime};
 
 /// Outcome of one loading on one profile. A figure that it does not have is `None`.
@@ -41,7 +40,7 @@ impl LoadingOutcome {
     pub fn of_legs(legs: Vec<LegRecord>) -> Self {
         let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
-        let preload = preload_point(&legs).map(|(_, point)| point);
+        let preload = Branch::preload(&legs).map(|(_, point)| point);
         let figures = Figures::of(&History { legs, ..History::default() });
         LoadingOutcome { figures, contact_length, preload }
     }
@@ -97,7 +96,8 @@ impl CaseOutcome<'_> {
     /// Returns the ideal adhesion force F_a,max of eq. (14) in N.
     pub fn ideal(&self) -> Option<f64> {
         let Governing { work_of_adhesion, effective_modulus, .. } = self.governing;
-        work_of_adhesion.map(|work| ideal_adhesion_force(work, effective_modulus, self.scene.length))
+        work_of_adhesion
+            .map(|work| ClosedForm::ideal_adhesion_force(work, effective_modulus, self.scene.length))
     }
 
     /// Returns a force in N divided by F_a,max.
@@ -112,7 +112,7 @@ impl CaseOutcome<'_> {
 
     /// Tabor number.
     pub fn tabor_number(&self) -> Option<f64> {
-        scene_tabor_number(self.scene, &self.governing)
+        self.governing.tabor_number(self.scene)
     }
 
     /// Returns the index in [`Regime::ALL`] of the regime of this loading. `first_touch` is F_a(d=0) in N.

@@ -3,21 +3,22 @@
 //! Each criterion has its own conditions, and says so where they do not hold. The criteria disagree, because their theories
 //! have different limits; the majority decides nothing.
 
-use super::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR, long_ranged};
+use super::criterion::{Criterion, long_ranged};
 use super::ensemble::Ensemble;
 use super::quantity::Quantity;
 use super::rough_contact::RoughContact;
-use asperity_scene::theory::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, VANISHING_SHARE};
+use asperity_scene::Governing;
+use asperity_scene::Regime;
 use asperity_scene::{Outcome, Scene};
 
 const TABOR: Criterion = Criterion::new(
     "Tabor number",
     "μ",
     "Tabor: J. Colloid Interface Sci. 58 (1977) 2",
-    LEAST_TABOR_NUMBER_OF_JKR,
+    Criterion::LEAST_TABOR_NUMBER,
 );
 const THIS_PROGRAM: Criterion =
-    Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", VANISHING_SHARE);
+    Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", Regime::VANISHING_SHARE);
 
 /// Returns the criteria of adhesion for a computed scene, by other theories and last by this program. The numbers are
 /// medians over the profiles of an ensemble, or the numbers of the scene's own profile if no ensemble is given.
@@ -39,7 +40,7 @@ pub fn criteria(scene: &Scene, outcome: &Outcome, ensemble: Option<&Ensemble>) -
     let rough = rough.map(|amplitude| RoughContact {
         amplitude,
         stretch: work / governing.effective_modulus,
-        range: adhesion.range.unwrap_or(DEFAULT_RANGE),
+        range: adhesion.attraction_range(),
         spectrum: scene.spectrum(),
         length: scene.length,
         tabor_number: outcome.tabor_number,
@@ -53,16 +54,16 @@ pub fn criteria(scene: &Scene, outcome: &Outcome, ensemble: Option<&Ensemble>) -
 fn tabor(tabor_number: Option<f64>) -> Criterion {
     let reason = match tabor_number {
         None => "the form has no radius of curvature",
-        Some(number) if number < LEAST_TABOR_NUMBER_OF_JKR => {
+        Some(number) if number < Criterion::LEAST_TABOR_NUMBER => {
             "below 1: JKR theory and this program do not apply, DMT theory does"
         }
-        Some(number) if number < LEAST_TABOR_NUMBER => "from 1 to 5: between JKR and DMT theory",
+        Some(number) if number < Governing::LEAST_TABOR_NUMBER => "from 1 to 5: between JKR and DMT theory",
         Some(_) => "at least 5: JKR theory applies, as in this program",
     };
     Criterion { value: tabor_number, reason: Some(reason.to_owned()), ..TABOR }
 }
 
-/// Returns F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body. Below [`VANISHING_SHARE`] adhesion
+/// Returns F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body. Below [`Regime::VANISHING_SHARE`] adhesion
 /// has vanished, as in the definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
@@ -84,7 +85,7 @@ fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion
             Some(refusal) => format!("does not hold: {refusal}"),
             None => format!("{protocol}{of}"),
         };
-        let sticks = refusal.is_none().then_some(share >= VANISHING_SHARE);
+        let sticks = refusal.is_none().then_some(share >= Regime::VANISHING_SHARE);
         Some(Criterion { symbol, value: Some(share), sticks, reason: Some(reason), ..THIS_PROGRAM })
     };
     rows.into_iter().filter_map(row).collect()
@@ -153,7 +154,7 @@ mod tests {
             let mut forces: Vec<f64> = ensemble.values(quantity).into_iter().flatten().collect();
             forces.sort_by(f64::total_cmp);
             assert_eq!((forces.len(), row.value), (5, Some(forces[2] / smooth)));
-            assert_eq!(row.sticks, Some(forces[2] >= VANISHING_SHARE * smooth));
+            assert_eq!(row.sticks, Some(forces[2] >= Regime::VANISHING_SHARE * smooth));
         }
         assert!(
             found[5].words().ends_with("(turned at first touch, median of 5 profiles)"),

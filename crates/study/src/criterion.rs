@@ -3,9 +3,6 @@
 use asperity_data::{format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Tabor number below which JKR theory and the rule of Hess do not apply.
-pub const LEAST_TABOR_NUMBER_OF_JKR: f64 = 1.0;
-
 /// Criterion by which a theory decides whether bodies adhere without a preload. It compares a number with a threshold.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -28,6 +25,9 @@ pub struct Criterion {
 }
 
 impl Criterion {
+    /// Tabor number below which JKR theory and the rule of Hess do not apply.
+    pub const LEAST_TABOR_NUMBER: f64 = 1.0;
+
     /// Makes a criterion without a number.
     pub(super) const fn new(
         name: &'static str,
@@ -69,6 +69,6 @@ pub(super) fn number(value: f64) -> String {
 
 /// Returns the reason why a theory of short-ranged attraction does not hold.
 pub(super) fn long_ranged(tabor_number: Option<f64>) -> Option<String> {
-    let below = tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
-    Some(format!("μ {}, needs at least {LEAST_TABOR_NUMBER_OF_JKR}", number(below)))
+    let below = tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
+    Some(format!("μ {}, needs at least {}", number(below), Criterion::LEAST_TABOR_NUMBER))
 }

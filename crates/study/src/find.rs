@@ -166,7 +166,7 @@ impl Found {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::question::{WITHIN, parse_condition};
+    use crate::question::WITHIN;
     use asperity_contact::Move;
     use asperity_scene::{Adhesion, CheckedScene, open};
     use std::f64::consts::PI;
@@ -184,7 +184,7 @@ mod tests {
         jobs: usize,
     ) -> Result<Found, String> {
         let mut simulation = Simulation::default();
-        let condition = parse_condition(condition)?;
+        let condition = Question::parse_condition(condition)?;
         let question = Question::new(scene, path, condition, profiles, &mut simulation);
         let mut question = question.map_err(|error| error.to_string())?;
         question.searched = range.unwrap_or(question.searched);
@@ -216,7 +216,7 @@ mod tests {
             ("dissipated energy = 2.5 pJ", Quantity::DissipatedEnergy, 2.5e-12),
             ("F_a/F_n=1e-2", Quantity::AdhesionCoefficient, 0.01),
         ] {
-            assert_eq!(parse_condition(text), Ok((quantity, target)), "{text}");
+            assert_eq!(Question::parse_condition(text), Ok((quantity, target)), "{text}");
         }
         for (text, said) in [
             ("F_a", "such as \"F_a/F_a,max = 80 %\""),
@@ -228,7 +228,7 @@ mod tests {
             ("F_a = -1 uN", "allowed: at least 0 N"),
             ("F_a = 1 s", "s is not a unit of force"),
         ] {
-            let error = parse_condition(text).unwrap_err();
+            let error = Question::parse_condition(text).unwrap_err();
             assert!(error.contains(said), "{text}: {error}");
         }
     }

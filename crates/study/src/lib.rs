@@ -1,6 +1,19 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
+//! # Names by task
+//!
+//! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record; [`Changes`] to a plan.
+//! * Computing: [`compute`](compute()) in memory; [`run_study`] with [`StudyProgress`] in a [`Folder`], of which each process computes a
+//!   [`Shard`]; [`merge`] afterwards. [`Stop`] ends a computation.
+//! * Results: [`Results`] with [`Statistics`], [`Spread`] and [`RegimeCounts`].
+//! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`], [`find`](find()) answers a [`Question`] by [`Found`] with an
+//!   [`Answer`] for each profile; [`PreloadCurve`] and [`Staircase`] over the preload; [`Sensitivity`] with the [`Influence`]
+//!   of each number and what [`Changed`].
+//! * What is refused: [`StudyError`].
+//!
+//! The modules are for programs: [`folders`], [`maps`], [`checks`], [`half_space`] and [`trust`].
 
 mod axis;
 mod boundary;
@@ -50,7 +63,7 @@ pub use compute::compute;
 pub use ensemble::{Ensemble, ensemble};
 pub use error::StudyError;
 pub use find::{Found, find};
-pub use plan::Plan;
+pub use plan::{Plan, StiffnessRange};
 pub use plan_text::Changes;
 pub use preload_curve::PreloadCurve;
 pub use preloads::Staircase;
@@ -65,32 +78,18 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Built-in plans, and readers of the numbers of a plan from text, which the command line uses.
-pub mod plans {
-    pub use crate::axis::DERIVED;
-    pub use crate::plan::{MOST_CELLS, StiffnessRange};
-    pub use crate::plan_text::PLANS;
-    pub use crate::preloads::{PRELOADS, parse_preloads, parse_range};
-    pub use crate::question::parse_condition;
-}
-
 /// Files in the folder of a study, for programs that show the progress of shards or read results.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};
     pub use crate::store::{ShardFile, ShardHeader};
-    pub use crate::tables::{RESULTS, SIDECAR, SUMMARY};
 }
 
 /// Maps of results over two axes, from a stored study or computed for display, and boundaries of adhesion.
 pub mod maps {
-    pub use crate::boundary::{
-        AdhesionBoundary, Boundaries, Crossing, USUAL_LEVELS, boundaries, protocol_name,
-    };
+    pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
     pub use crate::live_map::{Level, LiveMap};
-    pub use crate::live_plan::{MAP_LINES, live_plan};
-    pub use crate::place::moved;
     pub use crate::select::{Selected, Selection};
     pub use crate::study_map::StudyMap;
 }
@@ -98,7 +97,7 @@ pub mod maps {
 /// Cases with known results, which `asperity check` computes.
 pub mod checks {
     pub use crate::check::case::Case;
-    pub use crate::check::{Check, Verdict, catalogue, checks, judge_case};
+    pub use crate::check::{Check, Verdict};
 }
 
 /// Comparisons of a scene with its contact in three dimensions, which show the error of the model.
@@ -113,6 +112,6 @@ pub mod half_space {
 pub mod trust {
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;
-    pub use crate::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR};
+    pub use crate::criterion::Criterion;
     pub use crate::measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 }

@@ -58,7 +58,7 @@ pub struct LiveMap {
 }
 
 impl LiveMap {
-    /// Creates a map without computed cells, for a plan made by [`live_plan`](crate::live_plan::live_plan()).
+    /// Creates a map without computed cells, for a plan made by [`Plan::of_map`].
     ///
     /// # Errors
     /// The map is too large for the memory.
@@ -175,7 +175,6 @@ impl LiveMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::live_plan::live_plan;
     use crate::plan_text::Changes;
     use crate::quantity::Quantity;
     use crate::run::run_study;
@@ -196,7 +195,7 @@ mod tests {
         let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
         let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = document.set_all(&small).unwrap();
-        LiveMap::new(live_plan(document.scene()).unwrap()).unwrap()
+        LiveMap::new(Plan::of_map(document.scene()).unwrap()).unwrap()
     }
 
     #[test]
@@ -295,7 +294,7 @@ mod tests {
     fn a_cell_that_cannot_be_computed_keeps_the_reason() {
         let document = open("pressure-sensitive").unwrap();
         let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
-        let mut map = LiveMap::new(live_plan(never.scene()).unwrap()).unwrap();
+        let mut map = LiveMap::new(Plan::of_map(never.scene()).unwrap()).unwrap();
         let reported = Cell::new(false);
         map.compute(&|| reported.get(), &mut |_| reported.set(true));
         assert!(

@@ -6,11 +6,8 @@ use super::quantity::Quantity;
 use asperity_contact::Edges;
 use asperity_data::round_to;
 use asperity_scene::RoughnessParameter::Kappa;
-use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 
-/// Number of random profiles in each cell of a map.
-pub const MAP_LINES: u64 = 4;
 /// Quantities recorded in each cell.
 pub const MAP_RECORD: [Quantity; 6] = [
     Quantity::FirstTouchAdhesionShare,
@@ -37,55 +34,62 @@ fn kappas() -> Vec<f64> {
     (0..KAPPAS).map(|index| round_to(exact(index), 3)).collect()
 }
 
-/// Returns the plan of the map of a checked scene, over κ, and over the Hurst exponent H if the roughness has one. Scenes
-/// that differ only in these numbers or in the number of curve points have the same map.
-///
-/// # Errors
-/// The scene has no map, for the returned reason.
-///
-/// ```
-/// use asperity_study::maps::{MAP_LINES, live_plan};
-///
-/// let plan = live_plan(asperity_scene::open("pressure-sensitive")?.scene())?;
-/// assert_eq!((plan.axes[0].path.as_str(), plan.lines), ("adhesion.kappa", MAP_LINES));
-/// assert!(live_plan(asperity_scene::open("jkr-sphere")?.scene()).unwrap_err().contains("smooth"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn live_plan(scene: &Scene) -> Result<Plan, &'static str> {
-    let adhesion = scene
-        .adhesion
-        .ok_or("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")?;
-    if adhesion.closing_work().is_some() {
-        return Err("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out");
+impl Plan {
+    /// Number of random profiles in each cell of a map.
+    pub const PROFILES_OF_MAP: u64 = 4;
+
+    /// Returns the plan of the map of a checked scene, over κ, and over the Hurst exponent H if the roughness has one. Scenes
+    /// that differ only in these numbers or in the number of curve points have the same map.
+    ///
+    /// # Errors
+    /// The scene has no map, for the returned reason.
+    ///
+    /// ```
+    /// use asperity_study::Plan;
+    ///
+    /// let plan = Plan::of_map(asperity_scene::open("pressure-sensitive")?.scene())?;
+    /// assert_eq!((plan.axes[0].path.as_str(), plan.lines), ("adhesion.kappa", Plan::PROFILES_OF_MAP));
+    /// assert!(Plan::of_map(asperity_scene::open("jkr-sphere")?.scene()).unwrap_err().contains("smooth"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_map(scene: &Scene) -> Result<Plan, &'static str> {
+        let adhesion = scene
+            .adhesion
+            .ok_or("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")?;
+        if adhesion.closing_work().is_some() {
+            return Err("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out");
+        }
+        // The range of the attraction changes no map.
+        let adhesion = Adhesion { range: None, ..adhesion.with_parameter(Kappa, ANY.0) };
+        let mut scene = scene.clone();
+        let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);
+        let (points, has_hurst) = match &mut scene.roughness {
+            None => {
+                return Err(
+                    "no map: a smooth body has neither κ nor H; switch roughness on with t in its row",
+                );
+            }
+            Some(Roughness::SelfAffine { hurst, .. }) => {
+                *hurst = ANY.1;
+                let wanted = last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1);
+                (wanted.max(last.saturating_mul(2)), true)
+            }
+            Some(Roughness::Measured { .. }) => (SPRINGS.1, false),
+        };
+        scene.adhesion = Some(adhesion);
+        scene.strip();
+        let points = points.min(scene.numerics.points);
+        // Edges between springs: a map of few springs is then as accurate as one of very many.
+        scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };
+        let hursts = || (1..=HURSTS).map(|index| f64::from(index) * 5.0 / 100.0).collect();
+        let hursts = has_hurst.then(|| ("roughness.hurst", Spacing::Linear, hursts()));
+        let kappas = (Kappa.path(), Spacing::Logarithmic, kappas());
+        let axes = [kappas].into_iter().chain(hursts);
+        // Both are quantities of a scene.
+        let axes = axes.filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());
+        let lines = if has_hurst { Plan::PROFILES_OF_MAP } else { 1 };
+        Ok(Plan { axes: axes.collect(), ..Plan::of_scene(&scene, lines, &MAP_RECORD) })
     }
-    // The range of the attraction changes no map.
-    let adhesion = Adhesion { range: None, ..adhesion.with_parameter(Kappa, ANY.0) };
-    let mut scene = scene.clone();
-    let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);
-    let (points, has_hurst) = match &mut scene.roughness {
-        None => {
-            return Err("no map: a smooth body has neither κ nor H; switch roughness on with t in its row");
-        }
-        Some(Roughness::SelfAffine { hurst, .. }) => {
-            *hurst = ANY.1;
-            let wanted = last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1);
-            (wanted.max(last.saturating_mul(2)), true)
-        }
-        Some(Roughness::Measured { .. }) => (SPRINGS.1, false),
-    };
-    scene.adhesion = Some(adhesion);
-    scene.strip(FEW_SAMPLES);
-    let points = points.min(scene.numerics.points);
-    // Edges between springs: a map of few springs is then as accurate as one of very many.
-    scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };
-    let hursts = || (1..=HURSTS).map(|index| f64::from(index) * 5.0 / 100.0).collect();
-    let hursts = has_hurst.then(|| ("roughness.hurst", Spacing::Linear, hursts()));
-    let kappas = (Kappa.path(), Spacing::Logarithmic, kappas());
-    let axes = [kappas].into_iter().chain(hursts);
-    // Both are quantities of a scene.
-    let axes = axes.filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());
-    let lines = if has_hurst { MAP_LINES } else { 1 };
-    Ok(Plan { axes: axes.collect(), ..Plan::of_scene(&scene, lines, &MAP_RECORD) })
 }
 
 #[cfg(test)]
@@ -101,9 +105,12 @@ mod tests {
     #[test]
     fn a_map_is_that_of_all_kappa_and_hurst() {
         let document = document();
-        let of = |document: &Document| live_plan(document.scene());
+        let of = |document: &Document| Plan::of_map(document.scene());
         let plan = of(&document).unwrap();
-        assert_eq!((plan.scene.numerics.points, plan.axes.len(), plan.lines), (2048, 2, MAP_LINES));
+        assert_eq!(
+            (plan.scene.numerics.points, plan.axes.len(), plan.lines),
+            (2048, 2, Plan::PROFILES_OF_MAP)
+        );
         for (path, value) in [
             ("adhesion.kappa", "2.0"),
             ("roughness.hurst", "0.2"),
@@ -135,7 +142,7 @@ mod tests {
 
     #[test]
     fn the_scenes_of_all_cells_are_sound() {
-        let plan = live_plan(document().scene()).unwrap();
+        let plan = Plan::of_map(document().scene()).unwrap();
         assert_eq!(plan.check_cells(), Ok(()));
         for cell in 0..plan.cells() {
             let known = governing(&plan.scene_of(cell).unwrap()).unwrap().kappa;

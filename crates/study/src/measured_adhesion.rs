@@ -11,7 +11,6 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::on_threads;
 use asperity_data::root_mean_square;
 use asperity_scene::Regime;
-use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{CheckedScene, Document};
 use asperity_scene::{RunError, Simulation};
 use asperity_surface::EquivalentLine;
@@ -48,7 +47,7 @@ impl ProfileAdhesion {
         seed: u64,
         stop: &dyn Fn() -> bool,
     ) -> Result<Self, RunError> {
-        let scene = scene.with_seed(seed).stripped(FEW_SAMPLES);
+        let scene = scene.with_seed(seed).stripped();
         let on = |scene: &CheckedScene, line: EquivalentLine| {
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
             Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))

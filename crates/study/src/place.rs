@@ -120,41 +120,42 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
     }
 }
 
-/// Returns the scene file with other values on axes. A scene that states a work of adhesion gets the work that belongs to
-/// another κ or e_el/γ. A preload replaces the loading of the scene.
-///
-/// # Errors
-/// A value is not allowed.
-///
-/// ```
-/// use asperity_study::{Axis, Spacing};
-/// use asperity_study::maps::moved;
-///
-/// let scene = asperity_scene::open("pressure-sensitive")?;
-/// let axis = Axis::new("adhesion.kappa", Spacing::List, Vec::new(), scene.scene())?;
-/// let other = moved(&scene, &[(&axis, 3.5)])?;
-/// assert_eq!(axis.value_in(other.scene(), None), Some(3.5));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
-    let mut scene = scene_with(document.scene(), values.iter().copied())?;
-    let moves_parameter = values.iter().any(|(axis, _)| axis.target.parameter().is_some());
-    let by_work = document.scene().adhesion.filter(|one| moves_parameter && one.parameter().is_none());
-    if let Some(adhesion) = by_work {
-        let work = governing(&scene).and_then(|known| known.work_of_adhesion);
-        scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);
+impl Axis {
+    /// Returns the scene file with other values on axes. A scene that states a work of adhesion gets the work that belongs to
+    /// another κ or e_el/γ. A preload replaces the loading of the scene.
+    ///
+    /// # Errors
+    /// A value is not allowed.
+    ///
+    /// ```
+    /// use asperity_study::{Axis, Spacing};
+    ///
+    /// let scene = asperity_scene::open("pressure-sensitive")?;
+    /// let axis = Axis::new("adhesion.kappa", Spacing::List, Vec::new(), scene.scene())?;
+    /// let other = Axis::set_all(&scene, &[(&axis, 3.5)])?;
+    /// assert_eq!(axis.value_in(other.scene(), None), Some(3.5));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_all(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
+        let mut scene = scene_with(document.scene(), values.iter().copied())?;
+        let moves_parameter = values.iter().any(|(axis, _)| axis.target.parameter().is_some());
+        let by_work = document.scene().adhesion.filter(|one| moves_parameter && one.parameter().is_none());
+        if let Some(adhesion) = by_work {
+            let work = governing(&scene).and_then(|known| known.work_of_adhesion);
+            scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);
+        }
+        if let Some((axis, preload)) = values.iter().find(|(axis, _)| axis.is_of_preloads()) {
+            press(&mut scene, axis, *preload);
+        }
+        document.with_scene(&scene)
     }
-    if let Some((axis, preload)) = values.iter().find(|(axis, _)| axis.is_of_preloads()) {
-        press(&mut scene, axis, *preload);
-    }
-    document.with_scene(&scene)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::axis::Spacing;
-    use crate::live_plan::live_plan;
+    use crate::plan::Plan;
     use asperity_scene::Simulation;
     use asperity_scene::open;
 
@@ -201,7 +202,7 @@ mod tests {
             let axis = Axis::new(path, Spacing::List, vec![value], document.scene()).unwrap();
             let scene = with(document.scene(), path, value).unwrap();
             assert_eq!(&scene, &**document.set(set.0, set.1).unwrap().scene(), "{path}");
-            assert_eq!(&scene, &**super::moved(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
+            assert_eq!(&scene, &**Axis::set_all(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
             assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
         }
         // A longer line has the same waves: more modes.
@@ -223,9 +224,9 @@ mod tests {
     fn a_document_is_moved_in_its_own_terms() {
         let by_kappa = open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap();
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
-        let axes = live_plan(by_kappa.scene()).unwrap().axes;
+        let axes = Plan::of_map(by_kappa.scene()).unwrap().axes;
         for document in [by_kappa.clone(), by_work] {
-            let moved = moved(&document, &[(&axes[1], 0.4), (&axes[0], 3.0)]).unwrap();
+            let moved = Axis::set_all(&document, &[(&axes[1], 0.4), (&axes[0], 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
             assert_eq!(before.work().is_some(), after.work().is_some());
             let [kappa, hurst] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
@@ -233,6 +234,6 @@ mod tests {
             let governing = Simulation::default().make_line(moved.scene()).map(|(_, _, governing)| governing);
             assert!((governing.unwrap().kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9);
         }
-        assert!(moved(&by_kappa, &[(&axes[0], f64::NAN)]).is_err());
+        assert!(Axis::set_all(&by_kappa, &[(&axes[0], f64::NAN)]).is_err());
     }
 }

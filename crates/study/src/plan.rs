@@ -12,8 +12,6 @@ use serde::{Deserialize, Serialize};
 pub(super) const PLAN_FILE: &str = "plan.ron";
 pub(super) const PRELOAD: &str = "preload";
 
-/// Largest number of cells of a plan.
-pub const MOST_CELLS: u64 = 10_000_000;
 /// Largest number of profiles of a plan.
 pub const MOST_LINES: u64 = 1_000_000;
 /// Largest number of records of a plan, which is cells times profiles.
@@ -77,6 +75,9 @@ impl Default for StiffnessRange {
 }
 
 impl Plan {
+    /// Largest number of cells of a plan.
+    pub const MOST_CELLS: u64 = 10_000_000;
+
     /// Makes the plan of a checked scene without axes: one cell on `lines` profiles, whose seeds begin with the seed of the
     /// scene.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
@@ -226,8 +227,8 @@ impl Plan {
         }
         let cells = self.axes.iter().map(Axis::count).try_fold(1_u64, u64::checked_mul);
         let counts = || self.axes.iter().map(|axis| axis.count().to_string()).collect::<Vec<_>>().join(" × ");
-        match cells.filter(|cells| *cells <= MOST_CELLS) {
-            None => wrong.push(format!("{} cells; allowed: at most {MOST_CELLS}", counts())),
+        match cells.filter(|cells| *cells <= Plan::MOST_CELLS) {
+            None => wrong.push(format!("{} cells; allowed: at most {}", counts(), Plan::MOST_CELLS)),
             Some(cells) if cells.saturating_mul(self.lines) > MOST_RECORDS => wrong.push(format!(
                 "{} cells on {} profiles; allowed: at most {MOST_RECORDS} together",
                 counts(),

@@ -17,17 +17,6 @@ use std::path::Path;
 /// Version of the plan file. No other version is supported.
 pub const PLAN_VERSION: u32 = 1;
 
-/// Built-in plans of studies, such as `figure-6`.
-pub const PLANS: &[Preset] = built_in!("plans/":
-    "figure-5a",
-    "figure-5b",
-    "figure-6",
-    "equation-15",
-    "elastic-energy",
-    "stiffness-exponent",
-    "self-averaging"
-);
-
 /// Changes to a plan for one study, in addition to the text of the plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
@@ -67,6 +56,17 @@ struct PlanText {
 }
 
 impl Plan {
+    /// Built-in plans of studies, such as `figure-6`.
+    pub const BUILT_IN: &[Preset] = built_in!("plans/":
+        "figure-5a",
+        "figure-5b",
+        "figure-6",
+        "equation-15",
+        "elastic-energy",
+        "stiffness-exponent",
+        "self-averaging"
+    );
+
     /// Opens and checks a plan. `name_or_path` means a file if the file exists or if the text looks like a path. Otherwise
     /// the text is the name of a built-in plan. The path of a scene is relative to the file of the plan.
     ///
@@ -133,8 +133,8 @@ impl Plan {
     /// # Errors
     /// There is no plan of this name. The error lists all names.
     pub fn built_in(name: &str) -> Result<&'static Preset, StudyError> {
-        PLANS.iter().find(|plan| plan.name == name).ok_or_else(|| {
-            let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
+        Plan::BUILT_IN.iter().find(|plan| plan.name == name).ok_or_else(|| {
+            let names: Vec<_> = Plan::BUILT_IN.iter().map(|plan| plan.name).collect();
             let (near, names) = (did_you_mean(name, names.iter().copied()), names.join(", "));
             let message = "there is no such file and no such built-in plan";
             StudyError::Plan(vec![format!("{name}: {message}{near} (built-in: {names})")])

@@ -14,54 +14,9 @@ use asperity_scene::fields::LEG_FORCE;
 use asperity_scene::{RunError, Simulation};
 use std::ops::RangeInclusive;
 
-/// Allowed numbers of preloads.
-pub const PRELOADS: RangeInclusive<usize> = 2..=512;
-
 /// Usual number of preloads, and what a text of preloads may be.
 const USUAL: usize = 64;
 const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
-
-/// Reads preloads from text such as `1nN..20uN:64:log`: two forces, the number of preloads, and `log` for equal ratios. The
-/// number and `log` may be omitted.
-///
-/// # Errors
-/// The text is wrong; the error says what is allowed.
-///
-/// ```
-/// use asperity_study::plans::parse_preloads;
-///
-/// let axis = parse_preloads("1nN..1uN:4:log").expect("two forces");
-/// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
-/// assert!(parse_preloads("2uN..1uN").unwrap_err().contains("`from` must be less than `to`"));
-/// ```
-pub fn parse_preloads(text: &str) -> Result<Axis, String> {
-    let mut parts = text.split(':').map(str::trim);
-    let ends = parse_range(parts.next().unwrap_or_default(), "N");
-    let ends = ends.map_err(|error| format!("{error}; {ALLOWED}"))?;
-    let (mut count, mut scale) = (USUAL, AxisScale::Linear);
-    for part in parts {
-        match part.parse() {
-            Ok(number) => count = number,
-            Err(_) if part == "log" => scale = AxisScale::Logarithmic,
-            Err(_) => return Err(ALLOWED.into()),
-        }
-    }
-    Axis::of_preloads(ends, count, scale)
-}
-
-/// Reads a range of two numbers with this SI unit, such as `1uN..20uN`.
-///
-/// # Errors
-/// The text is wrong; the error says what is allowed.
-///
-/// ```
-/// assert_eq!(asperity_study::plans::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
-/// ```
-pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
-    let (from, to) = text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;
-    let number = |text: &str| parse_quantity(text, unit).map_err(|error| error.to_string());
-    Ok((number(from)?, number(to)?))
-}
 
 /// Share of the axis of preloads within which each step of a staircase is located, which is less than the width of a line
 /// in a figure.
@@ -70,12 +25,58 @@ const FINEST: f64 = 1.0 / 2048.0;
 const SAME: f64 = 1e-9;
 
 impl Axis {
+    /// Allowed numbers of preloads.
+    pub const PRELOADS: RangeInclusive<usize> = 2..=512;
+
+    /// Reads preloads from text such as `1nN..20uN:64:log`: two forces, the number of preloads, and `log` for equal ratios. The
+    /// number and `log` may be omitted.
+    ///
+    /// # Errors
+    /// The text is wrong; the error says what is allowed.
+    ///
+    /// ```
+    /// use asperity_study::Axis;
+    ///
+    /// let axis = Axis::parse_preloads("1nN..1uN:4:log").expect("two forces");
+    /// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
+    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().contains("`from` must be less than `to`"));
+    /// ```
+    pub fn parse_preloads(text: &str) -> Result<Axis, String> {
+        let mut parts = text.split(':').map(str::trim);
+        let ends = Axis::parse_range(parts.next().unwrap_or_default(), "N");
+        let ends = ends.map_err(|error| format!("{error}; {ALLOWED}"))?;
+        let (mut count, mut scale) = (USUAL, AxisScale::Linear);
+        for part in parts {
+            match part.parse() {
+                Ok(number) => count = number,
+                Err(_) if part == "log" => scale = AxisScale::Logarithmic,
+                Err(_) => return Err(ALLOWED.into()),
+            }
+        }
+        Axis::of_preloads(ends, count, scale)
+    }
+
+    /// Reads a range of two numbers with this SI unit, such as `1uN..20uN`.
+    ///
+    /// # Errors
+    /// The text is wrong; the error says what is allowed.
+    ///
+    /// ```
+    /// assert_eq!(asperity_study::Axis::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
+    /// ```
+    pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
+        let (from, to) =
+            text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;
+        let number = |text: &str| parse_quantity(text, unit).map_err(|error| error.to_string());
+        Ok((number(from)?, number(to)?))
+    }
+
     /// Creates an axis of `count` preloads between two forces in N, with equal differences or equal ratios.
     ///
     /// # Errors
     /// The forces or their number are not allowed; the error says what is allowed.
     pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, String> {
-        check_ends(from, to, count as u64, *PRELOADS.end() as u64)?;
+        check_ends(from, to, count as u64, *Axis::PRELOADS.end() as u64)?;
         let range = LEG_FORCE.range;
         if !(range.contains(from) && range.contains(to)) {
             return Err(format!("from {from:?} to {to:?}: allowed: {range} N"));
@@ -361,7 +362,7 @@ mod tests {
 
     #[test]
     fn preloads_are_two_forces_a_number_and_a_scale() {
-        let values = |text| parse_preloads(text).unwrap().values;
+        let values = |text| Axis::parse_preloads(text).unwrap().values;
         assert_eq!(values("0..20uN").len(), 64);
         assert_eq!(values("-1e-6 .. 2e-6:4"), [-1e-6, 0.0, 1e-6, 2e-6]);
         for text in ["1nN..1uN:4:log", "1nN..1uN:log:4"] {
@@ -384,7 +385,7 @@ mod tests {
             ("-1..1:log", "begins above 0"),
             ("0..1e31", "allowed: from -1e30 to 1e30 N"),
         ] {
-            let error = parse_preloads(wrong).unwrap_err();
+            let error = Axis::parse_preloads(wrong).unwrap_err();
             assert!(error.contains(allowed), "{wrong}: {error}");
         }
     }

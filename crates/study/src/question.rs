@@ -63,40 +63,40 @@ pub struct Answer {
     pub reachable: Option<(f64, f64)>,
 }
 
-/// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side is the symbol of a quantity
-/// or its name in tables of studies. The right side is a value with prefix and unit.
-///
-/// # Errors
-/// The condition is wrong; the error says what is allowed.
-///
-/// ```
-/// use asperity_study::Quantity;
-/// use asperity_study::plans::parse_condition;
-///
-/// assert_eq!(parse_condition("F_a/F_a,max = 80 %"), Ok((Quantity::AdhesionShare, 0.8)));
-/// assert!(parse_condition("F_a/F_a,max = 120 %").unwrap_err().contains("allowed: from 0 to 1"));
-/// ```
-pub fn parse_condition(text: &str) -> Result<(Quantity, f64), String> {
-    // The symbol F_a(F=0) has the sign itself.
-    let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
-    let (name, value) = text.rsplit_once('=').ok_or_else(|| format!("{text:?}: allowed: {example}"))?;
-    let quantity = Quantity::named(name)?;
-    if quantity.is_regime() {
-        return Err(format!("{} is not a number; allowed: {example}", quantity.name()));
-    }
-    let target = parse_quantity(value, quantity.unit())
-        .map_err(|error| format!("value of {}: {error}", quantity.symbol_or_name()))?;
-    let (least, most) = quantity.bounds();
-    if target < least || target > most {
-        let [found, least, end] = [target, least, most].map(|one| format_quantity(one, quantity.unit()));
-        let allowed =
-            if most.is_finite() { format!("from {least} to {end}") } else { format!("at least {least}") };
-        return Err(format!("{} = {found}; allowed: {allowed}", quantity.symbol_or_name()));
-    }
-    Ok((quantity, target))
-}
-
 impl Question {
+    /// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side is the symbol of a quantity
+    /// or its name in tables of studies. The right side is a value with prefix and unit.
+    ///
+    /// # Errors
+    /// The condition is wrong; the error says what is allowed.
+    ///
+    /// ```
+    /// use asperity_study::Quantity;
+    /// use asperity_study::Question;
+    ///
+    /// assert_eq!(Question::parse_condition("F_a/F_a,max = 80 %"), Ok((Quantity::AdhesionShare, 0.8)));
+    /// assert!(Question::parse_condition("F_a/F_a,max = 120 %").unwrap_err().contains("allowed: from 0 to 1"));
+    /// ```
+    pub fn parse_condition(text: &str) -> Result<(Quantity, f64), String> {
+        // The symbol F_a(F=0) has the sign itself.
+        let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
+        let (name, value) = text.rsplit_once('=').ok_or_else(|| format!("{text:?}: allowed: {example}"))?;
+        let quantity = Quantity::named(name)?;
+        if quantity.is_regime() {
+            return Err(format!("{} is not a number; allowed: {example}", quantity.name()));
+        }
+        let target = parse_quantity(value, quantity.unit())
+            .map_err(|error| format!("value of {}: {error}", quantity.symbol_or_name()))?;
+        let (least, most) = quantity.bounds();
+        if target < least || target > most {
+            let [found, least, end] = [target, least, most].map(|one| format_quantity(one, quantity.unit()));
+            let allowed =
+                if most.is_finite() { format!("from {least} to {end}") } else { format!("at least {least}") };
+            return Err(format!("{} = {found}; allowed: {allowed}", quantity.symbol_or_name()));
+        }
+        Ok((quantity, target))
+    }
+
     /// Asks for the number at a path of a checked scene, or for the `preload`, on this number of profiles. The searched
     /// range extends from a hundredth to a hundred times the present number. A narrow allowed range is searched as a whole.
     /// Preloads are searched from 0 N to a hundred times the largest force of the loading.

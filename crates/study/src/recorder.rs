@@ -9,7 +9,6 @@ use asperity_contact::Move;
 use asperity_data::printable;
 use asperity_data::slope;
 use asperity_scene::Governing;
-use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{CheckedScene, Roughness, Solver};
 use asperity_scene::{Outcome, RunError, Simulation};
 use asperity_surface::SurfaceError;
@@ -63,8 +62,7 @@ impl<'p> Recorder<'p> {
     /// The profile or the contact fails, or `stop` returned true.
     pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
         let plan = self.plan;
-        let scene =
-            plan.scene_of(streak.cells.start)?.with_seed(plan.seed_of(streak.line)).stripped(FEW_SAMPLES);
+        let scene = plan.scene_of(streak.cells.start)?.with_seed(plan.seed_of(streak.line)).stripped();
         let profile = self.profile_record(&scene)?;
         let (_, _, governing) = self.simulation.make_line(&scene)?;
         let mut loops = Vec::new();

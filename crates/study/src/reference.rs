@@ -361,7 +361,7 @@ fn check_time(
     let days = format_rounded(seconds / LONGEST, 2, "1");
     let squares_found = if *maps == 1 { "square takes" } else { "squares take" };
     let found = format!("{maps} {squares_found} about {days} days, longer than one day");
-    let allowed = format!("at most {grid} cells along the side{squares}");
+    let allowed = format!("a grid of at most {grid} cells along the side{squares}");
     Err(StudyError::refused(Some(&format!("{cells} cells")), found, allowed))
 }
 
@@ -459,6 +459,47 @@ mod tests {
         let same = Reference { seconds, seconds_of_square, ..reference(scene.scene(), 64, 2, 1).unwrap() };
         assert_eq!(same, found);
         assert!(found.budget.solver <= 1e-8 && found.budget.grid.is_some() && found.budget.sample.is_some());
+    }
+
+    /// A row of the table of docs/line-and-three-dimensions.md agrees with fewer squares, within the intervals of both.
+    #[test]
+    fn the_table_of_the_page_is_that_of_the_squares() {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/");
+        let page = std::fs::read_to_string(format!("{root}line-and-three-dimensions.md")).unwrap();
+        let row = page.lines().find(|line| line.starts_with("| 0.8 | 1.0 |")).unwrap();
+        let stated: Vec<(f64, f64)> = row
+            .split('|')
+            .filter_map(|cell| cell.split_once(" ± "))
+            .map(|(ratio, error)| (ratio.trim().parse().unwrap(), error.trim().parse().unwrap()))
+            .collect();
+        let document = open(&format!("{root}examples/rough-square.ron")).unwrap();
+        let found = reference(document.scene(), 64, 3, 2).unwrap();
+        let last = found.loading.last().unwrap().indentation;
+        let pulled = [found.adhesion_force, found.first_touch_adhesion_force, found.dissipated_energy]
+            .map(Option::unwrap);
+        assert_eq!(stated.len(), 4);
+        for ((ratio, error), found) in stated.into_iter().zip(pulled.into_iter().chain([last])) {
+            let off = (found.ratio - ratio).abs();
+            assert!(off < error.hypot(found.error.unwrap()), "{ratio} ± {error}: {found:?}");
+            // Three squares scatter more than twelve, but no number is another one by a factor of two.
+            assert!((0.5..2.0).contains(&(found.ratio / ratio)), "{ratio}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_takes_longer_than_a_day_is_refused() {
+        let options = |cells, maps| ReferenceOptions { cells, maps, lines: 16 };
+        let refused =
+            |seconds, most| check_time(&options(1024, 24), seconds, most, false).unwrap_err().to_string();
+        assert!(check_time(&options(1024, 24), LONGEST, 24.0, false).is_ok());
+        assert_eq!(
+            refused(3.0 * LONGEST, 8.5),
+            "1024 cells: 24 squares take about 3 days, longer than one day; allowed: a grid of at most 512 cells \
+             along the side, or at most 8 squares"
+        );
+        assert!(refused(50.0 * LONGEST, 0.4).ends_with("allowed: a grid of at most 64 cells along the side"));
+        let never = check_time(&options(8192, 1), 1e300, 0.0, true).unwrap_err().to_string();
+        assert!(never.contains("at most 32 cells"), "{never}");
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! is half of the rms Laplacian. The equivalent profile has these moments by construction, C1D = πq C2D.
 
 use super::criterion::{Criterion, long_ranged, number};
-use asperity_scene::theory::LEAST_TABOR_NUMBER;
+use asperity_scene::Governing;
 use asperity_surface::{Amplitude, SelfAffine};
 use std::f64::consts::{E, PI, TAU};
 
@@ -98,9 +98,10 @@ impl RoughContact {
             let reason = "needs a self-affine spectrum of H near 0.8".to_owned();
             return Criterion { reason: Some(reason), ..BEARING_AREA };
         };
-        let soft = self.tabor_number.filter(|number| *number >= LEAST_TABOR_NUMBER);
-        let soft =
-            soft.map(|of| format!("μ {}, needs stiff bodies, less than {LEAST_TABOR_NUMBER}", number(of)));
+        let soft = self.tabor_number.filter(|number| *number >= Governing::LEAST_TABOR_NUMBER);
+        let soft = soft.map(|of| {
+            format!("μ {}, needs stiff bodies, less than {}", number(of), Governing::LEAST_TABOR_NUMBER)
+        });
         let [low, high] = HURST_OF_BEARING_AREA;
         let other = (hurst < low || hurst > high).then(|| format!("H {}, needs H near 0.8", number(hurst)));
         let longest = self.length / roll_off_mode.max(first as f64);

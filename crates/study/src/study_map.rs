@@ -4,11 +4,9 @@
 use super::axis::Axis;
 use super::error::StudyError;
 use super::grid::{Grid, GridLayer, across_and_up};
-use super::live_plan::live_plan;
-use super::place::{governing, moved, press, scene_with};
+use super::place::{governing, press, scene_with};
 use super::plan::Plan;
 use super::results::Results;
-use asperity_scene::stages::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
@@ -134,11 +132,11 @@ impl StudyMap {
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
         let Ok(mut of_map) = self.scene(slice, &known) else { return false };
         let mut scene = scene.clone();
-        match [&of_map, &scene].map(live_plan) {
+        match [&of_map, &scene].map(Plan::of_map) {
             [Ok(one), Ok(other)] => one == other && is_close(place(&of_map), place(&scene)),
             _ => {
-                of_map.strip(FEW_SAMPLES);
-                scene.strip(FEW_SAMPLES);
+                of_map.strip();
+                scene.strip();
                 of_map == scene
             }
         }
@@ -150,7 +148,7 @@ impl StudyMap {
     /// The scene does not allow these values.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
         let values: Vec<_> = self.at(slice).map(|(axis, place)| (axis, axis.values[place])).collect();
-        moved(document, &values)
+        Axis::set_all(document, &values)
     }
 }
 
@@ -273,7 +271,7 @@ mod tests {
         let axes: Vec<&Axis> = study_map.over().collect();
         for slice in 0..4 {
             assert_eq!(study_map.is_of(slice, scene), slice == 0);
-            let moved = moved(&document, &[(axes[1], 3.0), (axes[0], 0.25)]).unwrap();
+            let moved = Axis::set_all(&document, &[(axes[1], 3.0), (axes[0], 0.25)]).unwrap();
             assert_eq!(study_map.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
             let followed = study_map.follow(slice, &moved).unwrap();
             assert!(study_map.is_of(slice, followed.scene()), "{}", followed.text());

@@ -20,16 +20,19 @@ use std::path::Path;
 
 /// Version of the merged files.
 pub const RESULTS_VERSION: u32 = 1;
-/// Name of the table with one row for each cell and profile.
-pub const RESULTS: &str = "results.csv";
-/// Name of the table with one row for each cell.
-pub const SUMMARY: &str = "summary.csv";
 /// Name of the column with the reasons of records without values.
 const REASON: &str = "reason";
 /// Largest length in bytes of a description of the columns that is read.
 const LONGEST_SIDECAR: usize = 1 << 26;
-/// Name of the file that describes the columns of the tables.
-pub const SIDECAR: &str = "results.json";
+
+impl Merged {
+    /// Name of the table with one row for each cell and profile.
+    pub const RESULTS: &str = "results.csv";
+    /// Name of the table with one row for each cell.
+    pub const SUMMARY: &str = "summary.csv";
+    /// Name of the file that describes the columns of the tables.
+    pub const SIDECAR: &str = "results.json";
+}
 
 /// Merges the shard files of a study and writes its tables, each completely or not at all. If the study is not complete,
 /// the tables contain the existing values, and [`Merged`] counts the missing cells.
@@ -40,10 +43,11 @@ pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     let plan = results.plan();
     let path = |name| folder.path().join(name);
-    write_new_file(&path(RESULTS), true, |out| results.table().write_csv(out, ""))?;
-    write_new_file(&path(SUMMARY), true, |out| results.summary().write_csv(out, ""))?;
-    let hash = sha256_of(&path(RESULTS)).map_err(|error| StudyError::folder(&path(RESULTS), error))?;
-    write_new_file(&path(SIDECAR), true, |out| write_json(out, &sidecar(plan, &merged, &hash), &[]))?;
+    write_new_file(&path(Merged::RESULTS), true, |out| results.table().write_csv(out, ""))?;
+    write_new_file(&path(Merged::SUMMARY), true, |out| results.summary().write_csv(out, ""))?;
+    let hash = sha256_of(&path(Merged::RESULTS))
+        .map_err(|error| StudyError::folder(&path(Merged::RESULTS), error))?;
+    write_new_file(&path(Merged::SIDECAR), true, |out| write_json(out, &sidecar(plan, &merged, &hash), &[]))?;
     Ok(merged)
 }
 
@@ -104,7 +108,7 @@ fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u6
 
 /// Returns the SHA-256 of the results of the last merge, if it is recorded.
 fn recorded_hash(folder: &Path) -> Option<String> {
-    let text = read_regular_text(&folder.join(SIDECAR), LONGEST_SIDECAR).ok()?;
+    let text = read_regular_text(&folder.join(Merged::SIDECAR), LONGEST_SIDECAR).ok()?;
     let all: serde_json::Value = serde_json::from_str(&text).ok()?;
     Some(all.get("results_sha256")?.as_str()?.to_owned())
 }
@@ -182,7 +186,7 @@ impl Results {
     /// The folder contains no study, or a table is missing, was changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
-        let path = folder.join(RESULTS);
+        let path = folder.join(Merged::RESULTS);
         let merge = asperity_scene::text::quoted(folder.display().to_string());
         let again = format!("asperity sweep merge {merge} makes it again");
         let wrong = |reason: String| StudyError::folder(&path, format!("{reason}; {again}"));
@@ -214,12 +218,14 @@ impl Results {
         let found = sha256_of(&path).map_err(|error| StudyError::folder(&path, error))?;
         match recorded_hash(folder) {
             Some(recorded) if recorded == found => Ok(results),
-            Some(_) => {
-                Err(wrong(format!("this is not the table of the last merge, by its SHA-256 in {SIDECAR}")))
-            }
-            None => {
-                Err(wrong(format!("{SIDECAR}, which has the SHA-256 of this table, is missing or damaged")))
-            }
+            Some(_) => Err(wrong(format!(
+                "this is not the table of the last merge, by its SHA-256 in {}",
+                Merged::SIDECAR
+            ))),
+            None => Err(wrong(format!(
+                "{}, which has the SHA-256 of this table, is missing or damaged",
+                Merged::SIDECAR
+            ))),
         }
     }
 

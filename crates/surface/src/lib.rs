@@ -1,6 +1,19 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
+//! # Names by task
+//!
+//! * Reading: [`read`] and [`parse`] with [`ReadOptions`] return a [`Topography`]; [`Unit`], [`Cut`] and [`Detrend`] are
+//!   options, and [`Cropped`] says what was left out.
+//! * Analysis: [`analyse`] with [`AnalysisOptions`] returns an [`Analysis`]: [`PointStatistics`], [`LineMoments`] of one
+//!   [`Moment`] each, a [`SelfAffineFit`], each a [`ValueWithError`].
+//! * Profiles for the model: [`EquivalentLine`] of a measured surface, [`SelfAffine`] with its [`Amplitude`], [`Form`] and
+//!   [`FormTable`].
+//! * What is refused: [`SurfaceError`] at a [`Place`].
+//!
+//! The modules are for programs: [`lines`] on which a scene is computed, [`spectra`] for figures, and [`files`] for readers
+//! of other formats.
 
 mod error;
 mod line;

@@ -4,7 +4,7 @@ use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use asperity_report::Format;
 use asperity_scene::RoughnessParameter;
-use asperity_study::maps::{USUAL_LEVELS, boundaries};
+use asperity_study::maps::Boundaries;
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -43,7 +43,11 @@ fn level(text: &str) -> Result<f64, String> {
 
 pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
-    let levels = if arguments.levels.is_empty() { USUAL_LEVELS.to_vec() } else { arguments.levels.clone() };
-    let boundaries = boundaries(&arguments.folder, arguments.x, &levels)?;
+    let levels = if arguments.levels.is_empty() {
+        Boundaries::USUAL_LEVELS.to_vec()
+    } else {
+        arguments.levels.clone()
+    };
+    let boundaries = Boundaries::of(&arguments.folder, arguments.x, &levels)?;
     arguments.output.write(stdout, &boundaries, format, Origin::Files(&[]))
 }

@@ -2,7 +2,7 @@
 
 use crate::cli::error::CliError;
 use asperity_data::path_name;
-use asperity_study::folders::{Merged, RESULTS, SIDECAR, SUMMARY};
+use asperity_study::folders::Merged;
 use asperity_study::{Folder, merge as merge_records};
 use clap::Args;
 use std::io::Write;
@@ -34,7 +34,8 @@ pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Resul
 pub(super) fn write_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
     let Merged { records, failed, first_failed, total, duplicates, damaged, missing_cells, .. } = merged;
     let path = path_name(folder.path());
-    writeln!(stdout, "{records} of {total} records in {path}: {RESULTS}, {SUMMARY}, {SIDECAR}")?;
+    let files = [Merged::RESULTS, Merged::SUMMARY, Merged::SIDECAR].join(", ");
+    writeln!(stdout, "{records} of {total} records in {path}: {files}")?;
     for (count, what) in [
         (failed, "records cannot be computed; results.csv has the reasons"),
         (duplicates, "records were computed twice, with the same bits"),

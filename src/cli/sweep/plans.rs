@@ -4,7 +4,6 @@ use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
 use asperity_data::object;
 use asperity_report::Sheet;
-use asperity_study::plans::PLANS;
 use asperity_study::{Changes, Plan};
 use clap::Args;
 use std::io::Write;
@@ -29,7 +28,7 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
         return Ok(stdout.write_all(Plan::built_in(name)?.text.as_bytes())?);
     }
     let open = |name| -> Result<_, CliError> { Ok((name, Plan::open(name, &Changes::default())?)) };
-    let plans = PLANS.iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
+    let plans = Plan::BUILT_IN.iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
     let row = |(name, plan): &(&str, Plan)| {
         let size = format!("{} cells × {} profiles", plan.cells(), plan.lines);
         [(*name).to_owned(), size, plan.title.clone()]

@@ -17,7 +17,7 @@ use crate::explorer::typed;
 use asperity_contact::Move;
 use asperity_data::{exact_quantity, parse_quantity};
 use asperity_scene::fields::{Range, Step};
-use asperity_scene::loading::{kind_and_number, loading_text, pressing_force, read_stage};
+use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stage};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Adhesion, Document, RoughnessParameter, SceneErrors, Solver};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -217,9 +217,9 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
         return with_selected(app, &written.map_err(|error| format!("{error}; allowed: {}", allowed()))?);
     };
     let mut stages = document.stages();
-    let (kind, _) = kind_and_number(&stages[leg].1);
+    let (kind, _) = StageKind::of(&stages[leg].1);
     let stage = read_stage(typed, Some(kind)).map_err(|error| error.to_string())?;
-    match kind_and_number(&stage) {
+    match StageKind::of(&stage) {
         (same, Some(number)) if same == kind => with_selected(app, &ron_float(number)),
         _ => {
             stages[leg] = (None, stage);

@@ -7,7 +7,8 @@ use crate::explorer::keys::key::direction;
 use crate::explorer::map::OpenStudy;
 use asperity_scene::{Document, SceneErrors};
 use asperity_study::Axis;
-use asperity_study::maps::{GridPlace, live_plan, moved};
+use asperity_study::Plan;
+use asperity_study::maps::GridPlace;
 use crossterm::event::{KeyCode, KeyEvent};
 use std::sync::Arc;
 
@@ -62,7 +63,7 @@ pub fn step(app: &mut App, key: &KeyEvent) {
     let Some(((columns, rows), is_coarse)) = direction(key) else { return };
     let [columns, rows] = [columns, rows].map(|steps| steps * if is_coarse { LARGE_STEP } else { 1 });
     let Some((at_across, at_up)) = app.place() else {
-        let why = match live_plan(app.edit.document.scene()) {
+        let why = match Plan::of_map(app.edit.document.scene()) {
             Err(why) => why.to_owned(),
             Ok(_) if app.map.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "the scene is still being computed: its κ follows from its profile".to_owned(),
@@ -106,7 +107,7 @@ fn moved_to(app: &App, (to_across, to_up): GridPlace) -> Result<Document, SceneE
     let axes = app.map_axes();
     let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
     let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();
-    let moved = moved(&app.edit.document, &values)?;
+    let moved = Axis::set_all(&app.edit.document, &values)?;
     match app.map.shown_study() {
         Some(study)
             if study.study_map.is_of(study.slice, app.edit.document.scene())

@@ -6,7 +6,7 @@ use crate::explorer::parameters::Setting;
 use crate::explorer::player::{At, Player};
 use asperity_contact::Move;
 use asperity_data::round_to;
-use asperity_scene::loading::{STAGE_KINDS, StageKind, kind_and_number};
+use asperity_scene::loading::StageKind;
 use asperity_scene::{Document, SceneErrors};
 
 /// Loading stages; a stage of the present loading has its index in it.
@@ -91,10 +91,10 @@ pub fn change_kind(app: &mut App, forwards: bool) {
         (_, Some(end), _) if end.force.abs() > 1e-6 * pressing => end.force,
         _ => pressing,
     };
-    let (stages, count) = (app.edit.document.stages(), STAGE_KINDS.len());
-    let here = kind_and_number(&stages[at].1).0;
+    let (stages, count) = (app.edit.document.stages(), StageKind::ALL.len());
+    let here = StageKind::of(&stages[at].1).0;
     let changed = (1..count).map(|distance| {
-        let kind = &STAGE_KINDS[(here + if forwards { distance } else { count - distance }) % count];
+        let kind = &StageKind::ALL[(here + if forwards { distance } else { count - distance }) % count];
         let mut stages = stages.clone();
         stages[at] = (None, (kind.stage)(round_to(number(kind), 4)));
         app.edit.document.with_stages(&stages)

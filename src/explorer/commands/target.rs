@@ -10,7 +10,6 @@ use asperity_contact::Move;
 use asperity_data::parallel::threads;
 use asperity_report::found_in_words;
 use asperity_scene::text::ron_float;
-use asperity_study::plans::parse_condition;
 use asperity_study::{Ensemble, Found, Question};
 use std::sync::Arc;
 
@@ -68,7 +67,7 @@ fn key(app: &App, typed: &str) -> Option<String> {
 
 /// Finds the value for the typed target; `None` without a target that can be read.
 pub fn study(app: &App) -> Option<Study> {
-    let (key, condition) = (key(app, typed(app)?)?, parse_condition(typed(app)?).ok()?);
+    let (key, condition) = (key(app, typed(app)?)?, Question::parse_condition(typed(app)?).ok()?);
     let (scene, path) = (Arc::clone(&app.edit.scene), sought(app.edit.parameter()?)?.to_owned());
     Some(Study::new(key.clone(), false, move |simulation, stop, _| {
         let mut simulation = std::mem::take(simulation);
@@ -88,7 +87,7 @@ fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
 /// The answer in words, or what is missing; `None` without a question.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
-    Some(match (parse_condition(typed), found(app, typed)) {
+    Some(match (Question::parse_condition(typed), found(app, typed)) {
         (Err(why), _) => why,
         (Ok(_), None) => "finding the value on all profiles…".to_owned(),
         (Ok(_), Some(Ok(found))) => {
@@ -112,7 +111,7 @@ fn value(found: &Found) -> Option<f64> {
 
 /// Gives the selected row the found value; a preload goes to the stage that presses most.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
-    parse_condition(typed)?;
+    Question::parse_condition(typed)?;
     let found = found(app, typed).ok_or("the value is still being found")?.as_ref().map_err(Clone::clone)?;
     let (value, is_preload) =
         (value(found).ok_or_else(|| found_in_words(found))?, found.question.is_of_preload());

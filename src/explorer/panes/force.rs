@@ -8,13 +8,13 @@ use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning};
 use crate::explorer::text::counted;
 use crate::explorer::theme::Meaning;
-use asperity_contact::points::{Mark, marks};
+use asperity_contact::Mark;
 use asperity_contact::{CurvePoint, Direction};
 use asperity_data::{AxisScale, format_rounded, grouped};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
+use asperity_scene::Governing;
 use asperity_scene::text::quoted;
-use asperity_scene::theory::LEAST_TABOR_NUMBER;
 use asperity_study::half_space::SquareLoops;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -74,7 +74,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let (theme, units) = (app.view.appearance.theme, units(app));
     let (mut head, mut names) = (Vec::new(), Vec::new());
     if app.is_current() {
-        let mut marks = marks(app.legs());
+        let mut marks = Mark::all(app.legs());
         marks.retain(|(mark, _)| units.shows(*mark));
         // The most important first.
         marks.sort_by_key(|(mark, _)| {
@@ -160,8 +160,9 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
             Some(energy) => {
                 let number = app.solved.as_ref().and_then(|computed| computed.outcome.tabor_number);
                 let number = number.map_or_else(String::new, |number| {
-                    let is_low = number < LEAST_TABOR_NUMBER;
-                    let low = if is_low { format!(" < {LEAST_TABOR_NUMBER}") } else { String::new() };
+                    let is_low = number < Governing::LEAST_TABOR_NUMBER;
+                    let low =
+                        if is_low { format!(" < {}", Governing::LEAST_TABOR_NUMBER) } else { String::new() };
                     format!(", Tabor μ {}{low}", format_rounded(number, 3, "1"))
                 });
                 format!(" · ΔW {}{number}", format_rounded(energy, 3, "J"))
@@ -324,7 +325,7 @@ const PLACES: usize = 8;
 /// Points beside which the letter of a kept scene may stand: its marks, the pull-off first, and some of its curve.
 fn marked(ghost: &Ghost) -> Vec<CurvePoint> {
     let legs = &ghost.outcome.history.legs;
-    let mut marks = marks(legs);
+    let mut marks = Mark::all(legs);
     marks.retain(|(mark, _)| *mark != Mark::JumpOut);
     let curves = legs.iter().rev().map(|leg| &leg.curve);
     let some = curves.flat_map(|curve| curve.iter().step_by((curve.len() / PLACES).max(1)).copied());

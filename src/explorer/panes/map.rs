@@ -12,7 +12,8 @@ use asperity_data::grouped;
 use asperity_data::{format_range, format_rounded};
 use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use asperity_report::{study_curves, study_figure, study_map};
-use asperity_study::maps::{Grid, GridCell, GridPlace, LiveMap, MAP_LINES, live_plan};
+use asperity_study::Plan;
+use asperity_study::maps::{Grid, GridCell, GridPlace, LiveMap};
 use asperity_study::{Axis, Quantity, Statistics};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -129,7 +130,8 @@ fn title(app: &App) -> String {
             (format!("Study {}: {mapped}", study_map.name()), study_map.plan().lines)
         }
         None => {
-            let lines = app.studies.value::<Live>().map_or(MAP_LINES, |live| live.map.plan().lines);
+            let lines =
+                app.studies.value::<Live>().map_or(Plan::PROFILES_OF_MAP, |live| live.map.plan().lines);
             (format!("Map of {mapped}"), lines)
         }
     };
@@ -138,7 +140,7 @@ fn title(app: &App) -> String {
 }
 
 fn nothing_yet(app: &App) -> String {
-    if let Err(why) = live_plan(app.edit.document.scene()) {
+    if let Err(why) = Plan::of_map(app.edit.document.scene()) {
         return why.to_owned();
     }
     match app.studies.failure::<Live>() {

@@ -164,6 +164,7 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         let (stage, stages) = (app.progress.unwrap_or(0) + 1, app.edit.document.scene().loading.len());
         facts.push((format!("computing, stage {stage} of {stages}"), Meaning::Quiet));
     }
+    facts.extend(app.view.squares.then(|| squares(app)));
     if let Some(adhesion) = figures.adhesion_force.filter(|force| *force != 0.0) {
         let is_fixed = Ensemble::profiles_of(app.edit.document.scene()) == 1;
         let profiles = profiles(app, is_wide);
@@ -186,7 +187,6 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         };
         facts.push((format!("{}: residual {residual}", measured.name), Meaning::Title));
     }
-    facts.extend(app.view.squares.then(|| squares(app)));
     facts.extend(regime);
     if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
         let least = SteepWaves::LEAST_RATIO;

@@ -3,7 +3,8 @@
 use super::*;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::map::Live;
-use asperity::study::maps::{LiveMap, MAP_LINES, live_plan};
+use asperity::study::Plan;
+use asperity::study::maps::LiveMap;
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
 fn set(map: &mut LiveMap, cell: u64) {
@@ -16,7 +17,7 @@ fn set(map: &mut LiveMap, cell: u64) {
         2.0..12.0 => 1,
         _ => 2,
     };
-    for line in 0..MAP_LINES {
+    for line in 0..Plan::PROFILES_OF_MAP {
         // Of four profiles one is in another regime.
         let regime = if line == 3 { (regime + 1) % 3 } else { regime };
         let after_zero_force = if regime == 1 { 0 } else { regime };
@@ -31,7 +32,7 @@ pub fn mapped(document: Document) -> Driver {
     let mut driver = Driver::start(document);
     driver.press("Space");
     let scene = driver.document().scene();
-    if let Ok(plan) = live_plan(scene) {
+    if let Ok(plan) = Plan::of_map(scene) {
         let key = driver.app.map.key(scene).unwrap();
         let mut map = LiveMap::new(plan).unwrap();
         (0..map.plan().cells()).for_each(|cell| set(&mut map, cell));

@@ -1,7 +1,6 @@
 //! Plans of studies: read, written and read back.
 
 use super::*;
-use asperity::study::plans::{DERIVED, MOST_CELLS};
 use asperity::study::{Axis, Changes, Plan, Quantity};
 
 /// Name of a plan in messages.
@@ -22,7 +21,7 @@ fn numbers(path: &str) -> BoxedStrategy<f64> {
 fn axis() -> impl Strategy<Value = String> {
     let is_number = |field: &&Field| matches!(field.range, Range::Real(..) | Range::Whole(..));
     let mut paths: Vec<_> = FIELDS.iter().filter(is_number).map(|field| field.path).collect();
-    paths.extend(DERIVED);
+    paths.extend(Axis::DERIVED);
     paths.extend([
         "roughness.modes.1",
         "roughness.wavelengths.0",
@@ -86,7 +85,7 @@ fn assert_plan(text: &str) -> Result<bool, TestCaseError> {
     let read = Plan::parse(&written, NAME, &Changes::default()).ok();
     prop_assert_eq!(read.as_ref(), Some(&plan), "{}", written);
     prop_assert_eq!(plan.cells(), plan.axes.iter().map(Axis::count).product::<u64>());
-    prop_assert!((1..=MOST_CELLS).contains(&plan.cells()));
+    prop_assert!((1..=Plan::MOST_CELLS).contains(&plan.cells()));
     for cell in [0, plan.cells() / 2, plan.cells() - 1] {
         let values = plan.values(cell);
         let is_on_axes = values.iter().zip(&plan.axes).all(|(value, axis)| axis.values.contains(value));

@@ -1,7 +1,7 @@
 //! Studies of many shards: few files are open at a time, and each table is whole.
 
 use super::{SMALL, compute, computed, plan, shard_files, study, tables};
-use asperity::study::folders::{RESULTS, SIDECAR, SUMMARY, Status};
+use asperity::study::folders::{Merged, Status};
 use asperity::study::{Folder, Results, Shard, merge};
 use std::fs;
 use std::process::Command;
@@ -42,7 +42,7 @@ fn two_thousand_shards_are_merged_with_few_open_files() {
     scatter(&folder, 2000);
     assert_eq!(Status::of(&folder).unwrap().shards.len(), 2000);
     let path = folder.path().to_str().unwrap();
-    for name in [RESULTS, SUMMARY, SIDECAR] {
+    for name in [Merged::RESULTS, Merged::SUMMARY, Merged::SIDECAR] {
         fs::remove_file(folder.path().join(name)).unwrap();
     }
     for arguments in [["sweep", "merge", path], ["sweep", "status", path]] {
@@ -72,7 +72,7 @@ fn rows_that_no_merge_wrote_are_refused() {
     assert!(refusal().contains("has not been merged yet"), "{}", refusal());
     merge(&folder).unwrap();
     let [text, _] = tables(&folder);
-    let results = folder.path().join(RESULTS);
+    let results = folder.path().join(Merged::RESULTS);
     for (changed, expected) in [
         (text.replacen("\n0,0.5,", "\n0,0.6,", 1), "line 2 is not a row of this study"),
         (text.replacen("\n0,", "\n99,", 1), "line 2 is not a row of this study"),
@@ -87,9 +87,9 @@ fn rows_that_no_merge_wrote_are_refused() {
         assert!(refusal().contains(expected), "{expected}: {}", refusal());
     }
     fs::write(&results, &text).unwrap();
-    fs::rename(folder.path().join(SIDECAR), folder.path().join("aside")).unwrap();
+    fs::rename(folder.path().join(Merged::SIDECAR), folder.path().join("aside")).unwrap();
     assert!(refusal().contains("missing or damaged"), "{}", refusal());
-    fs::rename(folder.path().join("aside"), folder.path().join(SIDECAR)).unwrap();
+    fs::rename(folder.path().join("aside"), folder.path().join(Merged::SIDECAR)).unwrap();
     assert!(Results::open(folder.path()).is_ok());
     // A folder in place of a table is not removed.
     fs::remove_file(&results).unwrap();

@@ -3,11 +3,11 @@
 use crate::reference::{closed_form, smooth_adhesion_force};
 use crate::scene::checked::CheckedScene;
 use crate::scene::errors::SceneErrors;
+use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::{Scene, Solver};
 use crate::simulation::outcome::{Outcome, RunError};
-use crate::simulation::reversals::FEW_SAMPLES;
 use crate::simulation::stages::Simulation;
-use asperity_contact::points::{Branch, pull_off_point};
+use asperity_contact::Branch;
 use asperity_contact::{ContactError, Direction, History, LegRecord};
 use asperity_contact::{Edges, Move};
 use asperity_surface::Form;
@@ -20,7 +20,7 @@ pub(super) const FEWEST: u64 = 16;
 /// Factors between the loads of a scene and the loads around them.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of [`crate::accuracy::table::QUANTITIES`], in that order; `None` for a missing quantity.
+/// Relative errors or differences of [`crate::accuracy::table::CostTable::QUANTITIES`], in that order; `None` for a missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
 /// Forces, energy, contact length and force curve of one solution. A value of zero has no relative error and is left out.
@@ -226,7 +226,7 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         }
     };
     let legs = &outcome.history.legs;
-    pull_off_point(legs)?;
+    Branch::pull_off(legs)?;
     let pulled = &legs[Branch::last_unloading(legs)?.stages];
     let passes = pulled.first()?.start() >= pull_off && pulled.last()?.end_in_contact().is_none();
     // Lengths are sums with rounding errors.

@@ -10,9 +10,6 @@ use strum::IntoStaticStr;
 
 /// Number of finer solutions that must confirm an error.
 pub(super) const REFINEMENTS: usize = 2;
-/// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest contact
-/// length. The error of the curve is the mean difference of forces at equal indentations, divided by the largest force.
-pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
@@ -90,7 +87,7 @@ pub struct Row {
     pub seconds: Option<Timing>,
     /// Shortest time divided by the time of one Fourier transform, [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
-    /// Relative errors of the [`QUANTITIES`], in their order.
+    /// Relative errors of the [`CostTable::QUANTITIES`], in their order.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
 }
@@ -104,13 +101,13 @@ pub struct CostReference {
     pub adhesion_force: Option<f64>,
     /// True if a formula gives `adhesion_force`. The other quantities are always from the finest solution.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself, for the [`QUANTITIES`] in their order.
+    /// Estimated relative errors of the reference itself, for the [`CostTable::QUANTITIES`] in their order.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<f64>; 4],
 }
 
 fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(QUANTITIES.iter().zip(values))
+    serializer.collect_map(CostTable::QUANTITIES.iter().zip(values))
 }
 
 /// Errors and times of one scene with settings from coarse to fine.
@@ -132,6 +129,10 @@ pub struct CostTable {
 }
 
 impl CostTable {
+    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest contact
+    /// length. The error of the curve is the mean difference of forces at equal indentations, divided by the largest force.
+    pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
+
     /// Returns the rows of one setting, from coarse to fine.
     pub fn rows_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.knob == knob)

@@ -43,6 +43,9 @@ pub struct Governing {
 }
 
 impl Governing {
+    /// Tabor number below which the model overestimates the dissipated energy.
+    pub const LEAST_TABOR_NUMBER: f64 = 5.0;
+
     /// Derives the parameters of a checked scene. `unit` is the amplitude of its self-affine profile for an rms height of 1
     /// m, `measured` the amplitude of its measured surface.
     ///
@@ -137,6 +140,14 @@ impl Governing {
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
+
+    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the work of adhesion on opening γ. Returns `None`
+    /// without adhesion or without a radius of curvature ρ, as for cones.
+    pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
+        let (radius, work) = (curvature_radius(scene.form.as_ref(), self)?, self.adhesive_work()?);
+        let range = scene.adhesion?.attraction_range();
+        Some(tabor_number(radius, work, self.effective_modulus, range)).filter(|number| number.is_finite())
+    }
 }
 
 fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
@@ -150,20 +161,6 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
 /// small that the value overflows.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
     Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
-}
-
-/// Range of attraction z₀ in m of a scene that states none, which is an interatomic distance.
-pub const DEFAULT_RANGE: f64 = 0.3e-9;
-
-/// Tabor number below which the model overestimates the dissipated energy.
-pub const LEAST_TABOR_NUMBER: f64 = 5.0;
-
-/// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the work of adhesion on opening γ. Returns `None`
-/// without adhesion or without a radius of curvature ρ, as for cones.
-pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
-    let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
-    let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
-    Some(tabor_number(radius, work, governing.effective_modulus, range)).filter(|number| number.is_finite())
 }
 
 /// Returns the radius of curvature ρ of the summits in m; `None` for smooth flat bodies, cones and power laws.
@@ -294,7 +291,7 @@ mod tests {
     fn of(document: &Document) -> Option<f64> {
         let mut simulation = Simulation::default();
         let (_, _, governing) = simulation.make_line(document.scene()).unwrap();
-        scene_tabor_number(document.scene(), &governing)
+        governing.tabor_number(document.scene())
     }
 
     fn set(document: &Document, fields: &[(&str, &str)]) -> Document {
@@ -306,7 +303,7 @@ mod tests {
     #[test]
     fn quantities_follow_from_plain_numbers() {
         // π γ E* L³ = 750 π, and ρ γ²/(E*² z₀³) = 27.
-        let force = asperity_contact::closed_forms::ideal_adhesion_force(2.0, 3.0, 5.0);
+        let force = asperity_contact::ClosedForm::ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
         assert!((number - 3.0).abs() < 1e-14, "{number}");
@@ -346,7 +343,7 @@ mod tests {
                 .sum()
         };
         let curvature = height * (TAU / scene.length).powi(2) * (squares(4.0) / squares(0.0)).sqrt();
-        let expected = tabor_number(2.0 / curvature, 0.05, scene.material.effective_modulus(), DEFAULT_RANGE);
+        let expected = tabor_number(2.0 / curvature, 0.05, scene.material.effective_modulus(), 0.3e-9);
         assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);
         // A sphere with a radius far larger than that of the summits has almost no effect.
         let sphere = rough.set("form", "Paraboloid(radius: 10.0)").unwrap();

@@ -4,7 +4,7 @@
 //! maximum of d + F(d)/k reaches D. While D falls, it is the largest d at which the running minimum reaches D. Where dF/dd <
 //! −k, d + F(d)/k turns back, and the body jumps at constant D to the next d at which the instrument can hold it.
 
-use asperity_contact::points::{Branch, pull_off_point};
+use asperity_contact::Branch;
 use asperity_contact::{CurvePoint, Direction, Figures, History, LegRecord};
 
 /// A point of a force curve over the displacement of the instrument.
@@ -159,7 +159,8 @@ impl InstrumentFigures {
         };
         InstrumentFigures {
             stiffness,
-            pull_off_displacement: pull_off_point(legs).and_then(|_| smallest(Branch::last_unloading(legs)?)),
+            pull_off_displacement: Branch::pull_off(legs)
+                .and_then(|_| smallest(Branch::last_unloading(legs)?)),
             loop_area: figures
                 .dissipated_energy
                 .map(|energy| energy + legs.iter().map(|leg| leg.jump_energy).sum::<f64>()),

@@ -4,19 +4,6 @@ use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// A contact is pressure-insensitive if its adhesion force without a preload is at least this share of its adhesion force
-/// after the preload.
-pub const INSENSITIVE_SHARE: f64 = 0.5;
-
-/// Adhesion without a preload counts as vanished below this share of the adhesion force of the smooth body. This adhesion
-/// falls from one half to one twentieth while κ grows by a factor of about three, so the exact share hardly moves the
-/// boundary.
-pub const VANISHING_SHARE: f64 = 0.05;
-
-/// A contact is non-adhesive if its adhesion coefficient F_a/F_n is at most this number. The bodies then adhere with at most
-/// a hundredth of the force that pressed them together.
-pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
-
 /// Regime of adhesion of a loading (Fig. 4): how the adhesion depends on the preload.
 ///
 /// ```
@@ -41,6 +28,19 @@ pub enum Regime {
 }
 
 impl Regime {
+    /// A contact is pressure-insensitive if its adhesion force without a preload is at least this share of its adhesion force
+    /// after the preload.
+    pub const INSENSITIVE_SHARE: f64 = 0.5;
+
+    /// Adhesion without a preload counts as vanished below this share of the adhesion force of the smooth body. This
+    /// adhesion falls from one half to one twentieth while κ grows by a factor of about three, so the exact share hardly
+    /// moves the boundary.
+    pub const VANISHING_SHARE: f64 = 0.05;
+
+    /// A contact is non-adhesive if its adhesion coefficient F_a/F_n is at most this number. The bodies then adhere with at most
+    /// a hundredth of the force that pressed them together.
+    pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
+
     /// All regimes, in the order of decreasing adhesion.
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
@@ -51,9 +51,9 @@ impl Regime {
     /// is the adhesion force of the same body without roughness. Both forces are in N, and `None` without adhesion.
     ///
     /// F_a is the adhesion force after the preload F_n. The regime is pressure-insensitive if `turned` is at least
-    /// [`INSENSITIVE_SHARE`] of F_a and at least [`VANISHING_SHARE`] of `smooth`. Otherwise the regime is non-adhesive if
-    /// F_a/F_n is at most [`NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive if F_a is below
-    /// [`VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
+    /// [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the regime is non-adhesive if
+    /// F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive if F_a is below
+    /// [`Regime::VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
@@ -66,11 +66,11 @@ impl Regime {
     }
 
     fn of_forces(turned: f64, adhesion: f64, preload: f64, smooth: f64) -> Self {
-        let present = turned >= VANISHING_SHARE * smooth && turned > 0.0;
-        if present && turned >= INSENSITIVE_SHARE * adhesion {
+        let present = turned >= Regime::VANISHING_SHARE * smooth && turned > 0.0;
+        if present && turned >= Regime::INSENSITIVE_SHARE * adhesion {
             Regime::PressureInsensitive
-        } else if adhesion <= NEGLIGIBLE_COEFFICIENT * preload
-            || (preload <= 0.0 && adhesion < VANISHING_SHARE * smooth)
+        } else if adhesion <= Regime::NEGLIGIBLE_COEFFICIENT * preload
+            || (preload <= 0.0 && adhesion < Regime::VANISHING_SHARE * smooth)
         {
             Regime::NonAdhesive
         } else {
@@ -120,18 +120,18 @@ mod tests {
             (0.5, 1.0, 5.0, 1.0, insensitive),
             (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
             // A twentieth of the smooth body's adhesion exists; slightly less has vanished.
-            (VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
-            (VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0, sensitive),
+            (Regime::VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
+            (Regime::VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0, sensitive),
             (0.2, 0.1, 1.0, 4.0, insensitive),
             (0.19, 0.1, 1.0, 4.0, sensitive),
             (0.0, 0.0, 0.0, 0.0, non_adhesive),
             // A hundredth of the preload is negligible; slightly more is not.
-            (0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
-            (0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0, sensitive),
+            (0.0, Regime::NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
+            (0.0, Regime::NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0, sensitive),
             // Without a preload adhesion below a twentieth of the smooth body's is none; a twentieth is some.
-            (0.01, VANISHING_SHARE.next_down(), 0.0, 1.0, non_adhesive),
-            (0.01, VANISHING_SHARE.next_down(), -1.0, 1.0, non_adhesive),
-            (0.01, VANISHING_SHARE, 0.0, 1.0, sensitive),
+            (0.01, Regime::VANISHING_SHARE.next_down(), 0.0, 1.0, non_adhesive),
+            (0.01, Regime::VANISHING_SHARE.next_down(), -1.0, 1.0, non_adhesive),
+            (0.01, Regime::VANISHING_SHARE, 0.0, 1.0, sensitive),
             (0.3, 1.0, 0.0, 1.0, sensitive),
             (0.3, 1.0, -1.0, 1.0, sensitive),
         ] {

@@ -1,6 +1,7 @@
 //! Unloading curves from many turning points of one loading, and their Everett function.
 
 use asperity_contact::Reversal;
+use std::ops::RangeInclusive;
 
 /// Unloading curves from many turning points of one loading (first-order reversal curves), on a uniform grid of indentations.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,9 @@ pub struct ReversalMap {
 }
 
 impl ReversalMap {
+    /// Allowed numbers of turning points.
+    pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
+
     /// Returns the indentations of the turning points in m.
     pub fn turns(&self) -> &[f64] {
         &self.points[self.below..]

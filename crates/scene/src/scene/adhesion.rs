@@ -96,6 +96,11 @@ pub enum Strength {
 }
 
 impl Adhesion {
+    /// Range of the attraction z₀, m; 0.3 nm, an interatomic distance, if none is given.
+    pub fn attraction_range(&self) -> f64 {
+        self.range.unwrap_or(0.3e-9)
+    }
+
     /// Returns an adhesion with this work of adhesion in J/m².
     ///
     /// ```

@@ -5,7 +5,7 @@ use std::ops::Deref;
 
 use super::check::check;
 use super::errors::{MOST_LISTED, Origin, SceneError, SceneErrors};
-use super::model::{Observer, Scene};
+use super::model::{FEW_SAMPLES, Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
@@ -33,12 +33,12 @@ impl Scene {
 
 impl Scene {
     /// Removes what the forces and energies do not depend on: title, notes, recorded quantities, and points of the force
-    /// curve. At most `samples` points remain on each stage. Forces and energies do not depend on the number of points.
-    pub fn strip(&mut self, samples: u64) {
+    /// curve. Two points remain on each stage. Forces and energies do not depend on the number of points.
+    pub fn strip(&mut self) {
         self.title.clear();
         self.notice.clear();
         self.observe.clear();
-        self.numerics.samples = self.numerics.samples.min(samples);
+        self.numerics.samples = self.numerics.samples.min(FEW_SAMPLES);
     }
 }
 
@@ -85,9 +85,9 @@ impl CheckedScene {
     }
 
     /// Returns this scene without what its forces and energies do not need, as [`Scene::strip`] does.
-    pub fn stripped(&self, samples: u64) -> CheckedScene {
+    pub fn stripped(&self) -> CheckedScene {
         let mut scene = self.0.clone();
-        scene.strip(samples);
+        scene.strip();
         CheckedScene(scene)
     }
 

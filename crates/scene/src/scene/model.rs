@@ -13,6 +13,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
+/// Number of points of the force curve on a loading stage whose curve is not needed.
+pub const FEW_SAMPLES: u64 = 2;
 /// Recommended number of springs per shortest wave. With this number the adhesion force of a rough profile has an error of
 /// about one per cent with both edge models (docs/accuracy.md). A random profile needs at least two springs per wave, a wavy
 /// sphere four.

@@ -22,46 +22,50 @@ pub struct StageKind {
     pub stage: fn(f64) -> Move,
 }
 
-/// All kinds of loading stages, in the order in which a key changes them. In text, a force or an indentation is only a number
-/// with a unit. A displacement is in metres too, so its word precedes the number.
-pub const STAGE_KINDS: [StageKind; 6] = [
-    StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
-    StageKind {
-        example: "ToIndentation(1.0e-7)",
-        word: "indentation",
-        unit: "m",
-        stage: Move::ToIndentation,
-    },
-    StageKind {
-        example: "ToDisplacement(1.0e-7)",
-        word: "displacement",
-        unit: "m",
-        stage: Move::ToDisplacement,
-    },
-    StageKind { example: "ToTouch", word: "touch", unit: "", stage: |_| Move::ToTouch },
-    StageKind { example: "ToZeroForce", word: "zero force", unit: "", stage: |_| Move::ToZeroForce },
-    StageKind { example: "ToSeparation", word: "separation", unit: "", stage: |_| Move::ToSeparation },
-];
+impl StageKind {
+    /// All kinds of loading stages, in the order in which a key changes them. In text, a force or an indentation is only a number
+    /// with a unit. A displacement is in metres too, so its word precedes the number.
+    pub const ALL: [StageKind; 6] = [
+        StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
+        StageKind {
+            example: "ToIndentation(1.0e-7)",
+            word: "indentation",
+            unit: "m",
+            stage: Move::ToIndentation,
+        },
+        StageKind {
+            example: "ToDisplacement(1.0e-7)",
+            word: "displacement",
+            unit: "m",
+            stage: Move::ToDisplacement,
+        },
+        StageKind { example: "ToTouch", word: "touch", unit: "", stage: |_| Move::ToTouch },
+        StageKind { example: "ToZeroForce", word: "zero force", unit: "", stage: |_| Move::ToZeroForce },
+        StageKind { example: "ToSeparation", word: "separation", unit: "", stage: |_| Move::ToSeparation },
+    ];
+
+    /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the number that ends the stage, if it has one.
+    pub fn of(stage: &Move) -> (usize, Option<f64>) {
+        let is_same = |kind: &StageKind| discriminant(&(kind.stage)(0.0)) == discriminant(stage);
+        let number = match *stage {
+            Move::ToForce(number) | Move::ToIndentation(number) | Move::ToDisplacement(number) => {
+                Some(number)
+            }
+            Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
+        };
+        (StageKind::ALL.iter().position(is_same).unwrap_or_default(), number)
+    }
+}
 
 /// Examples of all kinds in RON.
-pub(super) const STAGES: [&str; STAGE_KINDS.len()] = {
-    let (mut examples, mut place) = ([""; STAGE_KINDS.len()], 0);
+pub(super) const STAGES: [&str; StageKind::ALL.len()] = {
+    let (mut examples, mut place) = ([""; StageKind::ALL.len()], 0);
     while place < examples.len() {
-        examples[place] = STAGE_KINDS[place].example;
+        examples[place] = StageKind::ALL[place].example;
         place += 1;
     }
     examples
 };
-
-/// Returns the index of the kind of a stage in [`STAGE_KINDS`], and the number that ends the stage, if it has one.
-pub fn kind_and_number(stage: &Move) -> (usize, Option<f64>) {
-    let is_same = |kind: &StageKind| discriminant(&(kind.stage)(0.0)) == discriminant(stage);
-    let number = match *stage {
-        Move::ToForce(number) | Move::ToIndentation(number) | Move::ToDisplacement(number) => Some(number),
-        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
-    };
-    (STAGE_KINDS.iter().position(is_same).unwrap_or_default(), number)
-}
 
 /// Returns the largest target force of the loading stages in N; 0 if no stage has a positive one.
 pub fn pressing_force(loading: &[Move]) -> f64 {
@@ -71,16 +75,16 @@ pub fn pressing_force(loading: &[Move]) -> f64 {
 
 /// Returns a loading stage in RON: `ToForce(1.0e-5)`.
 pub fn stage_in_ron(stage: &Move) -> String {
-    let (kind, number) = kind_and_number(stage);
+    let (kind, number) = StageKind::of(stage);
     let name = choice_name(STAGES[kind]);
     number.map_or_else(|| name.to_owned(), |number| format!("{name}({})", ron_float(number)))
 }
 
 /// Returns a loading stage as text, with its number in this format: `10 µN`, `touch`.
 fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
-    let (place, number) = kind_and_number(stage);
-    let StageKind { word, unit, .. } = STAGE_KINDS[place];
-    let is_first = STAGE_KINDS.iter().position(|kind| kind.unit == unit) == Some(place);
+    let (place, number) = StageKind::of(stage);
+    let StageKind { word, unit, .. } = StageKind::ALL[place];
+    let is_first = StageKind::ALL.iter().position(|kind| kind.unit == unit) == Some(place);
     match number.map(|number| format(number, unit)) {
         None => word.to_owned(),
         Some(number) if is_first => number,
@@ -144,7 +148,7 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 }
 
 /// Reads a loading stage as [`loading_text`] writes it. A number without a unit has the kind `usual`, an index in
-/// [`STAGE_KINDS`]; `None` is a force.
+/// [`StageKind::ALL`]; `None` is a force.
 ///
 /// # Errors
 /// Returns an error if the text is no stage.
@@ -160,7 +164,7 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityError> {
     let plain = text.replace(['(', ')'], " ");
     let plain = plain.trim();
-    for StageKind { example, word, unit, stage } in &STAGE_KINDS {
+    for StageKind { example, word, unit, stage } in &StageKind::ALL {
         let rest = [choice_name(example), word].into_iter().find_map(|name| plain.strip_prefix(name));
         match rest {
             Some("") if unit.is_empty() => return Ok(stage(0.0)),
@@ -168,8 +172,9 @@ pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityErro
             _ => {}
         }
     }
-    let of_unit = STAGE_KINDS.iter().filter(|kind| plain.ends_with(kind.unit));
-    let kinds = usual.map(|kind| &STAGE_KINDS[kind]).into_iter().chain(of_unit).chain(&STAGE_KINDS[..1]);
+    let of_unit = StageKind::ALL.iter().filter(|kind| plain.ends_with(kind.unit));
+    let kinds =
+        usual.map(|kind| &StageKind::ALL[kind]).into_iter().chain(of_unit).chain(&StageKind::ALL[..1]);
     let mut kinds = kinds.filter(|kind| !kind.unit.is_empty());
     let found = kinds.find_map(|kind| parse_quantity(plain, kind.unit).ok().map(kind.stage));
     found.ok_or_else(|| refused(text))
@@ -201,7 +206,7 @@ mod tests {
             (-30.0..30.0_f64, -1.0..1.0_f64).prop_map(|(power, digits)| digits * 10.0_f64.powf(power)),
         ];
         let stage =
-            (0..STAGE_KINDS.len(), number).prop_map(|(kind, number)| (STAGE_KINDS[kind].stage)(number));
+            (0..StageKind::ALL.len(), number).prop_map(|(kind, number)| (StageKind::ALL[kind].stage)(number));
         prop_oneof![
             4 => stage.clone().prop_map(|stage| vec![stage]),
             1 => (1..4_usize, stage.clone(), stage)

@@ -8,18 +8,14 @@ use super::stages::Simulation;
 use super::workload::Workload;
 use crate::analysis::reversal_map::ReversalMap;
 use crate::scene::checked::CheckedScene;
+use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::Move;
 use asperity_contact::motion::Body;
 use asperity_contact::{ContactError, Reversal};
-use std::ops::RangeInclusive;
 
-/// Allowed numbers of turning points of a [`ReversalMap`].
-pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
 /// Largest number of grid points below the first turning point of a map, for each turning point.
 const MOST_BELOW: usize = 4;
-/// Number of points of the force curve on a loading stage whose curve is not needed.
-pub const FEW_SAMPLES: u64 = 2;
 
 /// Function that receives each unloading with the index of its turning point.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
@@ -63,7 +59,7 @@ impl Simulation {
 
     /// Unloads a checked scene from `count` turning points, and returns the unloading curves (first-order reversal curves).
     /// The turning points are equally spaced between the indentations at two preloads in N. Without `preloads` the turning
-    /// points lie between first touch and the preload of the scene. A `count` outside [`TURNING_POINTS`] becomes the nearest
+    /// points lie between first touch and the preload of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest
     /// allowed number.
     ///
     /// # Errors
@@ -85,7 +81,7 @@ impl Simulation {
         stop: &dyn Fn() -> bool,
     ) -> Result<ReversalMap, RunError> {
         needs_exact_solver(scene)?;
-        let count = count.clamp(*TURNING_POINTS.start(), *TURNING_POINTS.end());
+        let count = count.clamp(*ReversalMap::TURNING_POINTS.start(), *ReversalMap::TURNING_POINTS.end());
         let scene = scene.with(|scene| scene.numerics.samples = FEW_SAMPLES)?;
         let ends = if let Some((from, to)) = preloads {
             [Move::ToForce(from), Move::ToForce(to)]

@@ -1,12 +1,12 @@
 //! F_smooth: the adhesion force of the body of a scene without its roughness.
 
 use super::outcome::RunError;
-use super::reversals::FEW_SAMPLES;
 use super::stages::Simulation;
 use super::stages::{SmoothProfile, profile_of};
 use crate::analysis::governing::Governing;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::checked::CheckedScene;
+use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::Scene;
 use asperity_contact::motion::Body;
 use asperity_contact::{Figures, Move, Profile, Reversal};

@@ -4,12 +4,12 @@ use super::outcome::{LineFacts, Outcome, RunError, Timings};
 use super::reach;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::workload::{Stage, Workload};
-use crate::analysis::governing::{Governing, SteepWaves, scene_tabor_number};
+use crate::analysis::governing::{Governing, SteepWaves};
 use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
-use asperity_contact::closed_forms::ideal_adhesion_force;
+use asperity_contact::ClosedForm;
 use asperity_contact::motion::{Body, ContactTree, Leg, MovingBody, Stepwise, load_body};
 use asperity_contact::{Contact, ContactError, Edges, Figures, History, LegRecord, Move, Patch, Profile};
 use asperity_data::{check_room, emptied};
@@ -367,11 +367,11 @@ impl Simulation {
         Ok(Outcome {
             line: facts,
             governing,
-            ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, length)),
+            ideal_adhesion_force: work.map(|work| ClosedForm::ideal_adhesion_force(work, modulus, length)),
             smooth_adhesion_force: smooth,
             first_touch_adhesion_force,
             zero_force_adhesion_force,
-            tabor_number: scene_tabor_number(scene, &governing),
+            tabor_number: governing.tabor_number(scene),
             steep_waves: SteepWaves::of(scene, &governing),
             regime: regime(first_touch_adhesion_force),
             regime_after_zero_force: regime(zero_force_adhesion_force),

@@ -1,7 +1,7 @@
 //! The force over the displacement of a compliant instrument, against a search and against closed forms.
 
 use super::body::{cases, end};
-use asperity_contact::closed_forms::ClosedForm;
+use asperity_contact::ClosedForm;
 use asperity_contact::motion::{Body, load_body};
 use asperity_contact::{Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile};
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};

@@ -2,7 +2,7 @@
 
 use super::case::Subject::Scene as OfScene;
 use super::case::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_errors};
-use asperity_contact::closed_forms::ClosedForm;
+use asperity_contact::ClosedForm;
 use asperity_scene::CheckedScene;
 use asperity_scene::theory::closed_form;
 use asperity_surface::Form;

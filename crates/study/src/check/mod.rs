@@ -27,6 +27,44 @@ pub struct Check {
     pub bound: f64,
 }
 
+impl Check {
+    /// The checks of the cases that `choose` selects, one for each model of the edges.
+    ///
+    /// ```
+    /// use asperity_study::checks::Check;
+    ///
+    /// let verdicts: Vec<_> = Check::of(|case| case.name == "jkr").into_iter().map(Check::judge).collect();
+    /// assert!(verdicts.iter().all(|verdict| verdict.passes()));
+    /// ```
+    pub fn of(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
+        let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
+        Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
+    }
+
+    /// Runs a check and measures its error.
+    pub fn judge(self) -> Verdict {
+        let (clock, edges) = (Instant::now(), self.edges);
+        let error = match self.case.subject {
+            Subject::Scene(text, measure) => scene(text, edges).and_then(|scene| measure(&scene)),
+            Subject::Bodies(measure) => {
+                largest((0..case::RANDOM).map(|seed| measure(&Body::random(seed, edges)?)))
+            }
+        };
+        Verdict {
+            check: self,
+            error: error.map_err(|error| error.to_string()),
+            seconds: clock.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+impl Case {
+    /// All cases of the catalogue in the order of display.
+    pub fn all() -> Vec<Case> {
+        [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
+    }
+}
+
 /// Result of a check.
 #[derive(Debug)]
 pub struct Verdict {
@@ -46,36 +84,6 @@ impl Verdict {
     }
 }
 
-/// Returns all cases of the catalogue in the order of display.
-pub fn catalogue() -> Vec<Case> {
-    [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
-}
-
-/// Returns the checks of the cases that `choose` selects, one for each model of the edges.
-///
-/// ```
-/// use asperity_study::checks::{checks, judge_case};
-///
-/// let verdicts: Vec<_> = checks(|case| case.name == "jkr").into_iter().map(judge_case).collect();
-/// assert!(verdicts.iter().all(|verdict| verdict.passes()));
-/// ```
-pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
-    let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
-    catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()
-}
-
-/// Runs a check and measures its error.
-pub fn judge_case(check: Check) -> Verdict {
-    let (clock, edges) = (Instant::now(), check.edges);
-    let error = match check.case.subject {
-        Subject::Scene(text, measure) => scene(text, edges).and_then(|scene| measure(&scene)),
-        Subject::Bodies(measure) => {
-            largest((0..case::RANDOM).map(|seed| measure(&Body::random(seed, edges)?)))
-        }
-    };
-    Verdict { check, error: error.map_err(|error| error.to_string()), seconds: clock.elapsed().as_secs_f64() }
-}
-
 fn scene(text: &str, edges: Edges) -> Measured<CheckedScene> {
     Ok(Document::parse(text, "check")?.scene().with(|scene| scene.numerics.edges = edges)?)
 }
@@ -86,23 +94,23 @@ mod tests {
 
     #[test]
     fn cases_have_names_of_their_own_and_sentences() {
-        let mut names: Vec<_> = catalogue().iter().map(|case| case.name).collect();
+        let mut names: Vec<_> = Case::all().iter().map(|case| case.name).collect();
         let count = names.len();
         names.sort_unstable();
         names.dedup();
         assert_eq!(names.len(), count);
-        for case in catalogue() {
+        for case in Case::all() {
             assert!(case.holds.ends_with('.') && !case.holds.contains("  "), "{}", case.holds);
             assert!(!case.bounds.is_empty(), "{}", case.name);
         }
-        assert!(checks(|_| true).iter().all(|check| check.bound >= 0.0));
+        assert!(Check::of(|_| true).iter().all(|check| check.bound >= 0.0));
     }
 
     #[test]
     fn an_error_above_the_bound_fails() {
-        let check = checks(|case| case.name == "hertz-sphere")[0];
-        assert!(judge_case(check).passes());
-        assert!(!judge_case(Check { bound: 1e-12, ..check }).passes());
+        let check = Check::of(|case| case.name == "hertz-sphere")[0];
+        assert!(Check::judge(check).passes());
+        assert!(!Check::judge(Check { bound: 1e-12, ..check }).passes());
         let nothing = Verdict { check, error: Ok(f64::NAN), seconds: 0.0 };
         assert!(!nothing.passes());
     }
