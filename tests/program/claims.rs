@@ -96,8 +96,8 @@ fn check_boundaries(folder: &Path) {
     assert_says(
         "docs/findings.md",
         &format!(
-            "F_a(F=0) falls to a tenth of F_a,max at e_el/γ = {low:.1} to {high:.1}, a factor of {:.1}. The other three \
-             boundaries extend over factors of {least:.1} to {most:.1} in e_el/γ",
+            "F_a(F=0) falls to a tenth of F_a,max at e_el/γ = {low:.1} to {high:.1}, a factor of {:.1}. For each of the \
+             other three columns the largest e_el/γ is {least:.1} to {most:.1} times the smallest",
             high / low
         ),
     );
@@ -192,13 +192,15 @@ fn check_claims(folder: &Path) {
         let at = |hurst: f64| [("roughness.hurst", hurst), ("adhesion.kappa", kappa), ("preload", preload)];
         HURST.map(|hurst| corner.value(coefficient, &at(hurst)))
     };
-    let (near, far) = (corner(12.5, 1.0), corner(25.0, 0.01));
-    assert!(near.is_sorted_by(|before, after| before > after) && far[1..].iter().all(|one| *one > far[0]));
-    let [near, far] = [near, far].map(|values| [values[0], values[4]].map(two_digits));
+    let (near, beyond) = (corner(12.5, 1.0), corner(25.0, 0.01));
+    assert!(
+        near.is_sorted_by(|before, after| before > after) && beyond[1..].iter().all(|one| *one > beyond[0])
+    );
+    let [near, beyond] = [near, beyond].map(|values| [values[0], values[4]].map(two_digits));
     let skewness = [10, 20].map(|exponent| format!("{:.2}", skewness(exponent)));
     assert_says(
         "docs/findings.md",
-        &format!("modes up to N/2, its root mean square stays {} for each N", skewness[0]),
+        &format!("modes up to N/2, the root mean square of the skewness stays {} for each N", skewness[0]),
     );
 
     assert!(range(&section.of_rows(share, &[])).0 > 0.0, "never zero");
@@ -276,7 +278,7 @@ fn check_claims(folder: &Path) {
             format!(
                 "at κ = 12.5 and F_n = E\\* h L, F_a/F_n falls with H, from {} for H = 0.1 to {} for H = 0.9; at κ = 25 and \
                  F_n = 0.01 E\\* h L, F_a/F_n is smallest for H = 0.1, {} against {} for H = 0.9: `figure-5b`",
-                near[0], near[1], far[0], far[1]
+                near[0], near[1], beyond[0], beyond[1]
             ),
         ),
     ];

@@ -316,7 +316,7 @@ impl Report for ReferenceReport<'_> {
 mod tests {
     use super::*;
     use asperity_scene::{Simulation, open};
-    use asperity_study::ReferenceOptions;
+    use asperity_study::half_space::ReferenceOptions;
 
     /// The figure has room for a curve and a band of each model.
     #[test]
