@@ -109,7 +109,7 @@ impl Loop {
             })?;
             let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
             let (stages, figures) = (outcome.history.legs.clone(), outcome.figures);
-            let (title, outcome) = (document.title().to_owned(), Some(Arc::new(outcome)));
+            let (title, outcome) = (scene.title.clone(), Some(Arc::new(outcome)));
             Ok(Loop { stages, figures, stiffness, title, outcome })
         })
     }
