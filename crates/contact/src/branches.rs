@@ -64,7 +64,7 @@ impl Branch {
     }
 
     /// Finds the preload, the point of the largest force on loading, and the index of its stage. Only the stages between the
-    /// last unloading and the separation before it count.
+    /// last unloading and the separation before this unloading count.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};

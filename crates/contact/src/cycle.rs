@@ -264,7 +264,7 @@ impl Cycle {
     }
 
     /// Returns the preload in N, the largest force on loading. Only the stages between the last unloading and the separation
-    /// before it count. Returns `None` if none of these stages loads the body in contact.
+    /// before this unloading count. Returns `None` if none of these stages loads the body in contact.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload

@@ -21,8 +21,8 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n in N, the largest force on loading. Only the stages between the last unloading and the separation before it
-    /// count. `None` if none of these stages loads the body in contact.
+    /// Preload F_n in N, the largest force on loading. Only the stages between the last unloading and the separation before
+    /// this unloading count. `None` if none of these stages loads the body in contact.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` without a preload.
     pub preload_indentation: Option<f64>,

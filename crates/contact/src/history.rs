@@ -189,10 +189,10 @@ pub struct Work {
     /// Number of events that were sorted by indentation to find extremes of the force. An event is an indentation at which
     /// springs attach or detach.
     pub events_sorted: u64,
-    /// Number of springs that attached during the loading history. Files call it `joins`.
+    /// Number of springs that attached during the loading history. In result files this field is `joins`.
     #[cfg_attr(feature = "serde", serde(rename = "joins"))]
     pub attached: u64,
-    /// Number of springs that detached during the loading history. Files call it `leaves`.
+    /// Number of springs that detached during the loading history. In result files this field is `leaves`.
     #[cfg_attr(feature = "serde", serde(rename = "leaves"))]
     pub detached: u64,
     /// Number of load steps of the [stepwise solver](crate::motion::Stepwise).

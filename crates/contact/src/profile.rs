@@ -9,8 +9,8 @@ use std::sync::{Arc, OnceLock};
 /// Largest number of points of a profile.
 const MOST_POINTS: usize = 1 << 28;
 
-/// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points. A peak, which touches first, has a
-/// large height.
+/// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points. Heights are positive towards the
+/// half-space, so the highest point touches first.
 ///
 /// N points at a spacing Δx cover the length N Δx, and each point lies in the middle of a cell of the width Δx. Clones of a
 /// profile share their memory. All contacts of a profile share its [contact trees](ContactTree), from which the exact solver

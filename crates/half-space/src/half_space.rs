@@ -8,7 +8,8 @@ use asperity_data::check_room;
 /// Largest number of cells along a side.
 const FINEST: usize = 8192;
 
-/// A rigid rough square above an elastic half-space. It consists of equal square cells, as many along each side.
+/// A rigid rough square above an elastic half-space. It is divided into equal square cells, with the same number of cells along
+/// each side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Square<'a> {
     /// Height of each cell in m, row by row. The highest cell touches first.

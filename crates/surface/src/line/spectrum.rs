@@ -15,8 +15,8 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, the shortest wave; at least `first`.
     pub last: u64,
-    /// Mode of the roll-off: the length L over the roll-off wavelength, above which the spectrum of the surface is flat. It
-    /// need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
+    /// Mode at the roll-off: the length L divided by the roll-off wavelength. For longer waves the spectrum of the surface is
+    /// flat. The value need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
     pub roll_off_mode: f64,
 }
 

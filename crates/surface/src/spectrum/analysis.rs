@@ -59,7 +59,7 @@ pub struct AnalysisOptions {
 pub struct Analysis {
     /// Statistics of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height of each surface in m.
+    /// Rms height of each surface in m, after removal of the polynomial.
     pub rms_heights: Vec<f64>,
     /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,

@@ -46,7 +46,7 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
 /// Whether a spectrum continues beyond the last resolved wave, the shortest wave that the measured points resolve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
-    /// The surface has no waves beyond the last resolved one.
+    /// The surface has no waves shorter than the last resolved one.
     #[default]
     Ends,
     /// Waves continue up to this wave number in rad/m. Their spectrum is the power law through the last two [nodes](Node).
@@ -72,8 +72,8 @@ pub struct Moment {
     pub error: f64,
     /// Standard error that results from the finite number of measured waves.
     pub statistical: f64,
-    /// Standard error of the method. One part is the difference between the moment of the fitted spectrum and the moment of the
-    /// measured powers. The other part is the error by interpolated points.
+    /// Standard error that results from the method of estimation. One part is the difference between the moment of the fitted
+    /// spectrum and the moment of the measured powers. The other part is the error by interpolated points.
     pub method: f64,
     /// Largest change of the value if the spectrum continues by a power law down to a quarter of the last resolved wavelength.
     /// These waves are missing in the value, and by aliasing they add to the power of longer waves. The change is zero with
