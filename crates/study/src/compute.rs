@@ -73,8 +73,8 @@ impl Streaks<'_> {
 }
 
 /// Computes a plan in memory: the recorded quantities of each [cell](Plan) on each random profile. If a cell cannot be computed
-/// on a profile, the reason is kept instead of values (see [`Results::failed`]). The progress that `control` reports is the
-/// number of computed pairs of cell and profile.
+/// on a profile, [`Results::failed`] has the reason. The progress that `control` reports is the number of computed pairs of
+/// cell and profile.
 ///
 /// # Errors
 /// Returns an error if a measured file cannot be read, if the memory does not suffice, if no thread is allowed or can be

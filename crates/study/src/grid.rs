@@ -118,7 +118,7 @@ impl Grid {
     }
 
     /// Returns the cell that is shown in a column and a row, with the column and the row to which its results belong. Until a
-    /// cell of a map is computed, a computed cell nearby is shown. `None` if there is none.
+    /// cell of a [`LiveMap`](crate::maps::LiveMap) is computed, a computed cell nearby is shown. `None` if there is none.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;

@@ -72,8 +72,8 @@ impl LiveMap {
         self.results.plan()
     }
 
-    /// Returns the numbers of the cells of a level, as they are counted in the plan. They are in groups, each with one value of
-    /// H and all values of κ or e_el/γ of the level.
+    /// Returns the numbers that the cells of a level have in the plan. The cells are in groups: each group has one value of H
+    /// and all values of κ or e_el/γ on this level.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));

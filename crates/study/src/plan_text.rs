@@ -131,7 +131,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Returns the built-in plan with this name as text.
+    /// Returns the text of the built-in plan with this name.
     ///
     /// # Errors
     /// Returns an error if there is no plan of this name. The error lists all names.

@@ -30,8 +30,8 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 const LONGEST: f64 = 86_400.0;
 
-/// Options of a [`Reference`]: numbers of random profiles and of random squares, and number of cells into which a square is
-/// divided.
+/// Options of a [`Reference`]: numbers of random profiles and of random squares, and number of cells along the side of a
+/// square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of cells along the side of a square, a power of two.
@@ -69,7 +69,7 @@ pub struct Compared {
     pub error: Option<f64>,
 }
 
-/// Contact without adhesion at one force, on the profiles and on the squares in three dimensions.
+/// Contacts of the profiles and of the squares without adhesion, at one force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
     /// Force, N.
@@ -82,8 +82,8 @@ pub struct Loaded {
     pub area: f64,
 }
 
-/// Comparison of one scene on random profiles and on random squares in three dimensions. A square is a rigid rough body of the
-/// side L on an elastic half-space.
+/// Comparison of the contact of a scene on random profiles with its contact on random squares in three dimensions. A square is
+/// a rigid rough body of the side L on an elastic half-space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Options of the comparison.
@@ -174,9 +174,9 @@ impl Reference {
         self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
     }
 
-    /// Compares a checked scene on random profiles and on random squares in three dimensions. `simulation` finds the measured
-    /// files of the scene. `jobs` threads share the profiles and then the squares. Only the computing times depend on the
-    /// number of threads. `report` receives each event.
+    /// Compares the contact of a checked scene on random profiles with its contact on random squares in three dimensions.
+    /// `simulation` finds the measured files of the scene. `jobs` threads share the profiles and then the squares. Only the
+    /// computing times depend on the number of threads. `report` receives each event.
     ///
     /// # Errors
     /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of cells is not

@@ -56,7 +56,7 @@ pub struct Sensitivity {
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
-    /// Share of its value by which each number is made smaller and larger.
+    /// Relative change by which each number is made smaller and larger. A whole number changes by at least 1.
     pub const STEP: f64 = 0.1;
 
     /// Quantities whose changes are computed: F_a, F_a(d=0) and the dissipated energy.

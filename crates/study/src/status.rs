@@ -40,7 +40,7 @@ pub struct ShardStatus {
     pub attempts: Vec<Attempt>,
 }
 
-/// Process that has worked on a shard, as its file shows.
+/// One process that has worked on a [`Shard`], as the file shows that it wrote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
     /// Name of the file that the process wrote.
