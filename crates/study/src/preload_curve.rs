@@ -84,7 +84,7 @@ impl PreloadCurve {
     ) -> Result<Self, StudyError> {
         if scene.numerics.solver != Solver::Exact {
             let found = "many preloads at once with the stepwise solver";
-            return Err(StudyError::refused(Some("numerics.solver"), found, "Exact"));
+            return Err(StudyError::refused(Some("numerics.solver"), found, "the exact solver"));
         }
         if scene.adhesion.is_none() {
             let found = "no adhesion, so nothing holds the bodies together";
