@@ -14,8 +14,8 @@ const HASH: &str = "sha256: ";
 const COMMAND: &str = "command: ";
 
 /// Returns the lines at the head of a table that say how to repeat it: version, command, measured files with their SHA-256, and
-/// scene. Names of files in the scene are relative to `folder`; the table will be in the folder `destination`. An error is returned if a file
-/// cannot be read.
+/// scene. Names of files in the scene are relative to `folder`; the table will be in the folder `destination`. An error is
+/// returned if a file cannot be read.
 pub fn scene_provenance(
     command: &str,
     scene: &Scene,
