@@ -74,8 +74,8 @@ impl MeasuredCurve {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
 
-    /// Reads a curve from the content of a file. `name` is the name of this file: by its extension an error message names a
-    /// binary format, which is refused.
+    /// Reads a curve from the content of a file. `name` is the name of this file. Binary formats are refused; the error says
+    /// which format it is, by the extension of `name`.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`MeasuredCurve::read`].

@@ -108,7 +108,7 @@ pub enum Reason {
          another form or profile."
     )]
     StiffnessOrForm,
-    /// The form or the profile of the scene is wrong.
+    /// The residuals have none of the other patterns, so that the form or the profile of the scene is likely to be wrong.
     #[error("Another form or profile than that of the scene is likely.")]
     Form,
 }

@@ -23,7 +23,7 @@ pub struct CurveRow {
     /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty without a fit.
     pub parameters: Vec<[f64; 3]>,
     /// Four numbers: the pull-off force in N, the work of adhesion in J/m² that a smooth sphere with this force has, the rms
-    /// residual divided by the noise, and the noise in N.
+    /// residual divided by the noise, and the noise in N. A number that is unknown is `None`.
     pub facts: [Option<f64>; 4],
     /// Number of points of the curve that are used; `None` without a fit.
     pub points: Option<u64>,

@@ -32,8 +32,8 @@ pub struct EnsembleFit {
     pub correlation: f64,
     /// How much each source contributes to the uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// Width of the interval of the work of adhesion that 16, 64 or 256 curves would give; only numbers above the present
-    /// one.
+    /// How narrow the interval of the work of adhesion would be with 16, 64 and 256 measured curves. Numbers up to that of the
+    /// present curves are left out.
     pub prospects: Vec<Prospect>,
     /// Changes of γ and E* with the rms height and the Hurst exponent of the scene; `None` for a measured roughness.
     pub roughness: Option<RoughnessShifts>,
@@ -55,7 +55,7 @@ pub struct EnsembleFit {
     /// Standard deviation of ln γ from single measured curves, divided by that from single random profiles. If E* is free,
     /// ln E* counts too. The ratio should be about 0.8 to 1.2; it is `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
-    /// True if random profiles describe the measured curves: no [`SummaryDeviation::deviates`].
+    /// True if random profiles describe the measured curves, so that [`SummaryDeviation::deviates`] is false for all summaries.
     pub described: bool,
     /// Differences between the measured curves and the random profiles, one for each number such as the pull-off force.
     pub deviations: Vec<SummaryDeviation>,
