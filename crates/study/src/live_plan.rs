@@ -36,14 +36,15 @@ fn kappas() -> Vec<f64> {
 }
 
 impl Plan {
-    /// Number of random profiles in each cell of a map.
+    /// Number of random profiles in each cell of a map of self-affine roughness. The map of a measured surface has one profile.
     pub const PROFILES_OF_MAP: u64 = 4;
 
-    /// Returns the plan of the map of a checked scene, over κ, and over the Hurst exponent H if the roughness has one. Scenes
-    /// that differ only in these numbers or in the number of curve points have the same map.
+    /// Returns the plan of the map of a checked scene, for a [`LiveMap`](crate::maps::LiveMap). One axis is κ, and a second
+    /// axis is the Hurst exponent H if the roughness has one. Scenes that differ only in κ, H or the number of curve points
+    /// have the same map.
     ///
     /// # Errors
-    /// The scene has no map, for the returned reason.
+    /// Returns the reason in words if the scene has no map, for example because it is smooth.
     ///
     /// ```
     /// use asperity_study::Plan;

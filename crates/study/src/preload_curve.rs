@@ -25,27 +25,30 @@ fn failed(error: RunError) -> StudyError {
     StudyError::Run { place: String::new(), error }
 }
 
-/// Adhesion forces of a scene for many preloads, as far as they are computed.
+/// Adhesion force of a scene as a function of the preload: on the scene's own profile with all steps, and on random profiles.
+/// The own profile is the one with the seed of the scene. A curve may be incomplete.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    /// Axis of the preloads, N.
+    /// Preloads of the random profiles in N, as an axis.
     pub axis: Axis,
-    /// Adhesion force of the scene's own profile against the preload, with each step.
+    /// Adhesion force of the scene's own profile as a function of the preload, with each step located.
     pub staircase: Staircase,
-    /// Results on random profiles at these preloads, beginning with the scene's own profile. A scene without random phases
-    /// has only this profile.
+    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own. If the profile of the scene
+    /// is fixed, it is the only one.
     pub results: Results,
 }
 
 impl PreloadCurve {
-    /// Number of random profiles of a curve.
+    /// Number of random profiles of a complete curve, with the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a computed scene, or the missing part of a curve that was begun. After each addition `report`
-    /// receives the curve.
+    /// Computes the curve of a scene from the scene and its outcome, over preloads on a linear or logarithmic scale. A curve
+    /// that was begun on the same scale is continued. Each time that a part is computed, `report` receives the curve so far.
     ///
     /// # Errors
-    /// The scene has no adhesion force over the preload, a profile or contact fails, or `stop` returned true.
+    /// Returns the reason in words if the scene has no adhesion or no stage that presses the bodies together, or if its solver
+    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned
+    /// true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
@@ -113,18 +116,18 @@ impl PreloadCurve {
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results: results? })
     }
 
-    /// Returns true if the curve is complete.
+    /// Returns true if the curve has all steps of the scene's own profile, and all random profiles.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
 
-    /// Returns the number of the computed profiles.
+    /// Returns the number of random profiles that are computed so far.
     pub fn profiles(&self) -> usize {
         self.results.records_of(0).count()
     }
 
-    /// Returns statistics of the adhesion force in N over the computed profiles; `None` for fewer than two profiles.
-    /// `preload` is a preload of the axis in N.
+    /// Returns the statistics of the adhesion force in N over the computed profiles after a preload in N. `None` if the preload
+    /// is not on the axis, or for fewer than two profiles.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         let spread = self.results.spread_of_adhesion().into_iter();
         let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();

@@ -46,16 +46,16 @@ fn axis_and_value(text: &str) -> Result<(String, String), String> {
     owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
 }
 
-/// Selected part of a study.
+/// Part of a study that a [`Selection`] has chosen for a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selected {
-    /// Cells of the selected part.
+    /// Cells of the chosen part, over one or two axes.
     pub grid: Grid,
-    /// Quantities of the figure.
+    /// Quantities of the figure, one for each panel.
     pub quantities: Vec<Quantity>,
-    /// True if each row of the grid is a curve over the horizontal axis; false for a map.
+    /// True if the figure has several curves over the horizontal axis, one for each row of the grid; false for a map.
     pub curves: bool,
-    /// Sentence that says which preload is shown, if the user selected none of several; otherwise `None`.
+    /// Sentence that names the preload of the figure, if the study has several and the user chose none; otherwise `None`.
     pub note: Option<String>,
 }
 
@@ -64,11 +64,11 @@ pub struct Selected {
 type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
 
 impl Selection {
-    /// Selects a part of a study.
+    /// Chooses the part of a study that these options describe.
     ///
     /// # Errors
-    /// The study lacks a quantity, an axis or a value; the error lists what it has. More than two axes are left without a
-    /// fixed value.
+    /// Returns an error if the study lacks a chosen quantity, axis or value. The error lists those that the study has. It is
+    /// also an error if more than two axes have no fixed value.
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;

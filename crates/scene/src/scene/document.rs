@@ -15,8 +15,9 @@ use super::tree::{Tree, in_ron, to_ron};
 use super::typed::{check_length, with_typed};
 use asperity_contact::Move;
 
-/// A checked scene with its text in RON, and with the overrides that have changed it. An override is the path of a field and
-/// its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it was.
+/// A checked scene with its text in RON (Rusty Object Notation), and with the overrides that have changed it. An override is
+/// the path of a field and its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it
+/// was.
 ///
 /// ```
 /// use asperity_scene::Document;
@@ -47,8 +48,8 @@ impl Document {
     /// Reads and checks the text of a scene. Errors state `name`, the name of a file or of a built-in scene.
     ///
     /// # Errors
-    /// Returns the first syntax error or all invalid values, each with line and column. If the version is not supported, this
-    /// is the only error.
+    /// Returns the first syntax error, or an error for each invalid value, with line and column. If the version of the file
+    /// is not supported, this is the only error.
     ///
     /// ```
     /// use asperity_scene::Document;
@@ -80,7 +81,7 @@ impl Document {
         })
     }
 
-    /// Creates a document with a new text for a scene that has none. The text is as [`to_ron`] writes it.
+    /// Creates a document for a scene that has no text. [`to_ron`] writes the text.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -104,7 +105,8 @@ impl Document {
     /// checked once, at the end, so values that are only allowed together may come in any order.
     ///
     /// # Errors
-    /// Returns all errors, each with the overrides that cause it.
+    /// Returns an error for each override that cannot be read and each value that is invalid, with the overrides that cause
+    /// it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let (mut new, mut errors) = (self.clone(), Vec::new());
         for (path, value) in overrides {
@@ -130,7 +132,7 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns the loading stages, each with its index in the loading.
+    /// Returns the loading stages, each with its index in the loading, as [`Document::with_stages`] takes them.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
     }
@@ -176,8 +178,8 @@ impl Document {
         })
     }
 
-    /// Returns the fields that this scene has or may have. Fields of variants that are not selected, such as other forms, are
-    /// left out.
+    /// Returns the fields that this scene has or may have. Fields of another choice, such as the angle of a cone in a scene
+    /// with a sphere, are left out.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -186,7 +188,7 @@ impl Document {
         field.variant.is_none() || field.variant == self.text.variant(field.parent())
     }
 
-    /// Returns the name of the file or of the built-in scene.
+    /// Returns the name of the file or of the built-in scene from which the document was read.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -197,8 +199,8 @@ impl Document {
         if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
     }
 
-    /// Returns the overrides since the text was opened. An override that a later one replaces is left out. If they are
-    /// applied to the opened text, the result is the scene of this document.
+    /// Returns the changes since the text was opened, each as the path of a field and its new value. A change that a later
+    /// one replaces is left out. Applied to [`Self::opened`], the changes give the scene of this document.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
@@ -208,13 +210,13 @@ impl Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// Returns the lines above the scene in the table of results from which the scene was read. Scenes from other sources
-    /// have no such lines.
+    /// Returns the lines above the scene in the file from which it was read, if the file is a table of results that repeats
+    /// its scene. For any other file the text is empty.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
 
-    /// Returns the number of comments in the text. A new value also removes the comments inside the old value.
+    /// Returns the number of comments in the text. [`Self::set`] keeps all comments except those inside the old value.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
@@ -230,18 +232,18 @@ impl Document {
         Document { opened, overrides, ..self }
     }
 
-    /// Returns the text that was opened.
+    /// Returns the text as it was when the document was opened.
     pub fn opened(&self) -> &str {
         &self.opened
     }
 
-    /// Returns true if the text differs from the opened one.
+    /// Returns true if the present text differs from [`Self::opened`].
     pub fn is_changed(&self) -> bool {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with new names of its measured files. If a name changes, the text is written anew, without
-    /// comments.
+    /// Returns this document with its measured files renamed by `rename`. If a name changes, the text is written anew,
+    /// without comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
