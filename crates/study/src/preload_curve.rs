@@ -87,7 +87,7 @@ impl PreloadCurve {
             return Err(StudyError::refused(Some("numerics.solver"), found, "the exact solver"));
         }
         if scene.adhesion.is_none() {
-            let found = "no adhesion, so nothing holds the bodies together";
+            let found = "without adhesion nothing holds the bodies together";
             return Err(StudyError::refused(Some("adhesion"), found, "a scene with adhesion"));
         }
         let Figures { preload, adhesion_force, .. } = outcome.figures;
