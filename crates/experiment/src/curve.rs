@@ -23,11 +23,12 @@ const NO_NOISE: f64 = 1e-6;
 /// sign of the file is in doubt.
 const PULLS: f64 = -5.0;
 
-/// Measured force curve in SI units: displacement of the instrument in m and force in N. The displacement grows on
-/// pressing, compression is positive, and the force is zero before contact.
+/// Measured force curve in SI units: displacement of the instrument in m and force in N. The displacement grows when the
+/// body is pressed on. The force is positive in compression, and zero before contact except for noise and drift.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// Displacement of the instrument at each point, in m.
+    /// Displacement of the drive of the instrument at each point, in m. It is the displacement of the body if the file has
+    /// only this one and no stiffness of the instrument is known.
     pub displacement: Vec<f64>,
     /// Force at each point, in N.
     pub force: Vec<f64>,
@@ -36,11 +37,11 @@ pub struct MeasuredCurve {
     pub segment: Vec<usize>,
     /// Number of points at the beginning of the curve that lie before contact.
     pub(crate) free: usize,
-    /// Estimated displacement at which the contact begins, in m.
+    /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Number of points of the file that are used.
+    /// Number of points of the file that are used. A point of a long curve is the mean of several of them.
     pub points: usize,
     /// Number of points of the file that are left out because a value is missing.
     pub missing: usize,
@@ -57,24 +58,27 @@ pub struct MeasuredCurve {
     pub(crate) stiffness: Option<(String, f64)>,
     /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
     pub(crate) of_body: Option<String>,
-    /// Sentences about the assumptions and changes made when the curve was read. The first sentence names columns, units
-    /// and points.
+    /// Sentences about the assumptions and changes made when the curve was read. The first sentence states the columns,
+    /// their units and the number of points that are used.
     pub statements: Vec<String>,
 }
 
 impl MeasuredCurve {
-    /// Reads a curve from a file of at most 1 GiB: text, CSV or a NumPy array, each also compressed by gzip.
+    /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be compressed by gzip.
     ///
     /// # Errors
-    /// The file cannot be read. The curve has no part before contact, no contact or no turning point.
+    /// Returns an error if the file cannot be read, or if it has no columns of displacement and force. It also returns an
+    /// error if the curve has no points without contact, no contact, or no retraction although [`CurveOptions::segments`]
+    /// is not 1 alone.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
 
-    /// Reads a curve from the content of a file. The name of the file identifies binary formats, which are refused.
+    /// Reads a curve from the content of a file. `name` is the name of this file. Binary formats are refused; the error says
+    /// which format it is, by the extension of `name`.
     ///
     /// # Errors
-    /// The same as the errors of [`MeasuredCurve::read`].
+    /// Returns an error in the same cases as [`MeasuredCurve::read`].
     ///
     /// ```
     /// use asperity_experiment::{CurveOptions, MeasuredCurve};
@@ -93,10 +97,10 @@ impl MeasuredCurve {
     }
 
     /// Makes a curve from displacements in m and forces in N, in the order of time. A point with a value that is not finite
-    /// is left out. Options that describe a file have no effect: columns, units and the travel of the piezo.
+    /// is left out. The options `columns`, `units` and `ramp` have no effect, because they describe a file.
     ///
     /// # Errors
-    /// The slices differ in length. The errors of [`MeasuredCurve::read`] are possible too.
+    /// Returns an error if the slices differ in length, or if [`MeasuredCurve::read`] would refuse a file with this curve.
     ///
     /// ```
     /// use asperity_experiment::{CurveOptions, MeasuredCurve};
@@ -119,7 +123,7 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
     }
 
-    /// Returns true if the file has columns of displacement and force. The curve may still be unfit for use.
+    /// Returns true if the file has columns of displacement and force. [`MeasuredCurve::read`] may still refuse the curve.
     pub fn is_in(path: &Path) -> bool {
         let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
@@ -221,8 +225,8 @@ impl MeasuredCurve {
         self.displacement.iter().copied().zip(self.force.iter().copied())
     }
 
-    /// Returns the largest tension of the retractions in N, as a positive number; `None` if it is at most 5 times the
-    /// noise.
+    /// Returns the largest tensile force on the body during the retractions in N, as a positive number. Returns `None` if
+    /// it is at most 5 times the [`Self::noise`].
     pub fn pull_off_force(&self) -> Option<f64> {
         let pulled = self.force.iter().zip(&self.segment).filter(|(_, segment)| *segment % 2 == 1);
         let force = -ends(pulled.map(|(force, _)| *force)).0;

@@ -9,15 +9,15 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
-    /// The file cannot be read as a curve.
+    /// The file cannot be read, or its content is no table with the columns of a curve.
     #[error(transparent)]
     File(#[from] SurfaceError),
-    /// The curve or the scene cannot be fitted.
+    /// The curve, the scene or an option does not allow the reading or the fit.
     #[error("{found}; allowed: {allowed}")]
     Refused {
-        /// The curve, option or scene that was found, in words.
+        /// What was found in the curve, the scene or the options, in words.
         found: String,
-        /// What is allowed instead, with the option that helps.
+        /// What is allowed instead, in words, with the option of the command line that helps.
         allowed: String,
     },
     /// A computation failed or was stopped.

@@ -26,7 +26,8 @@ const ENOUGH: usize = 400;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Fit of a scene, with its free parameters, to a measured curve.
+/// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing its computed force with a
+/// [`MeasuredCurve`].
 ///
 /// ```
 /// use asperity_data::Control;
@@ -55,33 +56,37 @@ pub struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// Makes a fit of a scene without free parameters.
+    /// Makes a fit of a scene. It has no free parameters until [`Fit::free`] adds them.
     pub fn of(document: &'a Document) -> Self {
         Fit { document, free: Vec::new() }
     }
 
-    /// Adds a free parameter, which is searched in its own range if it comes from [`Free::within`].
+    /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare [`Parameter`] the fit chooses
+    /// the range.
     #[must_use]
     pub fn free(mut self, free: impl Into<Free>) -> Self {
         self.free.push(free.into());
         self
     }
 
-    /// Fits the free parameters to a curve on one thread. The reported progress is the number of curves computed so far.
+    /// Fits the free parameters to a curve on one thread. Through `control` the caller stops the fit, and learns the number
+    /// of force curves computed so far.
     ///
-    /// The search is a sequential Monte Carlo method. A population of parameter sets is drawn over the ranges, evenly in
-    /// the logarithms of most parameters. The assumed noise starts large, so that jumps count little, and is lowered to the
-    /// noise of the curve. At each step likely sets are copied, unlikely sets are dropped, and all sets are moved. A point
-    /// on the wrong side of a jump counts by the logarithm of its residual.
+    /// The search is a sequential Monte Carlo method. Many sets of parameter values are drawn over the ranges, for most
+    /// parameters evenly in their logarithm. The likelihood of a set assumes a noise that is first large, so that jumps of
+    /// the force count little, and is lowered in steps to the noise of the curve. At each step likely sets are copied,
+    /// unlikely sets are dropped, and all sets are changed at random. A residual (measured minus computed force) above 5
+    /// times the noise counts by its logarithm, because the point is on the wrong side of a jump.
     ///
-    /// Each model comes with its own estimate of zero, drift and tilt of the force. Another population is drawn if the
-    /// residual remains above the noise, and the better population is kept. If the residuals are more than noise, each
-    /// segment is divided into four parts. The errors then come from the scatter of the values as the weights of the parts
-    /// change (jackknife).
+    /// Zero, drift and tilt of the force that were subtracted on reading are estimated anew for each set. If the residuals
+    /// remain larger than the noise, the search is repeated with other sets, and the better result is kept. If they are
+    /// still larger, each segment is divided into four parts. The error of a parameter is then the scatter of its value as
+    /// the weights of the parts change (jackknife).
     ///
     /// # Errors
-    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. The curve is unsuitable, a
-    /// computation fails, or the fit is stopped.
+    /// Returns an error if no parameter is free, if one is given twice, or if the scene lacks one, such as the radius. It
+    /// also returns an error if `numerics.solver` of the scene is `Stepwise`, if the curve turns before contact, if a
+    /// computation fails, or if `control` stops the fit.
     pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
         find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))

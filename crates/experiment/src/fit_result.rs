@@ -11,18 +11,19 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct FittedParameter {
-    /// Fitted parameter of the scene or of the curve.
+    /// Which parameter of the scene or of the curve was fitted.
     #[serde(skip)]
     pub parameter: Parameter,
-    /// Value of the parameter at which the residuals are smallest.
+    /// Value of the parameter in the set of values that describes the curve best.
     pub value: f64,
     /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, the interval is the whole
-    /// range of the search, except for a parameter that may be negative.
+    /// [`Self::range`], except for the offset and the zero.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
-    /// Standard error due to the noise, or from the scatter between parts of the curve if this error is larger.
+    /// Standard error of the value: the error due to noise, or the error from the scatter between parts of the curve (see
+    /// [`Fit::run`](crate::Fit::run)), whichever is larger.
     pub noise_error: f64,
-    /// Value at which the search began.
+    /// Value before the fit: an estimate from the curve, or the value in the scene.
     pub start: f64,
     /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
@@ -36,51 +37,56 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// Writes a value of the parameter with its unit. The interval determines the digits, unless it is the whole range.
+    /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower the [`Self::interval`],
+    /// the more digits the text has; they are not limited if the interval is the whole range.
     pub fn text(&self, value: f64) -> String {
         let half = 0.5 * (self.interval.1 - self.interval.0);
         format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
     }
 }
 
-/// Result of a fit.
+/// Result of [`Fit::run`](crate::Fit::run). A residual is the measured force minus the computed force at a point.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct FitResult {
     /// Free parameters of the fit with their errors.
     #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
-    /// Root mean square residual of all points, in N.
+    /// Root mean square of the residuals of all points, in N.
     pub residual: f64,
-    /// Root mean square residual of all points divided by the noise.
+    /// [`Self::residual`] divided by the noise of the curve.
     pub residual_over_noise: f64,
     /// Share of the points whose residual exceeds 5 times the noise.
     pub beyond_five_sigma: f64,
-    /// Root mean square residual of the points in contact divided by the noise. Points inside a jump of the model count as
-    /// described. A single point with a large residual counts as 5 times the root mean square.
+    /// Root mean square of the residuals divided by the noise, over the points after the part before contact. A force
+    /// between both ends of a computed jump beside it counts as no residual. A residual above 5 times this root mean square
+    /// counts as 5 times it.
     pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion, J/m²; `None` if a scene without adhesion describes the curve less
-    /// well.
+    /// Upper bound of the work of adhesion, J/m², if a scene without adhesion describes the curve as well; otherwise
+    /// `None`. It is the upper end of the 95 % interval.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values; `None` if the scene has none.
+    /// Tabor number of the scene with the fitted values; `None` without adhesion or without a radius of curvature, as for a
+    /// cone.
     pub tabor: Option<f64>,
     /// Reason why the model does not describe the curve; `None` if the model does.
     pub reason: Option<Reason>,
-    /// Correlation of the errors of each pair of parameters.
+    /// Each pair of free parameters with the correlation of their errors, from −1 to 1.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs of parameters that the curve cannot separate. A pair of the same parameter twice means that the curve does not
-    /// determine this parameter.
+    /// Pairs of parameters that the curve cannot separate. A pair of one parameter with itself means that the curve does
+    /// not determine this parameter.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Sentences about what the fit took from the file of the curve and did not search.
+    /// Sentences about values that the fit took from the file or the points of the curve and did not search.
     #[serde(skip)]
     pub assumptions: Vec<String>,
-    /// Number of curves that the fit computed.
+    /// Number of force curves that the fit computed.
     pub evaluations: usize,
-    /// Force of the model at each point in N. It includes the zero, drift and tilt of the curve, which the fit refines.
+    /// Computed force at each point of the curve in N, to compare with
+    /// [`MeasuredCurve::force`](crate::MeasuredCurve::force). The zero, drift and tilt that the fit estimates anew are
+    /// added.
     #[serde(skip)]
     pub model: Vec<f64>,
-    /// Scene with the fitted values, loaded as the body was in the measurement.
+    /// Scene with the fitted values, and with the turning points of the measured curve as its loading.
     #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
 }
@@ -94,13 +100,13 @@ fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, 
 }
 
 impl FitResult {
-    /// Returns true if the model describes the curve.
+    /// Returns true if [`Self::misfit`] is at most 1.5: the model then describes the curve.
     pub fn describes(&self) -> bool {
         self.misfit <= MISFIT
     }
 
-    /// Returns true if the model does not describe the curve and the profile of the scene is random. The specimen then has
-    /// another profile, and the fitted values are meaningless.
+    /// Returns true if the model does not describe the curve and the profile of the scene is random. The cause is then
+    /// another profile of the specimen, and the fitted values are meaningless.
     pub fn has_other_profile(&self) -> bool {
         !self.describes() && self.document.scene().seed().is_some()
     }

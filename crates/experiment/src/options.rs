@@ -5,7 +5,7 @@ use asperity_scene::text::quoted;
 use std::fmt;
 use std::str::FromStr;
 
-/// Quantities whose sign is reversed so that pressing is positive.
+/// Quantities whose signs are reversed on reading, so that the displacement grows on pressing and compression is positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
@@ -20,15 +20,15 @@ pub enum Negate {
     Both,
 }
 
-/// Treatment of a drift of the force. A drift is a straight line over time, which is the number of the point.
+/// Treatment of a drift of the force. A drift is a straight line over time; the number of a point serves as its time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drift {
-    /// Keeps the drift in the curve.
+    /// Subtracts no drift from the force.
     #[default]
     Keep,
-    /// Removes the straight line through the points without contact.
+    /// Subtracts the straight line over time that fits the force at the points without contact best.
     Remove,
-    /// Removes a drift of this size in N from the first to the last point.
+    /// Subtracts a straight line over time. It rises from the first to the last point by this force in N.
     Known(f64),
 }
 
@@ -37,10 +37,10 @@ pub enum Drift {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Tilt {
-    /// Keeps the tilt in the curve.
+    /// Subtracts no tilt from the force.
     #[default]
     Keep,
-    /// Removes the straight line through the points without contact.
+    /// Subtracts the straight line over the displacement that fits the force at the points without contact best.
     Remove,
 }
 
@@ -73,7 +73,8 @@ fn positive_length(text: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err("allowed: a length above 0, such as 500nm".to_owned()) }
 }
 
-/// Options for reading and preparing a curve. The program determines from the curve what the options leave open.
+/// Options with which a [`MeasuredCurve`](crate::MeasuredCurve) is read. What they leave open is taken from the file or
+/// found from its numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
@@ -95,7 +96,8 @@ pub struct CurveOptions {
     pub units: Vec<String>,
     /// Travel of the piezo for a file with one column of forces: 500nm
     ///
-    /// The forces are evenly spaced over it, there and back. Default: the travel in the file.
+    /// The forces are taken as evenly spaced over this travel, first on the approach, then
+    /// back. Default: the travel in the file.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
     /// Segments that are used: 2 is the retraction without the approach
@@ -115,7 +117,7 @@ pub struct CurveOptions {
     /// Measured force taken as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
-    /// Drift over time: keep (default), remove, or a force over the curve
+    /// Drift over time: keep (default), remove, or the change of force over the curve
     #[cfg_attr(
         feature = "clap",
         arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
@@ -127,14 +129,14 @@ pub struct CurveOptions {
         arg(long, default_value = "keep", hide_default_value = true, hide_possible_values = true)
     )]
     pub tilt: Tilt,
-    /// Standard deviation of the force; default: the one before contact
+    /// Standard deviation of the noise of the force; default: that before contact
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument in N/m, as the scene states it. It serves to convert a displacement of the body to the
-    /// displacement of the instrument.
+    /// Stiffness of the instrument in N/m, as the scene states it; `None` for the stiffness in the file. It is needed only
+    /// if the file has the displacement of the body, to convert it to the displacement of the instrument.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
     /// Number of points before contact; default: found from the force

@@ -6,23 +6,23 @@ use asperity_scene::text::did_you_mean;
 use serde::{Serialize, Serializer};
 use std::str::FromStr;
 
-/// Parameter that a fit can find.
+/// Parameter of a scene or of a measured curve that a [`Fit`](crate::Fit) can find.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Parameter {
     /// Work of adhesion γ, J/m².
     Work,
-    /// Work of adhesion on closing γ₁, J/m².
+    /// Work of adhesion on closing γ₁, J/m²: the energy per area gained where the contact grows.
     ClosingWork,
     /// Effective modulus E*, Pa.
     Modulus,
-    /// Measured displacement at first touch, m.
+    /// Displacement of the instrument at first touch as the curve counts it, D₀, m.
     Offset,
-    /// Measured force without contact, N.
+    /// Force that the curve has before contact, F₀, N.
     Zero,
     /// Stiffness of the instrument, N/m.
     Stiffness,
-    /// Radius of the form, m.
+    /// Radius R of the form of the scene, such as a sphere, m.
     Radius,
 }
 
@@ -35,12 +35,12 @@ impl Serialize for Parameter {
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
 pub(crate) type Values = [f64; 7];
 
-/// Names, symbol and SI unit of a parameter.
+/// Names, symbol and SI unit of a [`Parameter`].
 #[derive(Clone, Copy, Debug)]
 pub struct ParameterRow {
-    /// Name on the command line and in JSON.
+    /// Name on the command line and in JSON, such as `closing_work`.
     pub name: &'static str,
-    /// Name in words.
+    /// Name in words, such as `work of adhesion on closing`.
     pub term: &'static str,
     /// Symbol, such as `γ`.
     pub symbol: &'static str,
@@ -107,8 +107,8 @@ impl Parameter {
         format!("two values{above}, the first below the second")
     }
 
-    /// Returns the measurement that would separate two parameters that a curve cannot separate. For the same parameter
-    /// twice, returns the measurement that would determine it.
+    /// Returns in words a measurement that would separate two parameters which a curve alone cannot separate. If both are
+    /// the same parameter, it is a measurement that would determine this parameter.
     ///
     /// ```
     /// use asperity_experiment::Parameter;
@@ -138,7 +138,7 @@ impl Parameter {
     }
 }
 
-/// Free parameter of a fit, with its range if one is given.
+/// Parameter that a fit searches, with the range of the search if one is given. Its text is a name, or `NAME=LOW..HIGH`.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};
@@ -150,17 +150,19 @@ impl Parameter {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
-    /// Parameter that is free.
+    /// Parameter that is searched.
     pub parameter: Parameter,
     /// Lower and upper end of the range in SI units; `None` for a range around the start.
     pub(crate) range: Option<(f64, f64)>,
 }
 
 impl Free {
-    /// Makes a free parameter that is searched between both values, in the SI unit of the parameter.
+    /// Makes a free parameter with a given range of the search: its lower and its upper end in the SI unit of the
+    /// parameter.
     ///
     /// # Errors
-    /// The first value is not below the second, a value is not finite, or the parameter does not allow the range.
+    /// Returns an error if the first value is not below the second, or a value is not finite. Only `Offset` and `Zero`
+    /// allow negative values, and besides them only a work of adhesion allows 0.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range) {
             return Ok(Free { parameter, range: Some(range) });

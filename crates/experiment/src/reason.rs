@@ -36,43 +36,43 @@ const LEAPS: f64 = 0.02;
 /// Residual in units of the median above which residuals are cut off. Such points are on the wrong side of a jump.
 const CUT: f64 = 5.0;
 
-/// Reason why a model does not describe a curve.
+/// Reason why a model does not describe a measured curve. The text of a reason is a sentence with the option that helps.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact fills the whole profile, whose length is given in m.
+    /// The contact reaches the ends of the profile, so that the scene needs a larger length. The value is its length in m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
-    /// At most this number of springs is in contact.
+    /// Too few springs are ever in contact: at most this number. The profile needs more springs or a smaller length.
     #[error(
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]
     CoarseProfile(u64),
-    /// The force jumps by this value in N between two points, but the scene assumes a rigid instrument.
+    /// The measured force jumps by this value in N between two points, but the scene has a rigid instrument.
     #[error(
         "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
         format_quantity(*.0, "N")
     )]
     Rigid(f64),
-    /// The force without contact changes over time.
+    /// The measured force without contact changes along a straight line over time.
     #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
     Drift,
-    /// The force without contact changes with the displacement.
+    /// The measured force without contact changes along a straight line over the displacement.
     #[error("The force has a slope over the displacement where nothing touches: --tilt remove takes it off.")]
     Tilt,
-    /// The force without contact changes over time and with the displacement.
+    /// The measured force without contact changes over time and also over the displacement.
     #[error(
         "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
     )]
     DriftAndTilt,
-    /// The forces before and after contact differ by this value in N.
+    /// The measured forces before and after contact differ by this value in N, as by drag of a fluid.
     #[error(
         "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
          alone.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
-    /// The attraction has a long range. The value is the Tabor number.
+    /// The attraction reaches too far for the rule of Hess. The value is the Tabor number, which is below 5.
     #[error(
         "The Tabor number is {}, below {}: attraction of this range is not that of Johnson, Kendall and \
          Roberts.",
@@ -86,26 +86,29 @@ pub enum Reason {
          many of them."
     )]
     OtherProfile,
-    /// Approach and retraction differ because of viscoelasticity or two works of adhesion.
+    /// Approach and retraction differ more than in an elastic contact. The material is viscoelastic, or the work of
+    /// adhesion is smaller on closing than on opening.
     #[error(
         "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
          closing. --free {} tries the second, --segments 2 fits the retraction alone.",
         Parameter::ClosingWork.name()
     )]
     Branches,
-    /// The force rises with this slope in N/m, which is larger than the stiffness of the instrument in the scene.
+    /// The measured force rises over the displacement with this slope in N/m. No contact allows a larger slope than the
+    /// stiffness of the instrument, so that the stiffness in the scene is too small.
     #[error(
         "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
         format_quantity(*.0, "N/m")
     )]
     Stiffness(f64),
-    /// Approach and retraction deviate in the same way. The stiffness of the instrument, the form or the profile is wrong.
+    /// The measured force deviates from the model on approach and retraction in the same way. The stiffness of the
+    /// instrument, the form or the profile of the scene is wrong.
     #[error(
         "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
          another form or profile."
     )]
     StiffnessOrForm,
-    /// The form or the profile of the scene is wrong.
+    /// The residuals have none of the other patterns, so that the form or the profile of the scene is likely to be wrong.
     #[error("Another form or profile than that of the scene is likely.")]
     Form,
 }

@@ -82,12 +82,13 @@ pub(crate) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// Returns the scene file with the stiffness of the instrument that the file of the curve states, if the scene states
-    /// none. If the measured displacement excludes the deflection of the instrument, a stiffness in the scene is removed.
-    /// The second value says in words what the file of the curve changes.
+    /// Returns the scene with a loading stiffness that suits the measured curve. A scene without `loading_stiffness` gets
+    /// the stiffness that the file of the curve states. If the measured displacement is that of the body, the
+    /// `loading_stiffness` of the scene is removed. The second value is a sentence for the user on such a change, or on a
+    /// file and a scene that state different stiffnesses.
     ///
     /// # Errors
-    /// The scene does not allow this stiffness.
+    /// Returns an error if the scene does not allow this stiffness.
     pub fn with_instrument(&self, document: &Document) -> Result<(Document, Option<String>), SceneErrors> {
         let of_scene = document.scene().loading_stiffness;
         let newtons = |stiffness: f64| format_quantity(stiffness, "N/m");
@@ -120,11 +121,11 @@ impl MeasuredCurve {
         })
     }
 
-    /// Returns the scene file with the loading of the measured curve and its instrument. `offset` is the measured
-    /// displacement in m at which the bodies first touch.
+    /// Returns the scene with two fields taken from the measured curve: the loading, and the stiffness of the instrument as
+    /// in [`Self::with_instrument`]. `offset` is the measured displacement in m at which the bodies first touch.
     ///
     /// # Errors
-    /// The scene does not allow this loading.
+    /// Returns an error if the scene does not allow this loading or this stiffness.
     pub fn load(&self, document: &Document, offset: f64) -> Result<Document, SceneErrors> {
         self.with_instrument(document)?.0.set_all(&[self.loading(offset)])
     }

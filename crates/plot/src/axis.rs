@@ -8,23 +8,23 @@ use asperity_data::AxisScale;
 /// Smallest and largest value of the largest number on a linear axis for which the numbers at the ticks have few digits.
 const SHORT: (f64, f64) = (1e-3, 1e6);
 
-/// Axis of a chart: its scale, its range and its quantity.
+/// Axis of a chart: the quantity it shows, its scale, and the range of its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartAxis {
     /// Scale of the axis, linear or logarithmic.
     pub scale: AxisScale,
-    /// Range of coordinates along the axis. The coordinate of a number is the number itself, or its decadic logarithm on a
-    /// logarithmic axis.
+    /// Range of coordinates that the axis shows. The coordinate of a number is the number itself, or on a logarithmic axis its
+    /// decadic logarithm.
     pub span: Span,
     /// Name of the quantity in words; may be empty.
     pub name: String,
     /// Symbol of the quantity, such as `F_n`; may be empty.
     pub symbol: String,
-    /// SI unit; `1` or empty for plain numbers.
+    /// SI unit of the quantity without a prefix; `1` or empty for plain numbers.
     pub unit: String,
-    /// Names at the coordinates 0, 1, … in place of numbers; empty for an axis with numbers.
+    /// Names that the axis has at the coordinates 0, 1, 2, … in place of numbers; empty for an axis with numbers.
     pub names: Vec<Label>,
-    /// True if the numbers count things. Such an axis has no ticks between whole numbers.
+    /// True if the quantity is a count, so that the axis has ticks only at whole numbers.
     pub counts: bool,
 }
 
@@ -35,8 +35,8 @@ impl ChartAxis {
         ChartAxis { scale, span, name, symbol, unit, names: Vec::new(), counts: false }
     }
 
-    /// Creates an axis with names in place of numbers. The first name is at the coordinate 0, and each is in the middle of
-    /// a range of width 1.
+    /// Creates a linear axis with names in place of numbers. The first name is at the coordinate 0, the next at 1, and so on;
+    /// each is in the middle of a range of width 1.
     pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
         ChartAxis { names, ..ChartAxis::new(AxisScale::Linear, span, "", "", "") }
@@ -48,9 +48,9 @@ impl ChartAxis {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Returns the divisor of the numbers on the axis, and the unit with the corresponding SI prefix, such as 1e-6 and
-    /// `µN`. If the numbers of a linear axis would still have too many digits, the divisor is a power of ten, which
-    /// precedes the unit. A logarithmic axis with powers of ten has the divisor 1.
+    /// Returns the divisor of the numbers at the ticks and the unit that they then have, such as 1e-6 and `µN`. If no SI prefix
+    /// makes the numbers of a linear axis short, the divisor is a power of ten, which the unit then begins with. If the ticks of
+    /// a logarithmic axis are powers of ten, the divisor is 1.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
@@ -76,7 +76,7 @@ impl ChartAxis {
         ChartAxis { span, symbol: format!("{}/{symbol}", self.symbol), unit: "1".to_owned(), ..self.clone() }
     }
 
-    /// Returns the label of the axis: name and symbol, with the prefixed unit in brackets.
+    /// Returns the label of the axis: name and symbol, then in brackets the unit of [`Self::prefix`].
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -96,7 +96,8 @@ impl ChartAxis {
         if label.width() <= most { label } else { self.symbol_with_unit() }
     }
 
-    /// Returns the symbol, or the name of a quantity without a symbol, with the prefixed unit in brackets.
+    /// Returns a short label of the axis: the symbol, or the name of a quantity without a symbol, then in brackets the unit of
+    /// [`Self::prefix`].
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
     }
@@ -113,8 +114,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns ticks along the axis, about `most` of them labelled. At least two are labelled if the range contains two
-    /// round numbers.
+    /// Returns the ticks of the axis: about `most` with a number, and minor ticks between them. At least two have a number if
+    /// the range contains two round numbers. An axis with names has a tick at each name.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };

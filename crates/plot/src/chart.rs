@@ -7,28 +7,29 @@ use super::label::Label;
 use super::scale::Span;
 use asperity_data::AxisScale;
 
-/// Charts in rows under one title, with one legend.
+/// Picture with one title, one or more charts in rows, and one legend for all charts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// Title of the figure; may be empty.
     pub title: String,
     /// Lines of text below the title.
     pub notes: Vec<Label>,
-    /// Charts of the figure, side by side or below each other.
+    /// Charts of the figure, which are placed in rows from left to right.
     pub charts: Vec<Chart>,
-    /// Width and height of the frame of each chart in px (1/96 inch). Only the ratio counts in a figure with a given width.
+    /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given, only the ratio of both
+    /// counts.
     pub size: (f64, f64),
-    /// Origin of the figure for the metadata of an SVG document: version, command and scene.
+    /// Lines that say how to repeat the figure: version, command and scene. Only an SVG document contains them, as metadata.
     pub origin: String,
-    /// Lines of text in a box below the legend.
+    /// Lines of text in a box below the legend, such as the numbers of the scene.
     pub parameters: Vec<Label>,
-    /// Width of the picture in px (1/96 inch); `None` for the width that its frames need. Letters and lines keep their
-    /// size.
+    /// Width of the picture in px (1/96 inch), to which the frames are fitted while letters and lines keep their size. `None`
+    /// for the width that frames of this [`Self::size`] need.
     pub width: Option<f64>,
-    /// Height of the picture in px (1/96 inch); `None` for the height that its frames need. With a given width the picture
-    /// is at most as high as a page.
+    /// Height of the picture in px (1/96 inch); `None` for the height that its frames need, which for a given width is at most
+    /// that of a page.
     pub height: Option<f64>,
-    /// True if the picture is drawn without its title, because a caption has it.
+    /// True if the picture is drawn without its title, for use with a caption that has the title.
     pub untitled: bool,
 }
 
@@ -40,7 +41,7 @@ impl Figure {
     /// Width and height of the frame of a chart over the position along the profile, in px.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
-    /// Creates a figure of one chart.
+    /// Creates a figure of one chart with this title.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -62,7 +63,8 @@ impl Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }
 
-    /// Creates a figure of the charts of several figures, whose titles and notes become headings of the charts.
+    /// Creates a figure without a title from the charts of several figures. Title and notes of each figure become part of the
+    /// headings of its charts.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
@@ -76,11 +78,12 @@ impl Figure {
         Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
-    /// Keeps the charts with the given letters, such as `ac`, in this order. The charts of the result have new letters from
-    /// `a` on.
+    /// Keeps the charts with these letters, in the order of `letters`, such as `ac` for the first and the third chart. The kept
+    /// charts are lettered anew from `a` on.
     ///
     /// # Errors
-    /// A letter belongs to no chart, or no letter is given. The error is the text of all letters of the figure.
+    /// Returns an error if a letter belongs to no chart, or if no letter is given. The text of the error consists of the letters
+    /// that the charts have.
     pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
         let panel =
             |letter: char| (letter as usize).checked_sub('a' as usize).and_then(|at| self.charts.get(at));
@@ -98,13 +101,14 @@ impl Figure {
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend. Each name occurs once, with samples of all layers of this name.
+    /// Returns the entries of the legend. Layers of the same name share one entry, which shows the line, area or sign of each of
+    /// these layers in its colour.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
 }
 
-/// Chart with two axes and layers of data.
+/// Chart with two axes and layers of data, such as curves or a heat map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// Heading of the chart, shown in figures of several charts; may be empty.
@@ -118,12 +122,12 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Creates a chart of layers over two axes.
+    /// Creates a chart of layers over two axes, without a heading.
     pub fn new(x: ChartAxis, y: ChartAxis, layers: Vec<Layer>) -> Chart {
         Chart { heading: Label::default(), x, y, layers }
     }
 
-    /// Removes the name of each axis that has a symbol.
+    /// Removes the name of each axis that has a symbol, so that the symbol alone labels the axis.
     pub fn with_symbols(mut self) -> Chart {
         for axis in [&mut self.x, &mut self.y].into_iter().filter(|axis| !axis.symbol.is_empty()) {
             axis.name.clear();
@@ -131,7 +135,8 @@ impl Chart {
         self
     }
 
-    /// Divides the numbers on the axes by units, each given with its symbol; `None` leaves an axis as it is.
+    /// Divides the chart by a unit along each axis: the numbers on the axis and those of the layers, except heat maps. A unit is
+    /// given with its symbol; `None` leaves an axis as it is.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
             *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
@@ -164,7 +169,7 @@ impl Chart {
         self
     }
 
-    /// Returns the first heat map of the chart.
+    /// Returns the first heat map of the chart; `None` for a chart without one.
     pub fn map(&self) -> Option<&HeatMap> {
         self.layers.iter().find_map(|layer| match &layer.shape {
             Shape::Map(map) => Some(map.as_ref()),
@@ -172,7 +177,7 @@ impl Chart {
         })
     }
 
-    /// Returns the first heat map of the chart, so that it can be changed.
+    /// Returns the first heat map of the chart, so that the caller can change it; `None` for a chart without one.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
         self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
             Shape::Map(map) => Some(map.as_mut()),
@@ -181,12 +186,12 @@ impl Chart {
     }
 }
 
-/// Data of one kind with an entry in the legend. Layers of the same name share an entry.
+/// One set of data in a chart, such as a curve, with its name in the legend. Layers of the same name share an entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Name in the legend. A layer with an empty name has no entry.
     pub name: Label,
-    /// Ink of the layer, which decides on its colour.
+    /// Ink of the layer: what the data are, from which each output chooses the colour.
     pub ink: Ink,
     /// Shape of the data.
     pub shape: Shape,
@@ -203,7 +208,8 @@ impl Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
 
-    /// Returns the points of a curve, or both ends of each column of an envelope; empty for other shapes.
+    /// Returns the points (x, y) of a curve. For an envelope these are the lowest and the highest point of each column; other
+    /// shapes have no points.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -230,8 +236,8 @@ impl Layer {
     }
 }
 
-/// Shape of the data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or a
-/// band.
+/// Shape of the data of a layer. All numbers are numbers on the axes of the chart. A point that has no place on an axis, such as
+/// 0 on a logarithmic one, interrupts a curve or a band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Line through points, signs at the points, or both.
@@ -243,22 +249,24 @@ pub enum Shape {
         /// Sign at each point; `None` for no signs.
         sign: Option<Sign>,
     },
-    /// Area between two curves, as points (x, lower y, upper y). An end beyond the axis is drawn at the end of the axis.
+    /// Area between two curves, as points (x, lower y, upper y). If the lower or upper y is beyond the axis, the area ends at
+    /// the end of the axis.
     Band(Vec<(f64, f64, f64)>),
-    /// Line with more points than a picture resolves, as the lowest and the highest y in columns of equal width.
+    /// Line with more points than a picture resolves. Its range of x is divided into columns of equal width, and only the lowest
+    /// and the highest y of each column are kept.
     Envelope {
-        /// Left edge of the first column and right edge of the last column, in x.
+        /// The x of the left edge of the first column, and of the right edge of the last column.
         x: (f64, f64),
         /// Lowest and highest y of each column; `None` where the line is interrupted.
         columns: Vec<Option<(f64, f64)>>,
     },
     /// Area inside a closed line through these points.
     Inside(Vec<(f64, f64)>),
-    /// Filled rectangles, each as its two ends in x and its two ends in y.
+    /// Filled rectangles, each as (smallest x, largest x) and (smallest y, largest y).
     Boxes(Vec<((f64, f64), (f64, f64))>),
-    /// Vertical line across the chart at this x.
+    /// Vertical line at this x from the lower to the upper end of the chart.
     Upright(f64),
-    /// Horizontal line across the chart at this y.
+    /// Horizontal line at this y from the left to the right end of the chart.
     Level(f64),
     /// Heat map with one coloured cell for each pair of values of the axes.
     Map(Box<HeatMap>),
@@ -302,36 +310,37 @@ pub enum Sign {
     Cross,
     /// Open diamond.
     HollowDiamond,
-    /// Smallest mark of the output, which is a single Braille dot in a terminal. Thousands of these marks leave the lines
-    /// above them legible.
+    /// Smallest mark that an output has, in a terminal a single Braille dot. Lines drawn over thousands of these marks remain
+    /// legible.
     Point,
 }
 
 impl Sign {
-    /// Returns the sign of a curve among several, by the number of the curve from 0.
+    /// Returns the sign for one of several curves, which are numbered from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
 }
 
-/// Heat map: values on a grid, with the scale of their colours.
+/// Heat map: values on a grid over two axes, shown by colours, with the scale of these colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// Values of the horizontal axis at the columns, ascending.
+    /// Number on the horizontal axis of each column of cells, ascending.
     pub columns: Vec<f64>,
-    /// Values of the vertical axis at the rows, ascending.
+    /// Number on the vertical axis of each row of cells, ascending.
     pub rows: Vec<f64>,
     /// Values of the cells, row by row from the lower left; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
-    /// Axis of the colour scale, with the quantity and the range of the values.
+    /// Axis of the colour scale: the quantity that the colours show, and the range of its values.
     pub key: ChartAxis,
     /// Colours of the values, from low to high.
     pub shades: Shades,
-    /// Class of each cell as an index into `class_names`; empty if the values have no classes.
+    /// Class of each cell as an index of [`Self::class_names`], in the order of [`Self::values`]. `None` for a cell without a
+    /// class; empty for a map without classes.
     pub classes: Vec<Option<usize>>,
-    /// Names and signs of the classes; empty for a quantity with continuous values.
+    /// Classes that cells can have, such as regimes of adhesion; empty for a map without classes.
     pub class_names: Vec<Class>,
-    /// Line on which another quantity on the same grid has a given value; `None` for no line.
+    /// Line on the map along which another quantity has a given value; `None` for no line.
     pub contour: Option<Contour>,
 }
 
@@ -340,7 +349,7 @@ pub struct HeatMap {
 pub struct Class {
     /// Sign of the class in an SVG, PNG or PDF figure.
     pub sign: Sign,
-    /// Letter of the class in wide cells of a terminal; `None` if the colour shows the class.
+    /// Letter that marks the class in a terminal if map cells are wide enough; `None` if the colour already shows the class.
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,
@@ -348,30 +357,31 @@ pub struct Class {
     pub ink: Ink,
 }
 
-/// Line in a heat map on which another quantity has a given value.
+/// Line in a heat map along which a quantity other than that of the colours has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Values of this quantity, in the order of [`HeatMap::values`].
+    /// Values of this other quantity in the cells, in the order of [`HeatMap::values`].
     pub field: Vec<Option<f64>>,
-    /// Value of this quantity along the line, in its unit.
+    /// Value that this other quantity has along the line, in its unit.
     pub level: f64,
     /// Name of the line in the legend.
     pub name: Label,
 }
 
 impl HeatMap {
-    /// Returns the colour of a value.
+    /// Returns the colour that the colour scale gives to a value.
     pub fn colour(&self, value: f64) -> Rgb {
         self.shades.at(self.key.share(value))
     }
 
-    /// Returns the number of the band of colours to which a value belongs; see [`Shades::of_band`].
+    /// Returns the band of equal colour to which a value belongs, for [`Shades::of_band`]: 0 for the lowest values, up to
+    /// [`Shades::BANDS`] − 1.
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the borders of the cells around these values of an axis, as coordinates. Inner borders are halfway between
-    /// neighbouring values.
+    /// Returns the borders of the map cells around these values of an axis, one more than there are values. They are
+    /// coordinates, for which see [`ChartAxis::span`]. Inner borders are halfway between the coordinates of neighbouring values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
@@ -383,23 +393,27 @@ impl HeatMap {
         [vec![before], between, vec![after]].concat()
     }
 
-    /// Returns the range of coordinates of an axis that has a cell around each of these values.
+    /// Returns the range of coordinates of an axis with a map cell around each of these values: from the first border to the
+    /// last.
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
         Span { low: borders[0], high: borders[borders.len() - 1] }
     }
 }
 
+/// Entry of a legend: a name, with the line, area or sign of each layer of this name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
+    /// Name of the layers.
     pub name: Label,
-    /// Samples of all layers of this name; several if the layers have different colours.
+    /// What the legend shows before the name, with its ink; several if the layers look different.
     pub samples: Vec<(Ink, Sample)>,
 }
 
+/// What a legend shows before a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
-    /// A line with a sign on it.
+    /// Line, sign, or a line with a sign on it.
     Line(Option<Stroke>, Option<Sign>),
     /// A filled transparent area.
     Area,
@@ -414,7 +428,8 @@ pub enum Sample {
 }
 
 impl Entry {
-    /// Returns the entries for the layers of charts. Each name occurs once, in the order of drawing, with areas last.
+    /// Returns the legend entries for the layers of charts. Each name has one entry. Entries have the order in which the layers
+    /// are drawn, but areas come last.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         let mut add = |name: &Label, ink: Ink, sample: Sample| {

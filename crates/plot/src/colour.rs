@@ -15,21 +15,21 @@ const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     found
 }
 
-/// Colours of a figure or a picture of the screen.
+/// Colours of a figure, or of a screenshot as in [`screen_svg`](crate::screen_svg).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
     /// Colour of text and frames.
     pub foreground: Rgb,
-    /// Colour behind everything.
+    /// Colour of the paper or the screen.
     pub background: Rgb,
-    /// Sixteen colours in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, grey, and their bright
-    /// variants.
+    /// The sixteen colours of a terminal in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, grey, then the
+    /// bright variant of each.
     pub ansi: [Rgb; 16],
 }
 
 impl Palette {
-    /// Light colours on dark. Red, green, blue and magenta also differ in lightness, for readers with red-green colour
-    /// blindness.
+    /// Light colours on a dark background. Red, green, blue and magenta also differ in lightness, for readers with red-green
+    /// colour blindness.
     pub const DARK: Palette = Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
@@ -39,7 +39,7 @@ impl Palette {
         ]),
     };
 
-    /// Dark colours on light, otherwise as [`Palette::DARK`].
+    /// Dark colours on a white background, which differ in lightness as those of [`Palette::DARK`].
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -50,12 +50,12 @@ impl Palette {
     };
 }
 
-/// Meaning of a colour. Each output format assigns the colour itself.
+/// What the coloured thing is, such as the loading. Each output format chooses the colour for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
     Text,
-    /// Lines and other marks in the background.
+    /// Lines and marks in the background, such as a line at zero.
     Quiet,
     /// Rough profile.
     Profile,
@@ -67,20 +67,20 @@ pub enum Ink {
     Loading,
     /// Unloading stages.
     Unloading,
-    /// Loading that the user moves by hand.
+    /// Force curve along which the user moves the body by hand, in the explorer.
     Manual,
-    /// Curve in the background, kept while another curve is shown.
+    /// Earlier curve that stays in the background while a new one is shown.
     Kept,
     /// One of several curves that are kept for comparison, by its number from 0.
     Compared(usize),
-    /// State of the contact at the cursor.
+    /// State of the contact that the user selected with the cursor.
     Cursor,
-    /// One of several curves, by its number from 0.
+    /// One of several curves in a figure, by its number from 0.
     Series(usize),
 }
 
 impl Ink {
-    /// Returns the colour of the ink in a figure on white paper.
+    /// Returns the colour of the ink in a figure on white.
     pub fn on_paper(self) -> Rgb {
         let Palette { foreground, ansi, .. } = Palette::LIGHT;
         match self {
@@ -98,7 +98,7 @@ impl Ink {
     }
 }
 
-/// Colours of the values in a heat map, from low to high.
+/// Scale of colours for the values in a heat map, from low to high.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Shades {
@@ -118,7 +118,7 @@ const BLUE_TO_RED: [Rgb; 9] =
     rgb([0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b]);
 
 impl Shades {
-    /// Number of bands of equal colour in an SVG figure.
+    /// Number of bands of equal colour into which an SVG figure divides the colour scale.
     pub const BANDS: usize = 64;
 
     /// Returns the colour of a band, counted from 0 at the lowest value.
@@ -126,7 +126,8 @@ impl Shades {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
 
-    /// Returns nine colours at equal distances, from the lowest value to the highest.
+    /// Returns nine colours of the scale at equal distances: the first is that of the lowest value, the last that of the
+    /// highest.
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,
@@ -134,7 +135,7 @@ impl Shades {
         }
     }
 
-    /// Returns the colour at a share of the range from 0 to 1; the lowest colour for NaN.
+    /// Returns the colour at a position on the scale, from 0 for the lowest value to 1 for the highest. NaN has the colour of 0.
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
         let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };

@@ -3,7 +3,8 @@
 use super::label::Label;
 use roxmltree::Document;
 
-/// Returns the tags of an SVG document with their attributes, and its text. Panics if the document is not well-formed.
+/// Returns the content of each tag of an SVG document, which is its name with its attributes, and all text of the document.
+/// Panics if the document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
     let tag = |element: roxmltree::Node<'_, '_>| {
@@ -15,7 +16,7 @@ pub fn parsed(svg: &str) -> (Vec<String>, String) {
     (elements, text.collect())
 }
 
-/// Returns the elements of an SVG document with this tag.
+/// Returns the elements of an SVG document whose tag has this name, such as `rect`, each with its attributes.
 pub fn elements(svg: &str, tag: &str) -> Vec<String> {
     let is_kind = |element: &String| element.split(' ').next() == Some(tag);
     parsed(svg).0.into_iter().filter(is_kind).collect()
@@ -54,7 +55,7 @@ pub fn check_picture(svg: &str) {
     }
 }
 
-/// Returns the number in an attribute of an element.
+/// Returns the number in an attribute of an element that [`elements`] returned; NaN if there is none.
 pub fn attribute(element: &str, name: &str) -> f64 {
     let value = element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
     value.and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)

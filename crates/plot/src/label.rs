@@ -19,14 +19,15 @@ pub(crate) enum Face {
 /// Blank at which no line breaks, written as an ordinary blank.
 const FIXED: char = '\u{a0}';
 
-/// Text in a figure, with italic symbols, indices and exponents. Its `to_string` is plain text such as `F_a` or `10⁻³`.
+/// Text in a figure, which can have italic symbols, indices and exponents. Its `to_string` returns plain text such as `F_a` or
+/// `10⁻³`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     runs: Vec<(Face, String)>,
 }
 
 impl Label {
-    /// Creates a label of upright text on one line. Control characters are escaped.
+    /// Creates a label of upright text. Control characters, such as line feeds, are escaped.
     pub fn plain(text: &str) -> Label {
         let mut label = Label::default();
         label.push(Face::Upright, &printable(text));
@@ -62,12 +63,13 @@ impl Label {
         Label::plain(name).then(space).join(&Label::symbol(symbol))
     }
 
-    /// Creates a label of the symbol of a quantity, or of its name if `symbol` is empty.
+    /// Creates a label of the symbol of a quantity, or of its name in upright text if `symbol` is empty.
     pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
-    /// Creates a label of a statement such as `H = 0.3`: an italic symbol before ` = `, upright text after it.
+    /// Creates a label of a statement such as `H = 0.3`, with an italic symbol and an upright value. Text without ` = ` is
+    /// upright.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => statement("", symbol, value),
@@ -75,7 +77,7 @@ impl Label {
         }
     }
 
-    /// Creates the label of a power of ten.
+    /// Creates the label of ten to the power of `exponent`.
     pub fn power_of_ten(exponent: i32) -> Label {
         let mut label = Label::plain("10");
         label.push(Face::Exponent, &exponent.to_string());
@@ -103,13 +105,13 @@ impl Label {
         &self.runs
     }
 
-    /// Returns the width in units of the font size, in the widest of the usual sans-serif fonts.
+    /// Returns the width of the label divided by the font size, in the widest of the usual sans-serif fonts.
     pub fn width(&self) -> f64 {
         self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
     }
 
-    /// Divides the label into lines no wider than `most`, in units of the font size. Lines break at blanks, or within a
-    /// longer word.
+    /// Divides the label into lines. No line has a [`Self::width`] above `most`. Lines break at blanks; a word that is longer
+    /// than a line is divided.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
         let all = self.runs.iter().flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
         let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
@@ -189,8 +191,9 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Returns the SI prefix for numbers up to `largest` as a divisor and the prefixed unit: 1e-3 and `mN` for 0.02 N. The
-/// divisor is 1 for a unit that takes no prefix, and numbers without a unit have an empty unit.
+/// Returns the divisor and the unit with an SI prefix in which numbers up to `largest` are short: 1e-3 and `mN` for 0.02 N. For
+/// a unit that takes no prefix, such as rad/m, the divisor is 1. For numbers without a unit (`1` or empty) the returned unit is
+/// empty.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -218,13 +221,15 @@ pub fn number(value: f64, step: f64) -> String {
     format!("{}{whole}{fraction}", if value < 0.0 && !zero { "-" } else { "" })
 }
 
-/// Creates a label of a value with its unit, such as `H = 0.3` with a symbol, or `preload 12.5 µN` if `symbol` is empty.
+/// Creates a label of a quantity and its value, given in the SI unit `unit`: `F_n = 12.5 µN` with a symbol, or `preload 12.5 µN`
+/// if `symbol` is empty.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     statement(name, symbol, &if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) })
 }
 
-/// Creates a label of a value in words, with a symbol as in `H = 0.3`, or with a name if `symbol` is empty.
+/// Creates a label of a quantity and its value, which is given as text: `H = 0.3` with a symbol, or `Hurst exponent 0.3` if
+/// `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     match symbol {

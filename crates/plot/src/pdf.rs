@@ -27,10 +27,10 @@ const OVERLAP: f32 = 0.2;
 const SAME: f32 = 1e-3;
 
 impl Figure {
-    /// Draws the figure and returns the content of a PDF file.
+    /// Draws the figure and returns the content of a PDF file of one page, as large as the figure.
     ///
     /// # Errors
-    /// The SVG document of the figure cannot be converted.
+    /// Returns an error if the SVG document of the figure cannot be converted to PDF.
     pub fn pdf(&self) -> io::Result<Vec<u8>> {
         pdf(&tree(&self.svg())?, &self.title)
     }

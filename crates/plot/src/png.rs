@@ -19,10 +19,10 @@ const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
-    /// Draws the figure and returns the content of a PNG file.
+    /// Draws the figure and returns the content of a PNG file. It has 600 dpi if [`Self::width`] is given, otherwise 192 dpi.
     ///
     /// # Errors
-    /// The picture would have too many pixels.
+    /// Returns an error if the picture would have more than 67 million pixels (2^26).
     pub fn png(&self) -> io::Result<Vec<u8>> {
         png(&self.svg(), if self.width.is_some() { PRINT_SCALE } else { SCALE })
     }

@@ -2,7 +2,7 @@
 
 use asperity_data::AxisScale;
 
-/// Range of coordinates along an axis, with a width above zero.
+/// Range of coordinates along an axis; see [`ChartAxis::span`](crate::ChartAxis::span). Its width is above zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Lower end of the range.
@@ -15,8 +15,8 @@ pub struct Span {
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
-    /// Returns the range of the finite coordinates, widened at each end by the share `room` of its width. The range around
-    /// a single coordinate is wider than zero. Without coordinates the range is 0 to 1.
+    /// Returns the range from the smallest to the largest finite coordinate, widened at each end by `room` times its width. If
+    /// all coordinates are equal, the range extends to both sides of them. Without coordinates it is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
@@ -39,8 +39,9 @@ impl Span {
         Span { low: low - margin, high: high + margin }
     }
 
-    /// Returns the range of coordinates for values of a quantity. A linear range begins at zero if no value is negative and
-    /// the lowest value is at most 0.3 of the highest. A logarithmic range has at most `decades` decades.
+    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it begins at zero if no value is
+    /// negative and the lowest value is at most 0.3 of the highest. On a logarithmic scale it has at most `decades` decades, so
+    /// that lower values are cut off.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -50,20 +51,20 @@ impl Span {
         }
     }
 
-    /// Returns the range of whole decades around coordinates of a logarithmic scale, at least one decade.
+    /// Returns the range of whole decades that contains these coordinates of a logarithmic scale. It has at least one decade.
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();
         Span { low, high: span.high.ceil().max(low + 1.0) }
     }
 
-    /// Returns the range, widened at each end by the share `room` of its width.
+    /// Returns the range, widened at each end by `room` times its width.
     pub fn widened(self, room: f64) -> Span {
         let margin = room * self.width();
         Span { low: self.low - margin, high: self.high + margin }
     }
 
-    /// Returns the distance between both ends.
+    /// Returns the upper end minus the lower end.
     pub fn width(self) -> f64 {
         self.high - self.low
     }

@@ -34,7 +34,8 @@ impl Report for Boundaries {
         Some(sheet.into_text())
     }
 
-    /// In JSON a boundary beyond the study has the end of the studied range as its value.
+    /// Returns an entry for each boundary. If the boundary lies outside the studied range, the entry has the nearest end of this
+    /// range under `below` or `above`.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let object = |boundary: &AdhesionBoundary| {
             let mut object = Map::new();

@@ -16,14 +16,13 @@ use serde::Serialize;
 /// Headings of the columns of errors, in the order of [`CostTable::QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
-/// Report on the cost of accuracy of a scene: computing time and errors for many settings. JSON has the fields in the order
-/// given here.
+/// Report on the cost of accuracy of a scene: computing time and relative errors for many settings, such as numbers of springs.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
     /// Title of the scene.
     #[serde(skip)]
     pub title: &'a str,
-    /// Scene whose cost was measured.
+    /// Scene whose computing time was measured.
     pub scene: &'a Scene,
     answer: Vec<String>,
     #[serde(flatten)]
@@ -34,7 +33,8 @@ pub struct CostReport<'a> {
 }
 
 impl<'a> CostReport<'a> {
-    /// Makes a report on the measured cost of a scene with this title.
+    /// Makes a report on the measured times and errors of a scene. A comparison with three dimensions, `reference`, adds the
+    /// error of the model.
     pub fn new(
         title: &'a str,
         scene: &'a Scene,
@@ -46,7 +46,8 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
-    /// Returns text with the answer first and the omitted settings last.
+    /// Returns text that begins with the numbers of springs and the times for errors of 1 % and 0.1 %. It ends with the settings
+    /// that were not tried or needed too much time or memory.
     fn text(&self) -> Option<String> {
         let table = self.table;
         let mut sheet = Sheet::default();
@@ -92,7 +93,7 @@ impl Report for CostReport<'_> {
         Some(Box::new(self))
     }
 
-    /// Returns a table with times in s and relative errors.
+    /// Returns a table with a row for each setting: its computing times in s, and its relative errors.
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.table.rows.iter())
             .with("knob", Kind::Text("sub-cell-springs".len()), |row| <&str>::from(row.knob))

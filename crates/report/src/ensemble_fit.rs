@@ -13,14 +13,15 @@ const HURST_CHANGE: f64 = 0.05;
 /// Smallest and largest usual ratio of the scatter of the curves to the scatter of the random profiles.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
-/// Report on a work of adhesion found by comparison of curves with random profiles.
+/// Report on the work of adhesion of a rough body, found by comparing measured force curves with computed curves of random
+/// profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Result of the comparison of the curves.
+    /// Result of [`fit_ensemble`](asperity_experiment::fit_ensemble).
     pub fit: &'a EnsembleFit,
-    /// True if the user stated errors of the roughness.
+    /// True if the user stated a standard error of the rms height or of the Hurst exponent.
     pub has_roughness_errors: bool,
 }
 

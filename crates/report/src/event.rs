@@ -7,8 +7,8 @@ use asperity_contact::{CurvePoint, Direction, LegRecord};
 /// force.
 const NEAR: f64 = 0.01;
 
-/// Returns the event at a point of a loading or unloading in words, such as `pull-off`; `None` while the body does not
-/// move. The words are short enough for the title of a chart.
+/// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or `contact spreads`. `branch` is the
+/// loading or unloading of `legs` (loading stages) on which the point lies. Returns `None` if the body does not move on it.
 pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
     let stages = &legs[branch.stages.clone()];
     let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);

@@ -12,19 +12,19 @@ use asperity_study::{Answer, Ensemble, Found};
 /// Largest number of listed profiles with several crossings. Further ones are counted.
 const MOST_LISTED: usize = 8;
 
-/// Report on the answer to an inverse question, such as the preload for a given adhesion force.
+/// Report on the number of a scene, such as the preload, at which a result, such as the adhesion force, reaches a wanted value.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Scene of the question.
+    /// Scene in which this number is searched.
     pub scene: &'a Scene,
-    /// Answer to the question.
+    /// Numbers found on each profile.
     pub found: &'a Found,
 }
 
-/// Returns the answer in one sentence: the median with quartiles, `at any preload`, or `never` with the range of values
-/// that are possible.
+/// Returns in one sentence the number at which the result reaches the wanted value: its median and quartiles over the profiles.
+/// If there is no such number, the sentence says that the value is reached always or never, and states the range of the result.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
     let (axis, count) = (&question.axis, found.answers.len());
@@ -211,7 +211,8 @@ impl Report for FindReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each profile.
+    /// Returns a table with a row for each profile: the number found, how often the result crosses the wanted value, and the
+    /// range of the result.
     fn table(&self) -> Option<Table<'_>> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());

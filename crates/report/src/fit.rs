@@ -12,10 +12,10 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Report on a fit of a scene to one measured curve.
+/// Report on a fit of a scene to one measured force curve: its parameters, and a figure with both curves and the residuals.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
-    /// Name of the file of the curve, for the title.
+    /// Name of the file of the curve, which is the title of the report.
     pub title: &'a str,
     /// The measured curve.
     pub curve: &'a MeasuredCurve,

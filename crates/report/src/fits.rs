@@ -15,14 +15,15 @@ use std::fmt::Display;
 /// Smallest and largest number of bars of a histogram.
 const BARS: (usize, usize) = (5, 40);
 
-/// Curve with the result of its fit, or with the reason why there is none.
+/// One measured curve of many, with the result of its fit or with the reason why it was not fitted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurveRow {
     /// Path of the file as it was given.
     pub file: String,
-    /// Value, lower and upper end of the 95 % interval of each free parameter in SI units; empty without a fit.
+    /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty without a fit.
     pub parameters: Vec<[f64; 3]>,
-    /// Pull-off force in N, its work of adhesion in J/m², residual divided by the noise, and noise in N.
+    /// Four numbers: the pull-off force in N, the work of adhesion in J/m² that a smooth sphere with this force has, the rms
+    /// residual divided by the noise, and the noise in N. A number that is unknown is `None`.
     pub facts: [Option<f64>; 4],
     /// Number of points of the curve that are used; `None` without a fit.
     pub points: Option<u64>,
@@ -38,7 +39,7 @@ pub struct CurveRow {
 const FACTS: [&str; 4] = ["pull_off_force", "pull_off_work", "residual_over_noise", "noise"];
 
 impl CurveRow {
-    /// Makes the row of a curve that is fitted here. The row has the reason if the curve was not read or cannot be fitted.
+    /// Fits a curve and makes its row. If the curve was not read or the fit fails, the row has the reason in [`Self::error`].
     pub fn of(
         title: &str,
         curve: Result<MeasuredCurve, impl Display>,
@@ -73,8 +74,8 @@ impl CurveRow {
         }
     }
 
-    /// Reads the row from a line of the table with `parameters` parameters; `None` for a line that is incomplete or from
-    /// another table.
+    /// Reads a row from a line of a CSV table that [`FitsReport`] wrote. `parameters` is the number of free parameters. Returns
+    /// `None` if the line has another number of cells or a cell that is no number.
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
         let (file, rest) = cells.split_first()?;
@@ -118,7 +119,7 @@ fn cells_of(line: &str) -> Option<Vec<String>> {
     (!is_quoted).then_some(cells)
 }
 
-/// Report on fits of one scene to many curves.
+/// Report on fits of one scene to many measured curves, each fitted on its own.
 #[derive(Clone, Copy, Debug)]
 pub struct FitsReport<'a> {
     /// Scene that is fitted to the curves.

@@ -7,7 +7,7 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use asperity_scene::Outcome;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 
-/// Pair of quantities that a chart of loops shows.
+/// Which two quantities of a force loop a chart shows. A loop is the curve of loading and unloading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
     /// Force over the indentation.
@@ -15,14 +15,15 @@ pub enum LoopQuantities {
     ForceIndentation,
     /// Force over the displacement of the instrument.
     ForceDisplacement,
-    /// Contact length over the force.
+    /// Total length of the springs in contact over the force.
     LengthForce,
     /// Number of contact patches over the indentation.
     FragmentsIndentation,
 }
 
 impl LoopQuantities {
-    /// Returns the next pair of quantities. The displacement is skipped unless an instrument `deflects`.
+    /// Returns the pair of quantities that follows in the explorer. `ForceDisplacement` is left out unless `deflects`, which is
+    /// true for an instrument that is not rigid.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -35,7 +36,7 @@ impl LoopQuantities {
     }
 }
 
-/// Quantities of a chart of loops with their units, which are SI units or parameters of a scene.
+/// Quantities of a chart of force loops, with the units of its axes: SI units, or parameters of a scene such as the rms height.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoopUnits {
     quantities: LoopQuantities,
@@ -68,13 +69,14 @@ impl Quantity {
 }
 
 impl LoopUnits {
-    /// Returns SI units for these quantities.
+    /// Returns these quantities with axes in SI units.
     pub fn si(quantities: LoopQuantities) -> LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
 
-    /// Returns units for a computed scene with its instrument. If `normalised` is true, the units are parameters of the
-    /// scene, such as the rms height; otherwise they are SI units.
+    /// Returns these quantities for a computed scene and the stiffness of its instrument. If `normalised` is true, the
+    /// indentation is in units of the rms height h, the force in units of F_a,max and lengths in units of L; otherwise all are
+    /// in SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
         LoopUnits {
@@ -86,7 +88,7 @@ impl LoopUnits {
         }
     }
 
-    /// Returns the coordinates of a point of the curve in the chart.
+    /// Returns the numbers on the horizontal and the vertical axis at a point of a force curve.
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
         let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
         let [x, y] =
@@ -94,13 +96,13 @@ impl LoopUnits {
         (x, y)
     }
 
-    /// Writes a force in N in the unit of the chart.
+    /// Returns a force, given in N, as text in the unit of the chart.
     pub fn force_in_words(&self, force: f64) -> String {
         self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
-    /// Returns true if a marked point, such as the pull-off, lies on the drawn curve. Over the displacement of the
-    /// instrument, the points of the jumps into and out of contact do not.
+    /// Returns true if a marked point, such as the pull-off, lies on the drawn curve. Over the displacement of the instrument
+    /// the jumps into and out of contact are not marked.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
@@ -114,7 +116,7 @@ impl LoopUnits {
         is_over_indentation.then(|| x * self.indentation.unwrap_or(1.0))
     }
 
-    /// Returns true if the chart shows the force over indentation or displacement.
+    /// Returns true if the vertical axis is the force.
     pub fn shows_force(&self) -> bool {
         matches!(self.quantities, LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement)
     }
@@ -157,25 +159,26 @@ impl LoopUnits {
     }
 }
 
-/// Loop of loading and unloading in a chart. A loop without its own name, ink or stroke has different ones for loading and
-/// unloading.
+/// Force loop in a chart: the curves of loading and unloading, and how they are drawn. Without a name, ink or stroke of the
+/// loop, loading and unloading have different ones.
 #[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
-    /// Force curve of each loading stage, with its direction.
+    /// Points of the force curve of each loading stage, with the direction of the stage.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
-    /// Stiffness of the instrument in N/m, which causes jumps over the displacement; `None` for a rigid instrument.
+    /// Stiffness of the instrument in N/m, `None` for a rigid one. Over the displacement, a jump of the force on this instrument
+    /// is drawn dashed.
     pub stiffness: Option<f64>,
     /// Marked points of the curves, such as preload and pull-off. The legend names them if the loop has no name.
     pub marks: Vec<(Mark, CurvePoint)>,
-    /// Name of the loop in the legend; `None` for entries of loading and unloading.
+    /// Name of the loop in the legend; `None` for the two names `loading` and `unloading`.
     pub name: Option<Label>,
-    /// True if the legend omits the forces of the marks, because several charts share the legend.
+    /// True if the legend names the marks without their forces, because several charts share the legend.
     pub without_forces: bool,
-    /// Ink of the loop; `None` for the inks of loading and unloading.
+    /// Ink of the loop; `None` for [`Ink::Loading`] and [`Ink::Unloading`].
     pub ink: Option<Ink>,
     /// Stroke of the loop; `None` for dotted loading and solid unloading.
     pub stroke: Option<Stroke>,
-    /// Stroke of the unloading; `None` for the stroke of the loop.
+    /// Stroke of the unloading if [`Self::stroke`] is `None`; `None` for a solid line.
     pub unloading: Option<Stroke>,
 }
 
@@ -183,13 +186,13 @@ pub struct ForceLoop<'a> {
 type Places = Vec<(f64, f64)>;
 
 impl<'a> ForceLoop<'a> {
-    /// Creates the loop of a loading history with its marked points.
+    /// Creates the loop of the loading stages of a history, with its marked points and without an instrument.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
         ForceLoop { curves, marks: Mark::all(legs), ..ForceLoop::default() }
     }
 
-    /// Creates the loop of a computed scene with its marked points and its instrument.
+    /// Creates the loop of a computed scene, with its marked points and on the instrument of the scene.
     pub fn of_outcome(outcome: &'a Outcome) -> ForceLoop<'a> {
         let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
         ForceLoop { stiffness, ..ForceLoop::new(&outcome.history.legs) }
@@ -255,7 +258,7 @@ impl<'a> ForceLoop<'a> {
     }
 }
 
-/// Returns a chart of loops with a line at zero. Later loops are drawn over earlier ones.
+/// Returns a chart of force loops, with a line where the vertical quantity is zero. Later loops are drawn over earlier ones.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let lines = loops.iter().flat_map(|one| one.lines(units));
     let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
@@ -265,9 +268,9 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     Chart::new(x, y, layers)
 }
 
-/// Returns a figure of the force curves of computed scenes, each with its title. A single scene has one colour for loading
-/// and another for unloading. Each of several scenes has its own colour and stroke. The legend then explains loading and
-/// marks once.
+/// Returns a figure of the force curves of computed scenes, each given with its title, in one chart. A single scene has one
+/// colour for loading and another for unloading. With several scenes, each has its own colour and stroke, and the legend
+/// explains the dotted loading and each sign once.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         return Figure::of_chart(title, loop_chart(&[ForceLoop::new(&outcome.history.legs)], units));
@@ -304,7 +307,7 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure::of_panels(scenes.iter().map(figure).collect())
 }
 
-/// Returns the sign of a marked point in charts.
+/// Returns the sign with which charts show a marked point, such as ▼ for the pull-off.
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,

@@ -28,8 +28,8 @@ const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 const LARGEST_GRADIENT: f64 = 1.0;
 const FAR_APART: f64 = 30.0;
 
-/// Facts about a measured surface and its file. Each list has one number for a profile, and for a map one number for each
-/// axis.
+/// Facts about a measured surface and its file. The lists `points`, `lengths` and `cropped` have one number for a profile, and
+/// two for a map: along a row, then along a column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
     /// Path of the file of the surface.
@@ -38,18 +38,18 @@ pub struct SurfaceFile {
     /// Name of the measurement, if the file contains several; otherwise empty.
     #[serde(rename = "measurement", skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// Name of the file format.
+    /// Name of the file format, such as `SDF`.
     pub format: &'static str,
-    /// Number of points in a row, and number of rows.
+    /// Number of points in a row, and for a map the number of rows.
     pub points: Vec<usize>,
-    /// Length of a row and of a column, m.
+    /// Length of a row, and for a map the length of a column, m; 0 if the points are not evenly spaced.
     pub lengths: Vec<f64>,
-    /// Numbers of columns and rows without measured points that are left out at the borders. For a profile, the number of
-    /// such points at its ends.
+    /// Number of empty columns and of empty rows left out at the borders of a map. For a profile it is the number of points
+    /// without a height left out at its ends.
     pub cropped: Vec<usize>,
-    /// Number of points with interpolated heights.
+    /// Number of points without a measured height, whose heights were interpolated.
     pub interpolated: usize,
-    /// Messages about unusual properties of the file.
+    /// Sentences about unusual properties of the file.
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -60,7 +60,7 @@ fn in_unicode<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Err
 }
 
 impl SurfaceFile {
-    /// Collects the facts about a surface. Its lengths are 0 if the points are not evenly spaced.
+    /// Collects the facts about a surface that was read from the file `path`.
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
         let mut points = vec![surface.columns, surface.rows()];
         points.truncate(if surface.rows() > 1 { 2 } else { 1 });
@@ -83,7 +83,8 @@ impl SurfaceFile {
         path_name(&self.path) + &name
     }
 
-    /// Returns name, format, shape and lengths in words, with the points that are left out or interpolated.
+    /// Returns the facts in one line: name, format, numbers of points and lengths, then the points that were left out or
+    /// interpolated.
     pub fn describe(&self) -> String {
         let counts: Vec<String> = self.points.iter().map(|count| grouped(*count as u64)).collect();
         let lengths: Vec<String> = self.lengths.iter().map(|length| format_quantity(*length, "m")).collect();
@@ -110,12 +111,12 @@ impl SurfaceFile {
     }
 }
 
-/// Measured surfaces of one face, which is the surface of one body, with their common analysis.
+/// Measured surfaces (profiles or maps) of one body, and their common analysis. All surfaces count as samples of one roughness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
-    /// Facts about each surface.
+    /// Facts about each surface and its file.
     pub files: Vec<SurfaceFile>,
-    /// Analysis of all surfaces of the face together.
+    /// Spectrum, moments and fit of all these surfaces together.
     pub analysis: Analysis,
 }
 
@@ -150,7 +151,7 @@ impl MeasuredFace {
         })
     }
 
-    /// Returns messages about unusual properties of the files, and limits of their analysis that concern the user.
+    /// Returns warnings: unusual properties of each file, and reasons why results of the analysis may be unreliable.
     pub fn warnings(&self) -> Vec<String> {
         let analysis = &self.analysis;
         let of_file = |file: &SurfaceFile| {

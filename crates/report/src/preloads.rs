@@ -15,24 +15,25 @@ const MOST_ROWS: usize = 32;
 /// Heading of a column with confidence intervals of the mean.
 pub(crate) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 
-/// Report on the adhesion force against the preload, on one or more profiles.
+/// Report on the adhesion force as a function of the preload, for one or more random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Number of springs that was chosen for a tolerance; `None` without a tolerance.
+    /// How the number of springs was chosen for a tolerance of the error; `None` without a tolerance.
     pub choice: Option<&'a Choice>,
-    /// Values of the quantities [`Results::OF_PRELOADS`], as far as they are computed.
+    /// Values computed so far for each preload on each profile: the quantities [`Results::OF_PRELOADS`].
     pub results: &'a Results,
-    /// Adhesion force of the first profile against the preload with each of its steps; needed for figures and curves.
+    /// Adhesion force of the first profile over the preload, a staircase with the exact place of each step. Figures need it, and
+    /// so do tables with `curves`.
     pub staircase: Option<&'a Staircase>,
-    /// True if the table contains the drawn curves instead of one row for each preload of each profile.
+    /// True if the table has a row for each preload of the drawn curves; false for a row for each preload on each profile.
     pub curves: bool,
 }
 
 impl PreloadReport<'_> {
-    /// Returns the figure of [`preload_chart`] with the distribution of the adhesion force at the largest preload; `None`
-    /// without a staircase. `has_values` is passed to [`preload_chart`].
+    /// Returns the figure with the [`preload_chart`], and beside it the [`distribution`] of the adhesion force at the largest
+    /// preload. `has_values` writes F_a(d=0) and F_a(F=0) into the legend. Returns `None` without a staircase.
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
         let chart = preload_chart(staircase, &spread, has_values);
@@ -114,7 +115,8 @@ impl Report for PreloadReport<'_> {
         }))
     }
 
-    /// Returns the drawn curves, or one row for each preload of each profile, beginning with the seed if profiles have one.
+    /// Returns the drawn curves if [`Self::curves`] is true. Otherwise it returns a row for each preload on each profile, which
+    /// begins with the seed of a random profile.
     fn table(&self) -> Option<Table<'_>> {
         Some(match self.staircase.filter(|_| self.curves) {
             Some(staircase) => curve_table(self.results, staircase),
@@ -127,7 +129,7 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// Returns the figure of a chart of adhesion against preload, with a distribution `beside` it if one is given.
+/// Returns the figure with a [`preload_chart`], and with the [`distribution`] `beside` it if there is one.
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else { return Figure::of_chart(title, chart) };
     let chart = Chart { heading: Label::quantity("adhesion force", "F_a"), ..chart };
@@ -154,8 +156,8 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     table.done()
 }
 
-/// Returns a warning about the preload whose mean adhesion force depends most on a single profile. Returns `None` if no
-/// profile makes up half of a mean.
+/// Returns a warning if, at some preload, a single profile contributes more than half of the mean adhesion force; otherwise
+/// `None`. The warning names the preload with the largest share. `spread` has the statistics at each preload in N.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
     let (preload, most) = spread.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
@@ -200,9 +202,9 @@ pub(crate) fn unloadings(
 const LOGARITHMIC_RATIO: f64 = 30.0;
 const MOST_DECADES: f64 = 6.0;
 
-/// Returns the chart of the adhesion force over the preload. It shows the staircase of one profile, the statistics over
-/// several profiles, F_a(d=0) and F_a(F=0). `has_values` writes these two forces into the legend. On a logarithmic axis of
-/// preloads, the axis of forces over several decades is logarithmic too.
+/// Returns the chart of the adhesion force over the preload. It shows the staircase of one profile, the statistics over several
+/// profiles, and the forces without a preload F_a(d=0) and F_a(F=0). `has_values` writes these two forces into the legend. If
+/// the axis of preloads is logarithmic and the forces differ 30-fold or more, the axis of forces is logarithmic too.
 pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;
@@ -272,9 +274,9 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     )
 }
 
-/// Returns the distribution of the adhesion force over the profiles; `None` for fewer than two profiles. The computed
-/// preload nearest to `preload` in N is used. Each profile adds a step to the share of profiles. `forces` is the vertical
-/// axis of a chart beside it.
+/// Returns the chart of the cumulative distribution of the adhesion force: the force over the share of profiles with at most
+/// this force. It belongs to the computed preload nearest to `preload` in N. Returns `None` for fewer than two profiles.
+/// `forces` is the vertical axis of a chart beside this one, which then serves both.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

@@ -13,8 +13,9 @@ const HASH: &str = "sha256: ";
 /// Beginning of the line of the command.
 const COMMAND: &str = "command: ";
 
-/// Returns the lines with version, command, measured files and scene for a table. The files of the scene are relative to
-/// `folder`; the table is written into the folder `destination`.
+/// Returns the lines at the head of a table that say how to repeat it: version, command, measured files with their SHA-256, and
+/// scene. Names of files in the scene are relative to `folder`; the table will be in the folder `destination`. An error is
+/// returned if a file cannot be read.
 pub fn scene_provenance(
     command: &str,
     scene: &Scene,
@@ -30,22 +31,23 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-/// Returns the lines with version, command and several named scenes for a figure. Scenes without a name are left out.
+/// Returns the lines for the metadata of a figure that say how to repeat it: version, command and scenes with their names.
+/// Scenes without a name are left out.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     let named = scenes.iter().filter(|(name, _)| !name.is_empty());
     let texts = named.map(|(name, scene)| format!("scene {}:\n{}", printable(name), to_ron(scene)));
     version_and_command(command, "") + &texts.collect::<String>()
 }
 
-/// Returns the version and the command from lines of [`scene_provenance`], as entries of a JSON object.
+/// Returns two entries of a JSON object from lines of [`scene_provenance`]: `program` with the version, and `command`.
 pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     let command = provenance.lines().find_map(|line| line.strip_prefix(COMMAND));
     let program = provenance.lines().next().map(|program| ("program", program));
     program.into_iter().chain(command.map(|command| ("command", command))).collect()
 }
 
-/// Returns the lines with version, command and measured files for a table without a scene. The table is written into the
-/// folder `destination`.
+/// Returns the lines at the head of a table without a scene: version, command, and measured files with their SHA-256. The table
+/// will be in the folder `destination`. An error is returned if a file cannot be read.
 pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
@@ -68,11 +70,11 @@ fn version_and_command(command: &str, hashes: &str) -> String {
     format!("asperity {version}\n{hashes}{COMMAND}{}\n", printable(&command))
 }
 
-/// Checks the measured files of a scene that was read from a table of results. The files must be the same as when the table
-/// was written.
+/// Checks that the measured files of a scene, which was read from the head of a table, are the same as when the table was
+/// written.
 ///
 /// # Errors
-/// A file cannot be read, or its SHA-256 differs from the one in the table.
+/// Returns an error if a file cannot be read, or if its SHA-256 differs from the one in the table.
 pub fn check_measured_files(document: &Document) -> Result<(), String> {
     let files = document.scene().measured_files();
     let recorded = document.table_head().lines().filter_map(|line| {
@@ -98,8 +100,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Returns the name of a file for a table in the folder `destination`. `file` is relative to `folder`. The name stays as it
-/// is if both folders are the same; otherwise it becomes absolute.
+/// Returns the name under which a table in the folder `destination` finds a file. `file` is its name relative to `folder`. The
+/// name stays as it is if both folders are the same; otherwise it becomes absolute.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

@@ -12,14 +12,15 @@ use asperity_study::half_space::{Compared, Loaded, Reference, ReferenceEvent, Sq
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// Report on the comparison of a scene as a profile and in three dimensions.
+/// Report on the comparison of two computations of a rough contact: with profiles, as this program does, and in three
+/// dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Scene that is computed as a profile and in three dimensions.
+    /// Scene that is computed in both ways.
     pub scene: &'a Scene,
-    /// Comparison of the profile with three dimensions.
+    /// Results of both computations and their ratios.
     pub reference: &'a Reference,
 }
 
@@ -36,7 +37,7 @@ fn ratio(of: &Compared) -> String {
 /// Time in s above which a comparison takes long.
 const LONG: f64 = 10.0;
 
-/// Progress of a comparison with three dimensions, for messages to the user.
+/// Progress of a comparison with three dimensions in words. Such a comparison computes random rough squares one by one.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,
@@ -51,7 +52,8 @@ impl Default for ReferenceProgress {
 }
 
 impl ReferenceProgress {
-    /// Returns the last event in one line, and true if the line says that the comparison takes long.
+    /// Returns a line of text on an event of the comparison, such as a finished square. The second value is true if the line
+    /// announces a comparison of at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
             ReferenceEvent::Begins { maps, threads, bytes, seconds, .. } => {
@@ -70,7 +72,7 @@ impl ReferenceProgress {
         }
     }
 
-    /// Returns in words what is lost if the comparison is stopped now.
+    /// Returns in words how many squares are lost if the comparison is stopped now.
     pub fn lost(&self) -> String {
         match self.maps {
             0 => "stopped before the first square".to_owned(),
@@ -83,8 +85,8 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Returns the state of the loops of random squares in a few words. From the first square on, the words have the ratio of
-/// both models.
+/// Returns in a few words how far the computation of force loops of random rough squares is. After the first square, the words
+/// have the ratio of profile to three dimensions: of the adhesion force, or of the indentation if `is_adhesive` is false.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some(compared) = loops.headline() else {
@@ -255,7 +257,8 @@ impl Report for ReferenceReport<'_> {
         }))
     }
 
-    /// Returns a row for each force of the loading without adhesion.
+    /// Returns a table of the loading without adhesion. For each force it has the indentation and the stiffness of both
+    /// computations and their ratio.
     fn table(&self) -> Option<Table<'_>> {
         let rows = move || self.reference.loading.iter();
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);
@@ -273,7 +276,8 @@ impl Report for ReferenceReport<'_> {
         Some(table.done())
     }
 
-    /// Returns the force against the indentation without adhesion in both models, with the quartiles of the indentation.
+    /// Returns a chart of the loading without adhesion: mean and quartiles of the indentation at each force, for profiles and
+    /// for three dimensions.
     fn figure(&self) -> Option<Figure> {
         let loading = &self.reference.loading;
         let force = |loaded: &Loaded| loaded.force;

@@ -10,7 +10,8 @@ use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
-/// Result with one or more of four forms. A form that a result lacks is `None`.
+/// Result that can be written in one or more of four forms: text, JSON, table, figure. The method of a form that a result lacks
+/// returns `None`.
 pub trait Report {
     /// Returns the result as plain text of at most 80 columns.
     fn text(&self) -> Option<String> {
@@ -33,9 +34,9 @@ pub trait Report {
     }
 }
 
-/// Value that is written as JSON without an intermediate copy.
+/// Value that can be written as JSON.
 pub trait Json {
-    /// Writes the value. If it is an object, the entries `head` come first.
+    /// Writes the value as JSON. If it is an object, the keys and texts of `head` become its first entries.
     fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 
@@ -45,9 +46,9 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// Figure, which as a table has the points of its curves if it has one chart.
+/// A figure is a result with the form of a figure. If it has one chart, it is also a table with the points of the curves.
 impl Report for Figure {
-    /// Returns the points of the curves as a table.
+    /// Returns a table with a row for each point of each curve; `None` for several charts.
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
@@ -69,11 +70,11 @@ impl Report for Figure {
     }
 }
 
-/// Writes a report in a format. `provenance` has the version, the command and the scene as lines; text, NPY, PNG and PDF
-/// omit these lines.
+/// Writes a report in a format. `provenance` has the lines of [`scene_provenance`](crate::scene_provenance), which say how to
+/// repeat the result. CSV and SVG contain all lines, JSON only version and command, and the other formats none.
 ///
 /// # Errors
-/// The report has no such form, or the output cannot be written.
+/// Returns an error if the report lacks the form that the format needs, or if the output cannot be written.
 pub fn write(
     out: &mut dyn Write,
     report: &(impl Report + ?Sized),
@@ -95,7 +96,7 @@ pub fn write(
     }
 }
 
-/// Format of a file with a result.
+/// Format in which a result is written into a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[strum(serialize_all = "lowercase")]
@@ -106,13 +107,13 @@ pub enum Format {
     Json,
     /// Table with a comma between its columns (CSV).
     Csv,
-    /// Table as an array of NumPy.
+    /// Table as an array of NumPy (NPY).
     Npy,
-    /// Picture of lines for the web (SVG).
+    /// Vector graphic for the web (SVG).
     Svg,
     /// Picture of pixels (PNG).
     Png,
-    /// Picture of lines on a page of its own size (PDF).
+    /// Vector graphic on a page as large as the picture (PDF).
     Pdf,
 }
 
@@ -121,7 +122,7 @@ impl Format {
     pub const ALL: [Format; 7] =
         [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
 
-    /// Returns the name on the command line.
+    /// Returns the name of the format on the command line, such as `csv`.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -131,22 +132,22 @@ impl Format {
         if self == Format::Text { "txt" } else { self.name() }
     }
 
-    /// Returns true for a format of tables.
+    /// Returns true for CSV and NPY, the formats of tables.
     pub fn is_table(self) -> bool {
         matches!(self, Format::Csv | Format::Npy)
     }
 
-    /// Returns true for a format of pictures.
+    /// Returns true for SVG, PNG and PDF, the formats of pictures.
     pub fn is_picture(self) -> bool {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
-    /// Returns the format that belongs to the extension of a file. Without a file or an extension, returns the chosen
-    /// format, or `usual` if none is chosen.
+    /// Returns the format in which a result is written: the one that belongs to the extension of `file`. Without a file or an
+    /// extension it is the format that the user chose, or else `usual`. The result has only `formats`.
     ///
     /// # Errors
-    /// The chosen format is not among `formats`, the extension belongs to none of them, or it contradicts the chosen
-    /// format.
+    /// Returns an error if the chosen format is not among `formats`, if the extension belongs to none of them, or if the
+    /// extension contradicts the chosen format.
     pub fn of_file(
         file: Option<&Path>,
         chosen: Option<Format>,
@@ -174,10 +175,10 @@ impl Format {
     }
 }
 
-/// Returns the index of the extension of a file in `allowed`; `None` for a name without an extension.
+/// Returns which of the `allowed` extensions a file has, as an index; `None` for a name without an extension.
 ///
 /// # Errors
-/// The extension is not allowed.
+/// Returns an error if the extension is not allowed.
 pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
     let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
         return Ok(None);

@@ -15,20 +15,21 @@ const MOST_ROWS: usize = 16;
 /// Largest number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
-/// Report on the unloadings of one profile from many turning points, and on their Everett function. The Everett function is
-/// half of the fall of the force from a turning point to an indentation.
+/// Report on the unloadings of one profile from many turning points, the indentations where its loading ends, and on their
+/// Everett function. At a turning point and an indentation this function is half of the fall of the force on unloading from the
+/// one to the other.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Scene whose loading is reversed.
+    /// Scene whose body is loaded and unloaded.
     pub scene: &'a Scene,
     /// Forces along the unloadings from each turning point.
     pub map: &'a ReversalMap,
-    /// Adhesion force against preload, as the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the bodies
-    /// together.
+    /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
+    /// bodies together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force against preload with the exact position of each step, needed only for the figure.
+    /// Adhesion force as a function of the preload, a staircase with the exact place of each step. Only the figure needs it.
     pub staircase: Option<&'a Staircase>,
 }
 
@@ -55,7 +56,7 @@ impl Report for ReversalReport<'_> {
         Some(sheet.into_text())
     }
 
-    /// Returns forces and Everett function of each turning point, at the indentations up to this point.
+    /// Returns for each turning point the forces and the Everett function at the indentations up to it.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let ReversalReport { scene, map, preloads, .. } = *self;
         let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
@@ -80,7 +81,7 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// Returns a chart of the adhesion force against the preload, and a map of the Everett function.
+    /// Returns a chart of the adhesion force over the preload, and a map of the Everett function.
     fn figure(&self) -> Option<Figure> {
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),

@@ -26,11 +26,11 @@ pub struct RunReport<'a> {
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
-    /// Number of springs that was chosen for a tolerance; `None` without a tolerance.
+    /// How the number of springs was chosen for a tolerance of the error; `None` without a tolerance.
     pub choice: Option<&'a Choice>,
-    /// Estimated error of the adhesion force by the number of springs; `None` if it is unknown.
+    /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is unknown.
     pub estimate: Option<&'a Estimate>,
-    /// Results on random profiles; `None` if they were not computed.
+    /// Results on several random profiles of the same roughness; `None` if they were not computed.
     pub ensemble: Option<&'a Ensemble>,
     /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None` if it was not computed.
     pub deviation: Option<f64>,
@@ -120,16 +120,16 @@ impl Report for RunReport<'_> {
     }
 }
 
-/// Report on a loading that the user moved by hand.
+/// Report on a force curve along which the user moved the body by hand in the explorer.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Scene, whose own loading is replaced by `loading`.
+    /// Scene of the body. Its own loading is replaced by `loading`.
     pub scene: &'a Scene,
     /// Stages of the loading, which begins at separation.
     pub loading: &'a [Move],
     /// Points of the force curve along these stages.
     pub path: &'a [CurvePoint],
-    /// Index of the loading stage of each point.
+    /// For each point, the index of its stage in `loading`.
     pub stages: &'a [usize],
 }
 

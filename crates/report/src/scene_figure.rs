@@ -26,7 +26,8 @@ struct Patches {
     patches: Vec<Patch>,
 }
 
-/// Contact patches of a scene that are collected stage by stage: at the largest force, and on request at many indentations.
+/// Contact patches of a scene for figures. They are collected while the loading stages are computed: at the largest force, and
+/// on request at many indentations of each stage.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
@@ -38,12 +39,14 @@ pub struct ContactSets {
 }
 
 impl ContactSets {
-    /// Begins a collection. With `over_indentation`, patches are also collected at many indentations of each stage.
+    /// Begins a collection without patches. If `over_indentation` is true, patches at many indentations will be collected for
+    /// [`Self::patches_figure`].
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
 
-    /// Adds the patches of a computed stage: `record` has its curve, and `leg` the contact at any of its indentations.
+    /// Adds the patches of a loading stage that was just computed. `record` has its force curve, and `leg` returns the patches
+    /// at any of its indentations.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
@@ -66,7 +69,7 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// Returns the figure of the rigid profile, the elastic surface and the contact at the largest force.
+    /// Returns the figure with the heights of the rigid profile, of the elastic surface and of the contact at the largest force.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
@@ -82,8 +85,8 @@ impl ContactSets {
         Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
     }
 
-    /// Returns the figure of contact patches over position and indentation, with a chart for each loading stage with
-    /// contact.
+    /// Returns the figure that shows at which positions along the profile there is contact at each indentation. It has a chart
+    /// for each of the first four loading stages with contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;

@@ -19,23 +19,23 @@ const PER_DECADE: f64 = 20.0;
 /// Memory of the Fourier transform in bytes per spring.
 const BYTES: u64 = 40;
 
-/// Power spectra of a scene, and moments of its measured surface with their errors.
+/// Power spectra of a rough scene, and moments such as the rms height of its random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
-    /// Measured spectra, intended spectrum of the profile, and spectrum of its heights.
+    /// Spectra of the measured surfaces, of the profile as intended, and of the computed heights of the profile.
     pub spectra: Spectra,
-    /// Moments, such as the rms height, of random profiles with the measured spectrum. `None` if the roughness is not
-    /// measured, or if a measured profile is used without change.
+    /// Moments of random profiles with the measured spectrum, with their errors. `None` if the roughness is not measured, or if
+    /// the measured profile itself is pressed.
     pub moments: Option<LineMoments>,
-    /// Reason why some spectra are missing; `None` if no spectrum is missing.
+    /// Reason why a spectrum could not be computed; `None` if all could.
     pub missing: Option<String>,
 }
 
 impl SceneSpectra {
-    /// Computes the spectra of a scene. The names of its files are relative to the working folder.
+    /// Computes the spectra of a scene. The names of its measured files are relative to the working folder.
     ///
     /// # Errors
-    /// The profile of the scene cannot be made.
+    /// Returns an error if the profile of the scene cannot be computed.
     pub fn new(
         scene: &CheckedScene,
         outcome: &Outcome,

@@ -11,23 +11,23 @@ use asperity_scene::Outcome;
 use asperity_scene::Regime;
 use asperity_study::{Ensemble, Quantity};
 
-/// One of several computed scenes, with its scene file.
+/// One of several computed scenes in a [`ScenesReport`].
 #[derive(Clone, Debug)]
 pub struct ComparedScene<'a> {
-    /// Scene file with its comments.
+    /// The scene as its file has it, with title and comments.
     pub document: &'a Document,
     /// Results on the profile of the scene.
     pub outcome: Outcome,
-    /// Results on random profiles; `None` if they were not computed.
+    /// Results on several random profiles of the same roughness; `None` if they were not computed.
     pub ensemble: Option<Ensemble>,
 }
 
-/// Report on at least two computed scenes.
+/// Report that compares two or more computed scenes.
 #[derive(Clone, Copy, Debug)]
 pub struct ScenesReport<'a> {
     /// Computed scenes, in the order of the command.
     pub scenes: &'a [ComparedScene<'a>],
-    /// True if each scene has its own chart.
+    /// True if the figure has a chart for each scene; false for one chart of all loops.
     pub panels: bool,
 }
 
@@ -107,8 +107,9 @@ impl ScenesReport<'_> {
 }
 
 impl Report for ScenesReport<'_> {
-    /// Returns titles, the changes of each scene from the first one, and the results with their ratios to the results of
-    /// the first scene. Results over random profiles come first, then the results on the own profile of each scene.
+    /// Returns the titles, the fields in which each scene differs from the first one, and tables of the results with their
+    /// ratios to the first scene. The medians over random profiles come first, then the results on the own profile of each
+    /// scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let first = self.scenes.first()?.document;

@@ -6,10 +6,10 @@ use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span};
 use asperity_scene::stages::LineFacts;
 use std::ops::Range;
 
-/// Rigid profile and its contact at one indentation.
+/// Rigid profile and its contact with the elastic surface at one indentation.
 #[derive(Clone, Copy)]
 pub struct SectionContact<'a> {
-    /// Depth of each spring below the highest point of the profile, m.
+    /// Depth of the profile below its highest point at each spring, m.
     pub gaps: &'a [f64],
     /// Height of the highest point of the profile, m.
     pub summit: f64,
@@ -19,7 +19,7 @@ pub struct SectionContact<'a> {
     pub patches: &'a [Patch],
 }
 
-/// Range of springs that a chart shows, and number of columns of the chart. The range has at least one spring.
+/// Range of at least one spring that a chart shows, and the number of equally wide columns into which the chart divides it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
     /// Index of the first spring.
@@ -33,14 +33,15 @@ pub struct Part {
 /// Largest number of columns of a profile in a picture.
 const DRAWN: usize = 1200;
 
-/// Lowest and highest point of a profile in each column of a part, kept for the next call of [`SectionContact::section`].
+/// Lowest and highest point of a profile in each column of a [`Part`]. A [`SectionContact::section`] of the same part reuses
+/// them.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
     heights: Vec<(f64, f64)>,
 }
 
-/// Part of a profile and its contact, reduced to columns.
+/// Part of a profile and its contact, reduced to the lowest and highest heights in each column of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// Index of the first spring of the part.
@@ -49,7 +50,7 @@ pub struct Section {
     pub springs: usize,
     /// Heights of the lowest and the highest point of the profile in this part, m.
     pub heights: (f64, f64),
-    /// Height of the undeformed elastic surface, m.
+    /// Height of the undeformed elastic surface on the scale of the heights of the profile, m.
     pub level: f64,
     /// Columns of the chart, from left to right.
     pub columns: Vec<Column>,
@@ -68,7 +69,8 @@ pub struct Column {
 }
 
 impl Section {
-    /// Returns the chart of heights over the position. `z` is the range of heights, m.
+    /// Returns the chart of the heights over the position. `line` has spacing and first spring of the profile, and `z` is the
+    /// range of the vertical axis, m.
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
         let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
         let x = (edge(self.first), edge(self.first + self.springs.max(1)));
@@ -88,13 +90,13 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the part of a profile for a picture in a file. Several springs share a column only if the picture cannot
-    /// resolve them.
+    /// Returns the part with these springs for a picture in a file. Several springs share a column only if a picture cannot
+    /// resolve single springs.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs.min(DRAWN) }
     }
 
-    /// Returns the part of a profile for a table, with a column for each spring.
+    /// Returns the part with these springs for a table. Each spring has its own column.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs }
     }
@@ -115,19 +117,19 @@ impl SectionContact<'_> {
         self.summit - self.gaps[spring]
     }
 
-    /// Returns the height of the undeformed elastic surface, m.
+    /// Returns the height of the undeformed elastic surface, m: the highest point of the profile minus the indentation.
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }
 
-    /// Returns the ranges of springs in contact that lie within a range of springs.
+    /// Returns the runs of springs in contact among `springs`, each cut off at the ends of this range.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let begun = self.patches.partition_point(|patch| patch.last < springs.start);
         let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);
         touching.map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
-    /// Reduces a part of the profile to columns. `line` keeps heights of this profile between calls.
+    /// Reduces a part of the profile to columns. `line` keeps heights between calls, so that each profile needs its own.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let Part { first, springs, columns } = part;
         if line.part != part {

@@ -17,14 +17,14 @@ const LEAST: f64 = 1.0;
 /// Half the height of a bar, divided by the distance of bars.
 const HALF: f64 = 0.35;
 
-/// Report on the changes of the results when single numbers of a scene change.
+/// Report on how far each number of a scene, changed by ±10 %, changes the results.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
     /// Scene whose numbers are changed.
     pub scene: &'a Scene,
-    /// Changes of the results.
+    /// Changes of the results for each number.
     pub sensitivity: &'a Sensitivity,
 }
 
@@ -95,10 +95,10 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
     numbers.chain(profiles).collect()
 }
 
-/// Returns a table of the changes of the medians. Its first rows are the headings and the medians of the scene. A row
-/// follows for each change of at most `most` numbers, with the largest influence on the adhesion force first. The columns
-/// are name, value and change of the number, F_a, range of the changes of F_a on single profiles, F_a(d=0) and dissipated
-/// energy.
+/// Returns a table of the changes of the median results. The first two rows are headings and the medians of the unchanged scene.
+/// Two rows follow for each of at most `most` numbers, one for each change. The number with the largest influence on the
+/// adhesion force comes first. The first three columns are name, value and change of the number. The next two are the change of
+/// F_a and the range of this change on single profiles. The last two are the changes of F_a(d=0) and dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
@@ -122,8 +122,8 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// Returns a chart with a bar for each change of a result in per cent. `result` is an index of [`Sensitivity::RESULTS`]. At
-/// most `most` numbers have bars, with the largest change at the top.
+/// Returns a bar chart of the changes of one result in per cent, with two bars for each changed number. `result` is an index of
+/// [`Sensitivity::RESULTS`]. At most `most` numbers have bars, the number with the largest influence at the top.
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
@@ -220,8 +220,8 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// Returns a row of medians for the scene, then a row for each change of each number. A row ends with the smallest and
-    /// the largest relative change on single profiles.
+    /// Returns a table of median results: a row for the unchanged scene, then a row for each change of each number. A row ends
+    /// with the smallest and the largest relative change of the adhesion force on single profiles.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();

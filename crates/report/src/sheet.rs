@@ -13,14 +13,15 @@ const INDENT: usize = 4;
 /// Width in characters of the labels before the values of rows.
 const LABEL: usize = 26;
 
-/// Plain text of at most 80 columns under construction: headings, rows of a label and a value, tables and paragraphs.
+/// Plain text of at most 80 columns, to which headings, rows with a label and a value, tables and paragraphs are added one by
+/// one.
 #[derive(Default)]
 pub struct Sheet {
     text: String,
 }
 
 impl Sheet {
-    /// Returns the text of one table.
+    /// Returns a text that consists of one table.
     pub fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
         let mut sheet = Sheet::default();
         sheet.table(rows);
@@ -38,7 +39,7 @@ impl Sheet {
         self.paragraph(heading);
     }
 
-    /// Adds text that is broken into lines. An empty text adds nothing.
+    /// Adds a paragraph, which is broken into lines of at most 80 columns. An empty text adds nothing.
     pub fn paragraph(&mut self, text: &str) {
         for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
             self.line(&line);
@@ -55,7 +56,7 @@ impl Sheet {
         }
     }
 
-    /// Adds a row of a label and a number in this SI unit. `None` adds nothing.
+    /// Adds a row of a label and a number, given in the SI unit `unit` and written with a prefix. `None` adds nothing.
     pub fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
         self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
     }
@@ -67,8 +68,8 @@ impl Sheet {
         }
     }
 
-    /// Adds a table with aligned columns. Columns that exceed 80 characters follow as another table, which repeats the
-    /// first column. A last cell that is too long continues on the next lines.
+    /// Adds a table with aligned columns. If the table is wider than 80 characters, its last columns follow as another table,
+    /// which repeats the first column. A last cell that is too long continues on the next lines.
     pub fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
         let length = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());

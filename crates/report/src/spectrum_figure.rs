@@ -16,16 +16,16 @@ const MOST_DECADES: f64 = 12.0;
 /// Stroke of the self-affine fit, which has no influence on the range of the axes.
 const SELF_AFFINE: Stroke = Stroke::Dotted;
 
-/// Wave number in rad/m, and power spectral density in m³.
+/// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density in m³.
 pub type SpectrumPoint = (f64, f64);
 
-/// Power spectra of measured surfaces and of a profile.
+/// Power spectra of measured surfaces, of the random profile that replaces them, and of its computed heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,
-    /// Intended spectrum of the profile that replaces the measured surfaces.
+    /// Intended spectrum of the profile; empty for none.
     pub line: Vec<SpectrumPoint>,
-    /// Spectrum of the heights of the computed profile, averaged over ranges of wave numbers.
+    /// Spectrum computed from the heights of the profile, averaged over ranges of wave numbers; empty for none.
     pub heights: Vec<SpectrumPoint>,
 }
 
@@ -88,8 +88,9 @@ impl Spectra {
         Spectra { measured: layers, line: over(&|q| isotropic.line(q)), heights: Vec::new() }
     }
 
-    /// Returns the spectra of the measured surfaces of one or two faces. One face has its fit. Two faces have the spectrum
-    /// of a profile for the sum of both.
+    /// Returns the spectra of the measured surfaces of one body, or of both bodies in contact. Each [`Analysis`] is of one body.
+    /// For one body the fits to its spectrum are shown too. For two bodies the intended spectrum of the profile is for the sum
+    /// of both roughnesses.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),
@@ -101,7 +102,7 @@ impl Spectra {
         Spectra { measured: measured(faces), line, heights: Vec::new() }
     }
 
-    /// Returns the chart of the spectra over the wave number.
+    /// Returns the chart of all these spectra over the wave number.
     pub fn chart(&self) -> Chart {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {

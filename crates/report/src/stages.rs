@@ -4,7 +4,8 @@ use crate::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
 use asperity_scene::stages::{PlannedStage, Workload};
 
-/// Returns a table of the computing stages of a scene, with the memory that each stage needs.
+/// Returns a table of the steps in which the program computes a scene, such as making the profile. Each row has the passes over
+/// the springs, the memory, and the reason why the step runs or is skipped.
 pub fn stages_text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };

@@ -9,7 +9,8 @@ use std::time::Duration;
 /// Largest number of characters of the name of a machine in the table.
 const LONGEST_HOST: usize = 20;
 
-/// Returns the state of a study in words, with a table of its shards, the parts that processes compute.
+/// Returns as text how many results of a parameter study are computed, missing or damaged. A table counts them for each shard,
+/// the part of a study that one process computes.
 pub fn status_text(plan: &Plan, status: &Status) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&plan.title);
@@ -47,7 +48,7 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
     sheet.into_text()
 }
 
-/// Returns the progress of a study in one line.
+/// Returns the progress of a running study in one line: results done, their rate, and the time left.
 pub fn progress_text(progress: &StudyProgress) -> String {
     let StudyProgress { done, before, total, .. } = *progress;
     let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };

@@ -29,7 +29,8 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
     (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
-/// Returns the figure of charts of a grid. The values of the fixed axes are below its title.
+/// Returns a figure with these charts of a parameter study. Lines below its title state the axes of the study that are kept at
+/// one value.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
@@ -37,9 +38,9 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// Returns the map of a quantity over the two axes of a grid; `None` for a grid along one axis. The map shows the regimes,
-/// and the line where adhesion without a preload vanishes. With `whole`, a cell that is not computed yet shows the values
-/// of a computed cell nearby.
+/// Returns the map of the mean of a quantity over both axes of a study; `None` for a study along one axis. Signs or letters on
+/// the map show the regimes, and a line shows where adhesion without a preload vanishes. If `whole` is true, a cell that is not
+/// computed yet shows the value of a computed cell nearby; otherwise it is empty.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.statistics(quantity, whole));
@@ -88,8 +89,8 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Returns curves of a quantity over the horizontal axis of a grid, one for each row. If the values fall over many decades,
-/// a second chart is logarithmic.
+/// Returns a chart of a quantity over the first axis of a study, with a curve for each value of the second axis. If the values
+/// extend over many decades, a second chart shows them on a logarithmic scale.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);

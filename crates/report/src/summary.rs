@@ -56,7 +56,8 @@ pub(crate) fn summary(
     sheet.into_text()
 }
 
-/// Returns the main results of a scene in a few rows: title, κ, regime, forces and dissipated energy.
+/// Returns the main results of a computed scene as text: title, κ, e_el/γ, regime, preload, adhesion forces and dissipated
+/// energy.
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();

@@ -23,27 +23,27 @@ const LINE_PER_DECADE: f64 = 10.0;
 
 const LINE: &str = "equivalent line";
 
-/// Returns median, quartiles and range of the adhesion forces of random profiles in words; `None` for fewer than two
-/// profiles. The words end with the error due to the fit of the spectrum.
+/// Returns in words median, quartiles and range of the adhesion force over random profiles that replace a measured surface. The
+/// words end with the interval due to errors of the fitted spectrum. Returns `None` for fewer than two profiles.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
     let fit = computed.fit_interval().map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));
     Some(format!("{} profiles: {}{}", forces.count, forces.words("N"), fit.unwrap_or_default()))
 }
 
-/// Report on the measured surfaces of one or two faces, with what is known of their contact.
+/// Report on the measured surfaces of one body or of both bodies in contact, and on the adhesion of this contact.
 #[derive(Clone, Debug)]
 pub struct SurfaceReport {
-    /// Analysed face, and the opposite face if it was measured too.
+    /// Surfaces of the first body, and those of the opposite body if it was measured too.
     pub faces: Vec<MeasuredFace>,
-    /// Spectrum of the random profiles that replace all faces together.
+    /// Spectrum of the random profiles that replace the surfaces of both bodies.
     pub line: EquivalentLine,
     /// Effective modulus E*, Pa; `None` if it is not given.
     pub modulus: Option<f64>,
     /// Work of adhesion γ, J/m²; `None` if it is not given.
     pub work: Option<f64>,
-    /// Scene with these profiles, if its adhesion was requested. The results on random profiles are `None` if the scene has
-    /// many springs and they were not requested.
+    /// Scene with these random profiles and its results on them; `None` if no adhesion was requested. The results alone are
+    /// `None` if the scene has many springs and the user did not request them.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
@@ -88,7 +88,8 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// Returns an object with the object of the opposite face inside, which has no equivalent line and no adhesion.
+    /// Returns the results on the first body, and in the entry `opposite` those on the opposite body. Only the first has the
+    /// random profiles that replace both surfaces (`equivalent_line`) and their adhesion.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
@@ -113,8 +114,8 @@ impl Report for SurfaceReport {
         }))
     }
 
-    /// Returns a table of the spectra: kind, wave number in rad/m, power in m³, and number of averaged waves if there are
-    /// several.
+    /// Returns a table of the spectra. A row has the name of the spectrum, a wave number in rad/m, the power spectral density in
+    /// m³, and the number of waves over which a measured value is averaged.
     fn table(&self) -> Option<Table<'_>> {
         let names = || {
             self.faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {

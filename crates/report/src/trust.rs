@@ -6,7 +6,8 @@ use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::trust::{Budget, Criterion, criteria};
 
-/// Returns the sentence with which a summary begins if JKR theory does not apply; `None` if JKR theory applies.
+/// Returns a warning if the Tabor number of a computed scene is below 1, where neither JKR theory nor the rule of Hess applies;
+/// otherwise `None`.
 pub fn without_jkr(outcome: &Outcome) -> Option<String> {
     let number = outcome.tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
     let number = asperity_data::format_rounded(number, 2, "1");
@@ -38,8 +39,9 @@ pub(crate) fn trust(
     }
 }
 
-/// Returns the names of the theories that have a criterion for a computed scene, each with its number and verdict in words.
-/// The name is empty for a further row of the same theory. This program is the last theory.
+/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has the name of a theory, and in
+/// words its number and whether the bodies adhere. The name is empty for a further row of the same theory. This program comes
+/// last.
 pub fn theory_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -57,7 +59,8 @@ pub fn theory_rows(
     smooth.into_iter().chain(criteria.into_iter().map(row)).collect()
 }
 
-/// Returns the sources of the errors of the adhesion force, each with its error in words. The largest source comes last.
+/// Returns the sources of error of the adhesion force: number of springs, sample of profiles, measured surface, and model. A row
+/// has the name of a source and its relative error in words. The last row names the largest source.
 pub fn error_rows(
     scene: &Scene,
     estimate: Option<&Estimate>,

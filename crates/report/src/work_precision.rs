@@ -5,11 +5,13 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
 use asperity_study::half_space::Reference;
 
-/// Returns the figure of relative errors over the shortest time of a run. Each setting has a curve with its observed order
-/// of convergence. The errors are errors of the adhesion force, or of the force curve if there is no adhesion force.
+/// Returns the figure of relative errors over computing time. For each kind of setting, such as the number of springs, a curve
+/// shows error and time as this setting is refined; the legend has the observed order of convergence. The errors are those of
+/// the adhesion force, or of the force curve if there is no adhesion force.
 ///
-/// With a comparison in three dimensions, the curves end at the error of the model, which no number of springs reduces.
-/// Another sign shows the error of the contact in three dimensions, which is the difference from a coarser grid.
+/// With a comparison in three dimensions, the error of the model is a lower limit of the curves, since more springs do not
+/// reduce it. A further sign shows time and error of the computation in three dimensions, whose error is its difference from a
+/// coarser grid.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
     let floor = model.unwrap_or(0.0);

@@ -157,7 +157,7 @@ static TABLE: &[Entry] = &[
     row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
     row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).words("minor loop target load").shown_if(is_manual),
     row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
-    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the path as the loading of the scene", MANUAL).words("minor loop history").shown_if(is_manual),
+    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the manual loading as the loading of the scene", MANUAL).words("minor loop history").shown_if(is_manual),
 
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),

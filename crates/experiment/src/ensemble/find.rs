@@ -35,16 +35,18 @@ const MOST_ERROR: f64 = 0.5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
-/// Finds the work of adhesion of a rough body from curves measured at different places, each with its name. On request it
-/// finds the effective modulus too.
+/// Finds the work of adhesion of a rough body from curves measured at different places of it. `curves` has pairs of a name and a
+/// curve. With [`EnsembleOptions::is_modulus_free`] the effective modulus is found too.
 ///
-/// The curves are compared with curves computed for random profiles of the roughness of the scene. The scene also gives the
-/// stiffness of the instrument, the form and the ratio of both works of adhesion. Each computed curve has the preload, the
-/// points and the noise of one of the measured curves. The reported progress is the number of curves computed so far.
+/// The curves are compared with curves computed for random profiles that have the roughness of the scene. The scene also
+/// gives the form, the stiffness of the instrument, and the ratio of the works of adhesion on closing and on opening. Each
+/// computed curve has the preload, the points and the noise of one of the measured curves. Through `control` the caller
+/// learns the number of curves computed so far.
 ///
 /// # Errors
-/// The profile of the scene is not random. A curve lacks an approach, or its retraction ends before the contact is lost. A
-/// computation fails or is stopped.
+/// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an approach, or if its
+/// retraction ends before the contact is lost. It also returns an error if an option is out of range, or if a computation
+/// fails or is stopped.
 pub fn fit_ensemble(
     curves: &[(String, MeasuredCurve)],
     document: &Document,

@@ -13,10 +13,10 @@ const EDGE: f64 = 0.1;
 /// Quantiles of the result and of its 95 % interval.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Parameter with its 95 % interval.
+/// Estimate of a parameter with its 95 % interval, all in the SI unit of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct IntervalEstimate {
-    /// Median of the probability of the parameter.
+    /// Estimated value: the median of the probability distribution of the parameter.
     pub value: f64,
     /// Lower end of the 95 % interval.
     pub low: f64,
@@ -25,7 +25,7 @@ pub struct IntervalEstimate {
 }
 
 impl IntervalEstimate {
-    /// Returns half the width of the 95 % interval of the natural logarithm of the parameter.
+    /// Returns half the width of the interval on the scale of the natural logarithm, ½ ln(high/low).
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high / self.low).ln()
     }

@@ -2,20 +2,21 @@
 
 use super::posterior::IntervalEstimate;
 
-/// Options of a comparison of measured curves with random profiles.
+/// Options of [`fit_ensemble`](crate::fit_ensemble), which compares measured curves with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnsembleOptions {
-    /// Number of random profiles with which the curves are compared.
+    /// Number of random profiles with which the curves are compared, at least 16.
     pub lines: u64,
     /// True if the effective modulus is to be found; false if the scene gives it.
     pub is_modulus_free: bool,
-    /// Relative standard error of the rms height of the roughness; `None` if it is not stated.
+    /// Standard error of the rms height of the roughness divided by this height; `None` if it is not stated.
     pub height_error: Option<f64>,
     /// Standard error of the Hurst exponent; `None` if it is not stated.
     pub hurst_error: Option<f64>,
 }
 
-/// Work of adhesion, and effective modulus, of a rough body from curves measured at many of its places.
+/// Result of [`fit_ensemble`](crate::fit_ensemble): the work of adhesion and the effective modulus of one rough body, from
+/// curves measured at several places of it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct EnsembleFit {
@@ -27,36 +28,39 @@ pub struct EnsembleFit {
     pub modulus_is_given: bool,
     /// Work of adhesion on closing divided by the work of adhesion on opening, as the scene states it.
     pub closing_over_opening: f64,
-    /// Correlation of ln γ and ln E*; 0 for a given E*.
+    /// Correlation of the errors of ln γ and ln E*, from −1 to 1; 0 for a given E*.
     pub correlation: f64,
-    /// Sources of the uncertainty of the work of adhesion.
+    /// How much each source contributes to the uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// Precision of the work of adhesion that more curves would give.
+    /// How narrow the interval of the work of adhesion would be with 16, 64 and 256 measured curves. Numbers up to that of the
+    /// present curves are left out.
     pub prospects: Vec<Prospect>,
-    /// Derivatives of the results with respect to the roughness of the scene; `None` for a measured roughness.
+    /// Changes of γ and E* with the rms height and the Hurst exponent of the scene; `None` for a measured roughness.
     pub roughness: Option<RoughnessShifts>,
-    /// Changes that the files of the curves make to the scene, in words; `None` if there are none.
+    /// Sentence about the stiffness of the instrument that the files of the curves state; `None` if the scene is used
+    /// unchanged.
     #[serde(skip)]
     pub instrument: Option<String>,
-    /// Number of random profiles.
+    /// Number of random profiles with which the curves were compared.
     pub lines: u64,
-    /// Number of computed curves.
+    /// Number of force curves computed on these profiles.
     pub computed: usize,
-    /// Mean of the largest forces of the curves, N.
+    /// Mean preload (largest force) of the measured curves, N.
     pub preload: f64,
-    /// Standard deviation of the largest forces divided by their mean; `None` if they differ by noise only. With a value,
-    /// each random profile is loaded by the preload of one of the curves.
+    /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise only. If there is a value,
+    /// each random profile is loaded to the preload of one of the curves, otherwise to the mean preload.
     pub preload_scatter: Option<f64>,
     /// Results that each single curve gives.
     pub curves: Vec<CurveOfEnsemble>,
-    /// Scatter of the single curves divided by the scatter of the random profiles, expected between about 0.8 and 1.2. It
-    /// is `None` for fewer than 4 curves.
+    /// Standard deviation of ln γ from single measured curves, divided by that from single random profiles. If E* is free,
+    /// ln E* counts too. The ratio should be about 0.8 to 1.2; it is `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
-    /// True if random profiles describe the mean of each summary, a number such as the pull-off force or the loop area.
+    /// True if random profiles describe the measured curves, so that [`SummaryDeviation::deviates`] is false for all summaries.
     pub described: bool,
-    /// Difference between the curves and the random profiles in the mean of each summary.
+    /// Differences between the measured curves and the random profiles, one for each number such as the pull-off force.
     pub deviations: Vec<SummaryDeviation>,
-    /// True if the interval reaches an end of the table of computed curves. The true interval is then wider.
+    /// True if the interval of γ or E* reaches an end of the range of values for which curves were computed. The true
+    /// interval is then wider.
     pub at_end_of_table: bool,
 }
 
@@ -72,17 +76,18 @@ pub struct Shares {
     pub roughness: f64,
 }
 
-/// Precision that a larger number of curves would give.
+/// Precision of the work of adhesion that a larger number of measured curves would give.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Prospect {
-    /// Number of curves.
+    /// Number of measured curves.
     pub curves: u64,
-    /// Half-width of the 95 % interval of ln γ.
+    /// Half the width of the 95 % interval of ln γ with this number.
     pub half_width: f64,
 }
 
-/// Derivatives of ln γ and ln E* with respect to the roughness of the scene.
+/// Derivatives of the results ln γ and ln E* with respect to the roughness of the scene: how far an error of the roughness
+/// shifts the results.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RoughnessShifts {
@@ -104,30 +109,33 @@ pub struct CurveOfEnsemble {
     pub name: String,
     /// Largest force of the curve, N.
     pub preload: f64,
-    /// Largest tension of the curve, N; `None` if it is at most 5 times the noise.
+    /// Largest tensile force of the curve, N; `None` if it is at most 5 times the noise.
     pub pull_off_force: Option<f64>,
-    /// Area between approach and retraction, J.
+    /// Area between approach and retraction over the displacement of the instrument, J.
     pub loop_area: f64,
-    /// Mean stiffness of the retraction from the preload down to half the preload, N/m.
+    /// Half the preload divided by the displacement on the retraction from the preload to half the preload, N/m.
     pub stiffness: f64,
     /// Work of adhesion found from this single curve, J/m².
     pub work: IntervalEstimate,
-    /// True if the interval from this single curve reaches an end of the table of computed curves.
+    /// True if the interval from this single curve reaches an end of the range of values for which curves were computed.
     pub at_end_of_table: bool,
-    /// True if at most one of a thousand curves of random profiles lies as far from the mean as this curve.
+    /// True if this curve deviates from the mean of the random profiles more than 999 of 1000 of them do. Its place may then
+    /// differ from the others.
     pub foreign: bool,
 }
 
-/// Mean of a summary, a number such as the pull-off force, over the measured curves, compared with random profiles.
+/// Difference between the measured curves and the random profiles in one summary. A summary is a number computed from a
+/// curve, such as its pull-off force.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SummaryDeviation {
     /// Name of the summary, such as `pull-off force`.
     pub summary: &'static str,
-    /// Natural logarithm of the ratio of the mean over the curves to the mean over the random profiles.
+    /// Mean of the natural logarithm of the summary over the measured curves, minus its mean over the random profiles.
     pub logarithm: f64,
-    /// This logarithm divided by its standard error.
+    /// [`Self::logarithm`] divided by its standard error.
     pub deviation: f64,
-    /// True if the deviation is larger than the largest deviation in 99 % of ensembles of random profiles.
+    /// True if the magnitude of [`Self::deviation`] exceeds a limit that all summaries keep in 99 % of equally many random
+    /// profiles.
     pub deviates: bool,
 }

@@ -29,7 +29,8 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Returns the entries of the legend of charts. Each entry is a sample of the line, sign or area, followed by the name.
+/// Returns the legend of charts in a terminal, as styled texts for each entry. An entry shows the line, sign or area of its
+/// layers in their colours, and then their name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
     let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);

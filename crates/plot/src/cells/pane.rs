@@ -25,17 +25,17 @@ const BELOW: RangeInclusive<u16> = 3..=7;
 /// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
-/// Chart in a pane of the terminal, with texts beside its curves and with further charts at its sides.
+/// Chart in a pane of the terminal, with names beside its curves. Further charts can be on its right and below it.
 pub struct PaneChart {
     /// Main chart.
     pub chart: Chart,
-    /// Texts beside points of the chart, in addition to the names of its layers.
+    /// Texts beside points of the chart, in addition to the names of its layers, which are drawn without being listed here.
     pub names: Vec<Name>,
     /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
-    /// Low chart below the main chart, with the same horizontal axis. It is shown if there is room.
+    /// Chart of a few rows below the main chart, with the same horizontal axis. It is shown only in a pane of at least 11 rows.
     pub below: Option<Chart>,
-    /// Signs of springs in contact, which replace the line below the plot; empty for no signs.
+    /// Springs in contact, which are shown by signs in place of the line below the plot; empty for no signs.
     pub contact: ContactRow,
 }
 
@@ -44,12 +44,12 @@ pub struct PaneChart {
 pub struct ContactRow {
     /// Whether each spring is in contact, from left to right.
     pub springs: Vec<bool>,
-    /// Ends of a part of the axis that is marked by brackets, as shares of the axis from 0 to 1.
+    /// Both ends of a part of the axis that brackets mark, from 0 at the left end of the axis to 1 at the right end.
     pub marked: Option<(f64, f64)>,
 }
 
-/// Divides an area into the area of a chart and the area of a second chart on its right. The second area is `None` if there
-/// is no room.
+/// Divides an area of the screen between a chart and a second chart on its right. The second part is `None` if the area is too
+/// narrow for both.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);
@@ -82,12 +82,13 @@ fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<(Name, Entry)> {
 }
 
 impl PaneChart {
-    /// Creates a chart without further charts and texts.
+    /// Creates a pane with this chart alone, without further charts and texts.
     pub fn new(chart: Chart) -> PaneChart {
         PaneChart { chart, names: Vec::new(), beside: None, below: None, contact: ContactRow::default() }
     }
 
-    /// Divides an area into the main chart and the area of the chart on its right, if there is one.
+    /// Divides an area of the screen as [`Self::draw`] does. Returns the place of the main chart, and the area of the chart on
+    /// its right if that is shown.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() { split(area) } else { (area, None) };
         let left = Rect { height: left.height - self.rows_below(area), ..left };
@@ -145,7 +146,8 @@ impl PaneChart {
         }
     }
 
-    /// Draws the chart. Returns the entries of the legend that have no room beside their curves.
+    /// Draws all charts and texts into `area`. Returns the legend entries of the curves beside which there was no room for their
+    /// names.
     pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;

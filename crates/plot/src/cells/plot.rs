@@ -24,18 +24,18 @@ const WITH_LABEL_BELOW: u16 = 16;
 /// Columns and rows of Braille dots in a cell.
 const DOTS: (u16, u16) = (2, 4);
 
-/// Text beside a point of a chart.
+/// Text that [`CellPlot::draw_name`] draws beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Points of the chart, as numbers on its axes. The text is drawn beside the first point that has room.
+    /// Possible points, as numbers on both axes. The text is drawn beside the first of them that has room.
     pub at: Vec<(f64, f64)>,
-    /// The text, followed by shorter texts for less room.
+    /// The text, and shorter texts in its place if the room does not suffice for it, longest first.
     pub texts: Vec<String>,
     /// Ink of the text.
     pub ink: Ink,
 }
 
-/// Area of the screen, divided into the plot and the scales of a chart.
+/// Area of the screen for one chart, divided into the plot and the scales: the numbers on the left of the plot and below it.
 pub struct CellPlot {
     /// Area of the plot without the scales.
     pub plot: Rect,
@@ -49,14 +49,14 @@ pub struct CellPlot {
 }
 
 impl CellPlot {
-    /// Divides an area of the screen between the plot and the scales of a chart.
+    /// Divides an area of the screen between the plot and the scales of a chart. In a low or narrow area scales are left out.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let line = area.height >= WITH_LINE_BELOW;
         CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
     }
 
-    /// Divides an area of the screen between the plot and the scales of a chart. The caller draws `between` rows between
-    /// the plot and the numbers below it.
+    /// Divides an area of the screen as [`Self::within`], but leaves `between` rows free between the plot and the numbers below
+    /// it. The caller draws these rows.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
@@ -73,8 +73,9 @@ impl CellPlot {
         CellPlot { plot, left, between, line: false, below, label }
     }
 
-    /// Returns the numbers on both axes at a cell of the screen. On a map they belong to the map cell behind the screen
-    /// cell; `None` outside the map. Otherwise they are the numbers at the middle of the nearest cell of the plot.
+    /// Returns the numbers on both axes at a screen cell, given by column and row. In a chart without a heat map they belong to
+    /// the middle of this cell, or of the nearest cell of the plot. On a heat map they are the values of the map cell drawn
+    /// there, and `None` outside the map.
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {
@@ -95,8 +96,8 @@ impl CellPlot {
         Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
 
-    /// Returns the screen cell of a point, given as numbers on both axes. Outside the chart the cell is `None`, or on a map
-    /// the nearest cell at the edge.
+    /// Returns column and row of the screen cell at a point, given as numbers on both axes. For a point outside the chart it is
+    /// `None`, or on a heat map the nearest cell at the edge.
     pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
@@ -111,7 +112,7 @@ impl CellPlot {
         })
     }
 
-    /// Draws the chart into the cells of a buffer.
+    /// Draws the plot and the scales of the chart into the cells of a buffer.
     pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         if self.plot.is_empty() {
             return;

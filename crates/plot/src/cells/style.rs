@@ -4,27 +4,27 @@ use crate::chart::Sign;
 use crate::colour::{Ink, Rgb};
 use ratatui::style::{Color, Style};
 
-/// Appearance of a chart in terminal cells: the style of each ink, and the colours of the terminal.
+/// Appearance of a chart in a terminal: the style of each [`Ink`], and the colours that the terminal has.
 pub struct CellStyle<'a> {
-    /// Style of each ink.
+    /// Function that returns the style, such as the colour, of an ink.
     pub ink: &'a dyn Fn(Ink) -> Style,
-    /// Colours of the terminal.
+    /// Colours that the terminal has.
     pub colours: Colours,
 }
 
 /// Colours that a terminal has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// No colours. Shades are characters.
+    /// No colours. A heat map is drawn with the characters [`SHADES`](crate::SHADES).
     None,
-    /// 256 fixed colours of a palette.
+    /// The 256 fixed colours of a terminal of 8 bits.
     Palette,
-    /// All 24-bit colours.
+    /// All colours of 24 bits.
     All,
 }
 
 impl Colours {
-    /// Returns the colour that the terminal has and that is nearest to `Rgb`.
+    /// Returns the colour of the terminal that is nearest to this one.
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;

@@ -51,7 +51,7 @@ struct Layout {
 }
 
 impl Figure {
-    /// Draws the figure and returns the SVG document. Equal figures give equal bytes.
+    /// Draws the figure and returns an SVG document. Equal figures give documents of equal bytes.
     pub fn svg(&self) -> String {
         let mut layout = self.columns();
         let (mut svg, mut height) = self.drawn(&layout);
