@@ -277,8 +277,8 @@ impl Leg {
         }
     }
 
-    /// Computes the state of one patch at an indentation in m. Patches are numbered from the left, from 0. `None` if there is
-    /// no such patch.
+    /// Computes the state of one patch at an indentation in m. `number` counts the patches from the left, from 0. Returns
+    /// `None` if there is no patch with this number.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         self.pinned_patches(indentation).get(number).map(|patch| self.state_of(patch, indentation))
     }
