@@ -64,7 +64,8 @@ impl Branch {
     }
 
     /// Finds the preload, the point of the largest force on loading, and the index of its stage. Only stages before the last
-    /// unloading count, and of these only the stages after the last separation.
+    /// unloading count, and of these only the stages after the last separation. In a history without unloading all stages
+    /// count.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};

@@ -264,8 +264,8 @@ impl Cycle {
     }
 
     /// Returns the preload in N: the largest force on loading before the last unloading. If the body was separated before this
-    /// unloading, only stages after the last such separation count. Returns `None` if none of the stages that count loads the
-    /// body in contact.
+    /// unloading, only stages after the last such separation count. In a history without unloading all stages count. Returns
+    /// `None` if none of the stages that count loads the body in contact.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload

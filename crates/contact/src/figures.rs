@@ -22,8 +22,8 @@ use super::target::Move;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// Preload F_n in N: the largest force on loading before the last unloading. If the body was separated before this
-    /// unloading, only stages after the last such separation count. `None` if none of the stages that count loads the body in
-    /// contact.
+    /// unloading, only stages after the last such separation count. In a history without unloading all stages count. `None` if
+    /// none of the stages that count loads the body in contact.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,

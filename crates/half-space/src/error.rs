@@ -18,7 +18,7 @@ pub enum HalfSpaceError {
         /// The number of heights that is allowed.
         allowed: usize,
     },
-    /// A value of the square, of its load or of the tolerance is out of its range.
+    /// A value of the square, of its load, of its adhesion or of the tolerance is out of its range.
     #[error("{name} = {found:e}; allowed: {allowed}")]
     Value {
         /// Name of the value.

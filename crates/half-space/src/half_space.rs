@@ -38,7 +38,7 @@ pub struct Pressed {
     /// Gap between the square and the half-space at each cell in m. In contact its absolute value is at most `residual` times
     /// the length by which [`Pressed::residual`] is divided, for a rough square its rms height.
     pub gap: Vec<f64>,
-    /// Force on the square in N, positive in compression.
+    /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is positive.
     pub force: f64,
     /// Indentation from first touch in m. With [`Boundary::Periodic`] it is the depth of the highest point of the square
     /// below the mean plane of the deformed half-space.

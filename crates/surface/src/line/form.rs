@@ -10,8 +10,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. Its axis lies on the spring ⌊N/2⌋ of N springs; see
-/// [`Form::spring_on_axis`].
+/// Macroscopic form of the rigid body: its shape without roughness. The axis of every form except a punch lies on the spring
+/// ⌊N/2⌋ of N springs, as [`Form::spring_on_axis`] explains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -41,7 +41,7 @@ pub enum Form {
         /// Wavelength λ in m.
         wavelength: f64,
     },
-    /// Flat-ended cylinder. Nothing outside its radius touches.
+    /// Cylinder with a flat end, which alone can touch.
     Punch {
         /// Radius a of the flat end in m.
         radius: f64,
@@ -88,7 +88,7 @@ impl Form {
     }
 
     /// Returns the index ⌊N/2⌋ of the spring on the axis of every form, for N = `points` springs. If the axis lay between two
-    /// springs, no spring would be at the tip. Force, indentation and energy would then have errors of first order in the
+    /// springs, no spring would be at the tip. The errors of force, indentation and energy would then be proportional to the
     /// spacing Δx of the springs.
     pub fn spring_on_axis(points: u64) -> u64 {
         points / 2
@@ -150,8 +150,8 @@ impl Form {
         if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
     }
 
-    /// Returns the curvature at the summit in 1/m; `None` for cones, power laws, and tables without a finite curvature at the
-    /// tip.
+    /// Returns the curvature at the summit in 1/m. Returns `None` for a cone, for a power law, and for a table that has not
+    /// been read or has no finite curvature at the tip.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
@@ -165,7 +165,7 @@ impl Form {
     }
 
     /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a punch
-    /// it is 0, the depth of its flat face; [`Form::springs_under`] has the springs under this face.
+    /// it is 0, the depth of its flat face; [`Form::springs_under`] returns the springs under this face.
     ///
     /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr. A paraboloid r²/2R becomes x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power
     /// law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x|
@@ -192,8 +192,8 @@ impl Form {
         }
     }
 
-    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m. `None` beside a punch, where
-    /// there is no body.
+    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m. Returns `None` for a punch
+    /// at a distance above its radius, where there is no body.
     ///
     /// ```
     /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 2.0 }.depth(0.1), Some(0.1 * 0.1 / 4.0));
@@ -211,8 +211,8 @@ impl Form {
         })
     }
 
-    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent profile g(x) = c |x|ⁿ. `None` for
-    /// a punch, waves and tables.
+    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent profile g(x) = c |x|ⁿ. Returns
+    /// `None` for a [`Form::Punch`], a [`Form::WavySphere`] and a [`Form::Table`].
     ///
     /// ```
     /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 0.5 }.power_law(), Some((2.0, 2.0)));
@@ -241,7 +241,8 @@ impl Form {
     }
 }
 
-/// Returns κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor between a power law rⁿ and its equivalent profile κₙ |x|ⁿ.
+/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ has the equivalent profile κₙ
+/// |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // Logarithms of Γ: the quotient remains finite where its parts would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();

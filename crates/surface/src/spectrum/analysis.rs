@@ -47,7 +47,7 @@ pub struct AnalysisOptions {
     /// True for a surface that continues periodically at its borders. The analysis then uses no window function. A container
     /// may also state that its surface is periodic.
     pub periodic: bool,
-    /// Whether the surface has waves shorter than the shortest wave that its points resolve.
+    /// Assumption on waves shorter than the shortest wave that the points resolve: whether the surface has such waves.
     pub end: End,
     /// Radius in m of the tip that measured the surface.
     pub tip_radius: Option<f64>,
@@ -63,12 +63,12 @@ pub struct Analysis {
     pub rms_heights: Vec<f64>,
     /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
-    /// Isotropic spectrum fitted to the surfaces, which are taken as samples of it.
+    /// Isotropic spectrum fitted to the surfaces. All of them are taken as samples of this one spectrum.
     pub isotropic: IsotropicSpectrum,
     /// Self-affine spectrum fitted to the surfaces; `None` if the fit does not converge or finds no Hurst exponent between 0
     /// and 1.
     pub power_law: Option<SelfAffineFit>,
-    /// Moments of the equivalent line, such as its rms height.
+    /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms height.
     pub line: LineMoments,
     /// Shortest wavelength in m that the tip resolves reliably. For several surfaces it is the largest of their wavelengths.
     /// `None` if no tip radius is given, or if the tip resolves all waves.
@@ -86,8 +86,9 @@ pub struct Analysis {
     /// True if the waves parallel to one axis of a map are left out. The rows or columns of such a map are offset against each
     /// other, or were levelled one by one.
     pub offsets: bool,
-    /// Share of the squared gradient by which waves parallel to an axis of a map differ from waves in neighbouring directions.
-    /// The share is 0 if waves parallel to an axis are left out, or if the difference is small or may be chance.
+    /// Largest difference between the squared gradient of waves parallel to an axis of a map and the value expected from waves
+    /// in neighbouring directions. It is divided by the squared gradient of the map. The value is 0 if waves parallel to an
+    /// axis are left out, or if the difference is small or may be chance.
     pub apart: f64,
     /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. For several
     /// maps it is the largest of their distances. `None` if no map has such a displacement.
@@ -395,8 +396,8 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns the share of the mean square height that comes from waves longer than a quarter of the scan. A scan has only few
-    /// such waves, so with a large share the rms height depends on the length of the scan.
+    /// Returns the share of the mean square height that comes from waves longer than a quarter of [`Analysis::length`]. A
+    /// surface has only few such waves. With a large share the rms height therefore depends on the measured length.
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

@@ -66,7 +66,7 @@ pub struct Topography {
     pub format: &'static str,
     /// Heights in m, row by row.
     pub heights: Vec<f64>,
-    /// Number of points of a row, or of all points for a profile.
+    /// Number of points in each row. All points of a profile are one row.
     pub columns: usize,
     pub(super) layout: Layout,
     /// Numbers of rows and columns without a measured point that are left out at the borders.
@@ -77,12 +77,13 @@ pub struct Topography {
     pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
-    /// Name of the measurement in a container, an archive of several files; empty if the surface has a file of its own.
+    /// Name that a container, an archive of several measurements, gives this measurement. The name is empty if the surface has
+    /// a file of its own.
     pub name: String,
     /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
-    /// Messages for the user about unusual content of the file.
+    /// Messages for the user, each about something unusual in the file.
     pub warnings: Vec<String>,
 }
 
@@ -299,7 +300,7 @@ fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
-/// Polynomial removed from a surface before the analysis.
+/// Polynomial that is subtracted from the heights of a surface before the analysis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
