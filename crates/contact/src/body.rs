@@ -102,8 +102,8 @@ pub struct Motion {
 }
 
 impl Body {
-    /// Creates a separated body at d = 0, just before first touch. The force curve of each motion is computed at `samples`
-    /// points, at least 2.
+    /// Creates a separated body at the indentation d = 0, just before first touch. The force curve of each motion is computed
+    /// at `samples` points, at least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
@@ -124,7 +124,7 @@ impl Body {
         Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
     }
 
-    /// Returns the point of the force curve at the present indentation.
+    /// Returns the present point of the force curve: indentation, force, contact and energy of the body.
     pub fn point(&self) -> CurvePoint {
         self.point_of(self.state)
     }
@@ -305,10 +305,10 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them the body is loaded from separation and then
-    /// unloaded. The body turns at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0). An adhesion
-    /// force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading never returns
-    /// to zero force. The body itself stays in place.
+    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them a copy of the body is loaded from separation
+    /// and then unloaded. The loading ends at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0). An
+    /// adhesion force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading never
+    /// returns to zero force. The body itself stays in place.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;

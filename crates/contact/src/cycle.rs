@@ -37,7 +37,7 @@ pub struct LoadOptions<'a> {
 
 impl<'a> LoadOptions<'a> {
     /// Sets the number of points at which the force curve of each loading stage is computed, from 2 to a million. The default
-    /// is 512. The largest and the smallest force are exact for any number of points.
+    /// is 512. The preload and the pull-off force are exact for any number of points.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         LoadOptions { samples: Some(samples), ..self }
@@ -106,24 +106,24 @@ pub struct Cycle {
 pub struct Curve {
     /// Index of the loading stage to which each point belongs, from 0.
     pub stage: Vec<usize>,
-    /// Indentation d of each point in m.
+    /// Indentation d in m of each point.
     pub indentation: Vec<f64>,
-    /// Force F at each point in N; compression is positive.
+    /// Force F in N at each point; compression is positive.
     pub force: Vec<f64>,
-    /// Displacement D = d + F/k in m, at each point, of the drive of the instrument that moves the body. Here k is the
-    /// stiffness of the instrument. If the instrument is rigid, D equals d.
+    /// Displacement D = d + F/k in m at each point. It is the position of the drive of the instrument that moves the body, and
+    /// k is the stiffness of the instrument. If the instrument is rigid, D equals d.
     pub displacement: Vec<f64>,
-    /// Sum of the lengths of all contact patches at each point in m.
+    /// Contact length in m at each point: the sum of the lengths of all contact patches.
     pub contact_length: Vec<f64>,
     /// Number of contact patches at each point.
     pub patches: Vec<u64>,
-    /// Elastic energy stored in the springs at each point in J.
+    /// Elastic energy in J that is stored in the springs at each point.
     pub stored_energy: Vec<f64>,
 }
 
 impl Contact {
     /// Moves the body, which is separated at first, through these loading stages one after the other. Each stage ends where the
-    /// body reaches its target.
+    /// body reaches the target of the stage.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and [`ContactError::Stage`] for a

@@ -47,9 +47,9 @@ pub struct LegRecord {
     /// of the motion minus the growth of the elastic energy stored in the springs. The sum of the released energies of all
     /// stages of a closed loop is the dissipated energy.
     pub released_energy: f64,
-    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. It is exact for any number of
-    /// points in `curve`. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over all stages.
-    /// Consecutive stages in one direction are taken as one motion when this energy is computed.
+    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. This energy is exact for any
+    /// number of points in `curve`. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over all
+    /// stages. Consecutive stages in one direction are taken as one motion when this energy is computed.
     pub jump_energy: f64,
 }
 
@@ -118,12 +118,12 @@ impl LegRecord {
         self.curve.last().copied().filter(|point| point.springs > 0)
     }
 
-    /// Returns the indentation at the beginning of the motion in m.
+    /// Returns the indentation in m at the beginning of the motion.
     pub fn start(&self) -> f64 {
         self.curve.first().map_or(0.0, |point| point.indentation)
     }
 
-    /// Returns the indentation at the end of the motion in m.
+    /// Returns the indentation in m at the end of the motion.
     pub fn end(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.indentation)
     }
@@ -250,13 +250,14 @@ pub struct CurvePoint {
     pub indentation: f64,
     /// Force F in N; compression is positive.
     pub force: f64,
-    /// Sum of the lengths of all contact patches in m.
+    /// Contact length in m: the sum of the lengths of all contact patches.
     pub contact_length: f64,
     /// Number of springs in contact.
     pub springs: u64,
     /// Number of contact patches.
     pub fragments: u64,
-    /// Elastic energy stored in the springs in J: ½ Δk Σ (d − c)² over all springs in contact, where c is the gap of a spring.
+    /// Elastic energy in J that is stored in the springs: ½ Δk Σ (d − c)² over all springs in contact. Here Δk is the stiffness
+    /// of a spring and c its gap.
     pub stored_energy: f64,
 }
 
@@ -285,9 +286,9 @@ impl CurvePoint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(Serialize), serde(into = "(usize, usize)"))]
 pub struct Patch {
-    /// Index of the leftmost spring.
+    /// Index of the leftmost spring of the patch.
     pub first: usize,
-    /// Index of the rightmost spring.
+    /// Index of the rightmost spring of the patch.
     pub last: usize,
 }
 

@@ -10,8 +10,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. The axis of every form except a punch lies on the spring
-/// ⌊N/2⌋ of N springs, as [`Form::spring_on_axis`] explains.
+/// Macroscopic form of the rigid body: its shape without roughness. Depths count downwards from the apex, and r is the distance
+/// from the axis. The axis of every form except a punch lies on the spring ⌊N/2⌋ of N springs, as [`Form::spring_on_axis`]
+/// explains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -62,7 +63,8 @@ pub enum Form {
 impl Form {
     /// Reads the file of a [`Form::Table`], unless it has been read already. `folder` is the folder of the scene file. Checks
     /// that the radii of the table reach from the axis to the ends of a profile of this length in m. All clones of the form
-    /// then share the table. Other forms need no reading. Before its file is read, a [`Form::Table`] is flat.
+    /// then share the table. Other forms need no reading. Before its file is read, a [`Form::Table`] is flat. Returns an error
+    /// if the file holds no table, or if the table ends before the profile does.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let in_file = |error: SurfaceError| {
@@ -95,9 +97,9 @@ impl Form {
     }
 
     /// Returns the distance by which the body is displaced along the springs, in spring spacings. The displacement moves the
-    /// axis from L/2 onto a spring. It is ½ for an even number of springs, and 0 for an odd one. Form and roughness are
-    /// displaced together, so that their relative position does not depend on the number of springs. A punch has no tip and is
-    /// not displaced.
+    /// axis from L/2 onto a spring. This distance is ½ for an even number of springs, and 0 for an odd one. Form and roughness
+    /// are displaced together, so that their relative position does not depend on the number of springs. A punch has no tip and
+    /// is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }

@@ -161,7 +161,8 @@ impl Amplitude {
         }
     }
 
-    /// Returns the roughness amplitude of the profile after it is stretched to `times` its length.
+    /// Returns the roughness amplitude of the profile after it is stretched along x by the factor `times`, with the same
+    /// heights.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,

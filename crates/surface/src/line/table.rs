@@ -117,7 +117,7 @@ impl FormTable {
         Ok(FormTable { radii, slopes })
     }
 
-    /// Returns the largest radius of the table in m, in its last row.
+    /// Returns the radius in m of the last row, the largest radius of the table.
     pub fn reach(&self) -> f64 {
         self.radii[self.radii.len() - 1]
     }

@@ -40,9 +40,9 @@ const CONTINUED: f64 = 4.0;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. With `None` it is the polynomial that a container, an archive of
-    /// contact.engineering, states for the surface. If none is stated, it is the tilt, or for a periodic surface only the mean.
-    /// To remove a plane from a periodic surface would leave a step at its borders.
+    /// Polynomial removed before the analysis. With `None`, the polynomial is removed that an archive of contact.engineering
+    /// states for the surface. If none is stated, the mean and the tilt are removed, or only the mean of a periodic surface. To
+    /// remove a plane from a periodic surface would leave a step at its borders.
     pub detrend: Option<Detrend>,
     /// True for a surface that continues periodically at its borders. The analysis then uses no window function. A container
     /// may also state that its surface is periodic.
@@ -59,7 +59,7 @@ pub struct AnalysisOptions {
 pub struct Analysis {
     /// Statistics of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height of each surface in m, after removal of the polynomial.
+    /// Rms height in m of each surface, after removal of the polynomial.
     pub rms_heights: Vec<f64>,
     /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
@@ -73,11 +73,11 @@ pub struct Analysis {
     /// Shortest wavelength in m that the tip resolves reliably. For several surfaces it is the largest of their wavelengths.
     /// `None` if no tip radius is given, or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
-    /// Number of surfaces that are profiles.
+    /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
-    /// Number of surfaces that are maps.
+    /// Number of the analysed surfaces that are maps.
     pub maps: u64,
-    /// Length of the longest row of all surfaces in m.
+    /// Length in m of the longest row of all surfaces.
     pub length: f64,
     /// [`AnalysisOptions::end`] of this analysis: whether waves continue beyond the last resolved one.
     pub end: End,
@@ -110,8 +110,8 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// Returns an error for a surface with uneven points, with too few points or without roughness. Returns an error for an
-/// [`End::Continues`] with a wave number that the points already resolve.
+/// Returns an error for a surface with uneven points, with too few points or without roughness. Also returns an error if
+/// [`AnalysisOptions::end`] is [`End::Continues`] with a wave number that the points resolve already.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};

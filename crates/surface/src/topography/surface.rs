@@ -38,8 +38,8 @@ pub(super) enum Layout {
     Even([f64; 2]),
 }
 
-/// Numbers of columns and rows at the borders of a map that have no measured point and are left out. For a profile these are
-/// numbers of points at its ends.
+/// Numbers of columns and rows at the borders of a map that have no measured point and are left out. For a profile the numbers
+/// of columns are numbers of points at its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
