@@ -305,10 +305,10 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them a copy of the body is loaded from separation
-    /// and then unloaded. The loading ends at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0). An
-    /// adhesion force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading never
-    /// returns to zero force. The body itself stays in place.
+    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them a loading from separation is computed, and the
+    /// unloading that follows. The loading ends at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0).
+    /// An adhesion force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading
+    /// never returns to zero force. The body itself stays in place.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;

@@ -78,7 +78,8 @@ impl EquivalentLine {
         line_moments(&self.faces)
     }
 
-    /// Returns the power spectral density (PSD) of the line in m³ at a wave number in rad/m, the sum over the faces.
+    /// Returns the power spectral density (PSD) in m³ of the line at a wave number in rad/m. It is the sum of the densities of
+    /// the faces.
     pub fn power(&self, wave_number: f64) -> f64 {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
@@ -92,7 +93,7 @@ impl EquivalentLine {
 
     /// Returns the first and the last mode k of a line of the length L = `length` in m on `points` springs. Mode k is the wave
     /// with the wave number q = 2πk/L. The modes are the waves of the spectrum that fit the line and that the springs resolve.
-    /// Waves longer than the scan are unknown and left out.
+    /// Waves longer than the measured surfaces are unknown and left out. Returns an error if no wave remains.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -143,7 +144,8 @@ impl EquivalentLine {
         4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
 
-    /// Computes the rms height, gradient and curvature of a line of this length in m that has only the modes `first..=last`.
+    /// Computes the roughness amplitude, such as the rms height, of a line of this length in m that has only the modes
+    /// `first..=last`.
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
@@ -166,7 +168,7 @@ impl MeasuredRoughness {
     /// equivalent line of the faces.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read or has no spectrum.
+    /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         match faces {
             [face] if options.as_line.is_some() && face.len() == 1 => {

@@ -47,7 +47,7 @@ pub enum Form {
         /// Radius a of the flat end in m.
         radius: f64,
     },
-    /// Body of revolution from a file of radii and depths.
+    /// Body of revolution whose radii and depths are in a file.
     Table {
         /// Path of the file, relative to the scene file.
         file: String,
@@ -89,9 +89,9 @@ impl Form {
         if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
     }
 
-    /// Returns the index ⌊N/2⌋ of the spring on the axis of every form, for N = `points` springs. If the axis lay between two
-    /// springs, no spring would be at the tip. The errors of force, indentation and energy would then be proportional to the
-    /// spacing Δx of the springs.
+    /// Returns ⌊N/2⌋ for N = `points` springs, the index of the spring on the axis of every form except a punch. The axis of a
+    /// punch is at L/2. If the axis lay between two springs, no spring would be at the tip. The errors of force, indentation
+    /// and energy would then be proportional to the spacing Δx of the springs.
     pub fn spring_on_axis(points: u64) -> u64 {
         points / 2
     }
@@ -121,7 +121,7 @@ impl Form {
         first..first + cells
     }
 
-    /// Returns the radius of the flat end of a punch in m, outside of which no spring touches; `None` for all other forms.
+    /// Returns the radius in m of the flat end of a punch; `None` for all other forms. No spring outside this radius touches.
     pub fn flat_end(&self) -> Option<f64> {
         match *self {
             Form::Punch { radius } => Some(radius),
@@ -147,7 +147,7 @@ impl Form {
         }
     }
 
-    /// Returns the radius of a smooth sphere in m; `None` for other forms.
+    /// Returns the radius in m of a [`Form::Paraboloid`], a sphere without waves; `None` for other forms.
     pub fn sphere_radius(&self) -> Option<f64> {
         if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
     }
@@ -169,9 +169,10 @@ impl Form {
     /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a punch
     /// it is 0, the depth of its flat face; [`Form::springs_under`] returns the springs under this face.
     ///
-    /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr. A paraboloid r²/2R becomes x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power
-    /// law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x|
-    /// H₀(2π|x|/λ), with the Struve function H₀ of [`struve_0`].
+    /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`]. A paraboloid r²/2R becomes
+    /// x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of
+    /// [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x| H₀(2π|x|/λ), with the Struve function H₀ of
+    /// [`struve_0`].
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.

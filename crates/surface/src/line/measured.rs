@@ -214,7 +214,7 @@ impl MeasuredOptions {
     /// Parses the files of one face, and analyses their surfaces as samples of the same roughness.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read or has no spectrum.
+    /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let (mut surfaces, mut files) = (Vec::new(), Vec::new());
         for (path, content) in face {

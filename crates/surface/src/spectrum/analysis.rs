@@ -57,7 +57,7 @@ pub struct AnalysisOptions {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// Statistics of the measured points.
+    /// Statistics of the heights of the measured points.
     pub statistics: PointStatistics,
     /// Rms height in m of each surface, after removal of the polynomial.
     pub rms_heights: Vec<f64>,
@@ -83,8 +83,8 @@ pub struct Analysis {
     pub end: End,
     /// True if the shortest waves that the points resolve have no significant power. The spectrum then ends before these waves.
     pub ends_inside: bool,
-    /// True if the waves parallel to one axis of a map are left out. The rows or columns of such a map are offset against each
-    /// other, or were levelled one by one.
+    /// True if the analysis leaves out the waves parallel to one axis of a map. The rows or columns of such a map are offset
+    /// against each other, or were levelled one by one.
     pub offsets: bool,
     /// Largest difference between the squared gradient of waves parallel to an axis of a map and the value expected from waves
     /// in neighbouring directions. It is divided by the squared gradient of the map. The value is 0 if waves parallel to an

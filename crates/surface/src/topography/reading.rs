@@ -25,15 +25,16 @@ pub struct ReadOptions {
     pub interpolate: bool,
     /// Number, from 0, of the channel to read from a file with several channels.
     pub channel: Option<u32>,
-    /// Row or column of a map to read as a profile.
+    /// Row or column of a map that is read as a profile. With `None` the whole map is read.
     pub cut: Option<Cut>,
     /// True if a profile with uneven distances between points is interpolated at evenly spaced points.
     pub resample: bool,
-    /// True if the median height of each row of a map is subtracted, for rows that are offset against each other.
+    /// True if the median height of each row of a map is subtracted from the row, which removes offsets between rows.
     pub align_rows: bool,
     /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated from their neighbours.
     pub robust: bool,
-    /// Name of the surface or of the measurement to read from a container, an archive with several measurements.
+    /// Name of a surface or of a measurement in an archive with several measurements. Only the surface or the measurement with
+    /// this name is read.
     pub surface_name: Option<String>,
 }
 

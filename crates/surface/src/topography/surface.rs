@@ -59,7 +59,7 @@ impl Cropped {
     }
 }
 
-/// Measured heights of a profile or a map, with the positions of the points.
+/// A measured surface, which is a profile or a map: heights and the positions of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
     /// Name of the format of the file.
@@ -157,7 +157,7 @@ impl Topography {
         self.heights.len() / self.columns
     }
 
-    /// Returns the positions and heights of a profile in m. Equally spaced points begin at x = 0.
+    /// Returns the positions in m and the heights in m of the points of a profile. Equally spaced points begin at x = 0.
     ///
     /// # Errors
     /// Returns an error if the surface is a map.
