@@ -13,8 +13,9 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// A rigid body that moves from target to target on its springs: [`Body`], or [`Stepwise`](crate::motion::Stepwise). It is
-/// separated at first, at the indentation d = 0 just before first touch.
+/// A rigid body that moves from target to target on its springs. [`Body`] is the exact solver with this trait, and
+/// [`Stepwise`](crate::motion::Stepwise) the stepwise one. A new body is separated, at the indentation d = 0 just before first
+/// touch.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -31,13 +32,13 @@ use std::time::{Duration, Instant};
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 pub trait MovingBody {
-    /// Moves the body to a target. Returns the force curve and the energies of this motion as a record.
+    /// Moves the body to a target. Returns the [`LegRecord`] of this motion, with its force curve and its energies.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
 
-    /// Returns the leg of the present motion, from which the contact at each of its indentations follows.
+    /// Returns the [`Leg`] of the present motion. It gives the contact at each indentation of the motion.
     fn leg(&self) -> Leg;
 
     /// Returns counts of the computing work for this body since it was created.
@@ -91,7 +92,7 @@ pub struct Body {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Motion {
-    /// Leg of the motion, from which the contact at each of its indentations follows.
+    /// Leg of the motion, which gives the contact at each indentation of the motion.
     pub leg: Leg,
     /// Smallest indentation of the motion in m.
     pub low: f64,
@@ -101,14 +102,14 @@ pub struct Motion {
 }
 
 impl Body {
-    /// Creates a separated body at d = 0, just before first touch. The force curve of each motion is computed at `samples`
-    /// points, at least 2.
+    /// Creates a separated body at the indentation d = 0, just before first touch. The force curve of each motion is computed
+    /// at `samples` points, at least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body in the middle of a motion, at this indentation in m on this leg. The body can continue the motion or turn
-    /// back.
+    /// Creates a body in the middle of a motion: at this indentation in m, on the leg `leg`, with the contact that the leg has
+    /// there. The body can continue the motion or turn back.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise). May also return
@@ -123,7 +124,7 @@ impl Body {
         Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
     }
 
-    /// Returns the point of the force curve at the present indentation.
+    /// Returns the present point of the force curve: indentation, force, contact and energy of the body.
     pub fn point(&self) -> CurvePoint {
         self.point_of(self.state)
     }
@@ -304,10 +305,10 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them the body is loaded from separation and then
-    /// unloaded. The body turns at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0). An adhesion
-    /// force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading never returns
-    /// to zero force. The body itself stays in place.
+    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them a loading from separation is computed, and the
+    /// unloading that follows. The loading ends at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0).
+    /// An adhesion force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading
+    /// never returns to zero force. The body itself stays in place.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;

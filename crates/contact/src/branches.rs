@@ -28,7 +28,7 @@ const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 pub struct Branch {
     /// Direction of the motion.
     pub direction: Direction,
-    /// Indices of the stages of the branch. Stages that leave the body in place are included.
+    /// Indices of the stages of the branch, including stages that leave the body in place.
     pub stages: Range<usize>,
 }
 
@@ -63,8 +63,9 @@ impl Branch {
         touching(legs, self.stages.clone(), self.direction)
     }
 
-    /// Finds the preload, the point of the largest force on loading, and the index of its stage. Only the stages between the
-    /// last unloading and the separation before this unloading count.
+    /// Finds the preload, the point of the largest force on loading, and the index of its stage. Only stages before the last
+    /// unloading count, and of these only the stages after the last separation. In a history without unloading all stages
+    /// count.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};

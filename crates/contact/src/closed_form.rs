@@ -83,14 +83,15 @@ impl ClosedForm {
         }
     }
 
-    /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m.
+    /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m. The fields explain c, n, E* and γ.
     pub fn indentation(&self, radius: f64) -> f64 {
         // Rule of Hess, eq. (3).
         let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
         self.line_coefficient * radius.powf(self.exponent) - stretch
     }
 
-    /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a in m.
+    /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a in m. The fields explain c,
+    /// n, E* and γ.
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
         let pressed =
@@ -106,7 +107,8 @@ impl ClosedForm {
         (radius, -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under displacement control, where dd/da = 0.
+    /// Returns the contact radius in m and the force in N at pull-off under displacement control, where the indentation d has
+    /// dd/da = 0.
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);

@@ -81,7 +81,8 @@ impl ContactBuilder {
         ContactBuilder { loading_stiffness: stiffness, ..self }
     }
 
-    /// Sets where the edges of contact patches may lie. The default is [`Edges::SubCell`], anywhere between springs.
+    /// Sets the edge model: where the edges of contact patches may lie. The default is [`Edges::SubCell`], anywhere between
+    /// springs.
     #[must_use]
     pub fn edges(self, edges: Edges) -> Self {
         ContactBuilder { edges, ..self }
@@ -142,7 +143,8 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force in N at which a contact without adhesion becomes full: the last spring touches the rigid body.
+    /// Returns the force in N at which the contact would be full on loading without adhesion: the last spring then touches the
+    /// body.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};
@@ -174,7 +176,7 @@ impl Contact {
         self.profile.gaps()
     }
 
-    /// Returns where the edges of contact patches may lie.
+    /// Returns the edge model: where the edges of contact patches may lie.
     pub fn edges(&self) -> Edges {
         self.edges
     }

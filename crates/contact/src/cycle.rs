@@ -37,7 +37,7 @@ pub struct LoadOptions<'a> {
 
 impl<'a> LoadOptions<'a> {
     /// Sets the number of points at which the force curve of each loading stage is computed, from 2 to a million. The default
-    /// is 512. The largest and the smallest force are exact for any number of points.
+    /// is 512. The preload and the pull-off force are exact for any number of points.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         LoadOptions { samples: Some(samples), ..self }
@@ -106,24 +106,24 @@ pub struct Cycle {
 pub struct Curve {
     /// Index of the loading stage to which each point belongs, from 0.
     pub stage: Vec<usize>,
-    /// Indentation d of each point in m.
+    /// Indentation d in m of each point.
     pub indentation: Vec<f64>,
-    /// Force F at each point in N; compression is positive.
+    /// Force F in N at each point; compression is positive.
     pub force: Vec<f64>,
-    /// Displacement D = d + F/k in m, at each point, of the drive of the instrument that moves the body. Here k is the
-    /// stiffness of the instrument. If the instrument is rigid, D equals d.
+    /// Displacement D = d + F/k in m at each point. It is the position of the drive of the instrument that moves the body, and
+    /// k is the stiffness of the instrument. If the instrument is rigid, D equals d.
     pub displacement: Vec<f64>,
-    /// Sum of the lengths of all contact patches at each point in m.
+    /// Contact length in m at each point: the sum of the lengths of all contact patches.
     pub contact_length: Vec<f64>,
     /// Number of contact patches at each point.
     pub patches: Vec<u64>,
-    /// Elastic energy stored in the springs at each point in J.
+    /// Elastic energy in J that is stored in the springs at each point.
     pub stored_energy: Vec<f64>,
 }
 
 impl Contact {
     /// Moves the body, which is separated at first, through these loading stages one after the other. Each stage ends where the
-    /// body reaches its target.
+    /// body reaches the target of the stage.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and [`ContactError::Stage`] for a
@@ -132,8 +132,8 @@ impl Contact {
         self.load_with(stages, LoadOptions::default())
     }
 
-    /// Moves the body as [`Contact::load`] does. The options set the points of the force curve, and a function that may stop
-    /// the loading.
+    /// Moves the body as [`Contact::load`] does. The options set the points at which the force curve is computed, and may have
+    /// a function that stops the loading.
     ///
     /// # Errors
     /// Returns the errors of [`Contact::load`], and [`ContactError::Value`] for an option out of its range. Returns
@@ -179,7 +179,7 @@ impl Contact {
     /// first touch, or while adhesion draws the bodies together.
     ///
     /// `indentations` are in m, in ascending order. [`Reversal::forces`] has the force on unloading at each of these
-    /// indentations up to the turning point.
+    /// indentations that is not above the turning point.
     ///
     /// ```
     /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -257,20 +257,21 @@ impl Cycle {
         self.figures.adhesion_force
     }
 
-    /// Returns the indentation in m at which the pull-off force acts; `None` without a pull-off force.
+    /// Returns the indentation in m at which the pull-off force acts; `None` if [`Cycle::pull_off_force`] is `None`.
     #[must_use]
     pub fn pull_off_indentation(&self) -> Option<f64> {
         self.figures.pull_off_indentation
     }
 
-    /// Returns the preload in N, the largest force on loading. Only the stages between the last unloading and the separation
-    /// before this unloading count. Returns `None` if none of these stages loads the body in contact.
+    /// Returns the preload in N: the largest force on loading before the last unloading. If the body was separated before this
+    /// unloading, only stages after the last such separation count. In a history without unloading all stages count. Returns
+    /// `None` if none of the stages that count loads the body in contact.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
     }
 
-    /// Returns the energy in J dissipated in the contact over all stages; `None` if the last stage ends in contact.
+    /// Returns the energy in J dissipated in the contact during all stages together; `None` if the last stage ends in contact.
     #[must_use]
     pub fn dissipated_energy(&self) -> Option<f64> {
         self.figures.dissipated_energy
@@ -307,21 +308,23 @@ impl Cycle {
         curve
     }
 
-    /// Returns the points of a stage at the indentations of [`LoadOptions::indentations`] that the stage passes. The
-    /// indentations ascend, on unloading too. The slice is empty for a stage that does not exist.
+    /// Returns the points of the force curve of a stage at those of the [`LoadOptions::indentations`] that the stage passes.
+    /// `stage` is the index of the stage, from 0. The points are in ascending order of the indentation, on unloading too. The
+    /// slice is empty for a stage that does not exist.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns one record for each loading stage: its force curve, its largest and smallest force, and the elastic energy that
-    /// it releases.
+    /// Returns a [`LegRecord`] for each loading stage: the force curve, the largest and the smallest force of the stage, and
+    /// the elastic energy that springs release during the stage.
     #[must_use]
     pub fn stages(&self) -> &[LegRecord] {
         &self.history.legs
     }
 
-    /// Returns the edges, the force and the stretch of each contact patch at the end of the last stage, from left to right.
+    /// Returns the state of each contact patch at the end of the last stage, such as its edges and its force. The patches are
+    /// in the order from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
         let end = self.history.legs.last().and_then(LegRecord::end_in_contact);

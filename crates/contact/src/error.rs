@@ -37,14 +37,14 @@ pub enum ContactError {
         /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
-    /// A loading stage cannot be computed; the fields say which stage and why.
+    /// A loading stage cannot be computed. The fields have the stage and the reason.
     #[error("stage {}: {}", index + 1, reason.in_words(*target))]
     Stage {
         /// Index of the stage, from 0.
         index: usize,
         /// Target of the stage.
         target: Move,
-        /// Reason why it cannot be computed, an error of another variant.
+        /// Reason why the stage cannot be computed, as an error of another variant.
         reason: Box<ContactError>,
     },
     /// An array does not fit into memory.
@@ -56,7 +56,7 @@ pub enum ContactError {
     /// A body that is separated cannot move to a tensile force.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
-    /// A turning point lies where the body is not in contact.
+    /// The body is not in contact at a target from which it should turn back.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
     /// The contact detaches before the force falls to the target.
@@ -80,7 +80,7 @@ pub enum ContactError {
     /// The program has a defect; the field describes the state that should not occur.
     #[error("internal error, please report it: {0}")]
     Internal(&'static str),
-    /// The caller stopped the computation.
+    /// The computation ended because a function of the caller requested this.
     #[error("interrupted")]
     Interrupted,
 }
@@ -102,8 +102,8 @@ impl ContactError {
         matches!(self.reason(), NothingToPull | DetachesBefore { .. } | OutOfReach)
     }
 
-    /// Describes in words why a body does not move to a target. A force that limits the target is rounded into the allowed
-    /// range.
+    /// Describes in words why a body does not move to a target. If the text names the smallest force within reach, this force
+    /// is rounded up, so that it is a target within reach.
     pub fn in_words(&self, target: Move) -> String {
         match (self, target) {
             (&ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {

@@ -21,10 +21,11 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n in N, the largest force on loading. Only the stages between the last unloading and the separation before
-    /// this unloading count. `None` if none of these stages loads the body in contact.
+    /// Preload F_n in N: the largest force on loading before the last unloading. If the body was separated before this
+    /// unloading, only stages after the last such separation count. In a history without unloading all stages count. `None` if
+    /// none of the stages that count loads the body in contact.
     pub preload: Option<f64>,
-    /// Indentation in m at which the preload acts; `None` without a preload.
+    /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
     /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign. The last unloading may
     /// consist of several stages. `None` if the smallest force is above zero, or if the unloading ends in contact while the
@@ -32,10 +33,10 @@ pub struct Figures {
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n; `None` if there is no adhesion force, or if the preload is not compressive.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation in m at the smallest force of the last unloading; `None` without an adhesion force. The force hardly changes
-    /// near its minimum, so this indentation has a larger relative error than the smallest force.
+    /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is `None`. The force hardly
+    /// changes near its minimum, so this indentation has a larger relative error than the smallest force.
     pub pull_off_indentation: Option<f64>,
-    /// Energy in J dissipated in the contact over all stages; `None` if the last stage ends in contact.
+    /// Energy in J dissipated in the contact during all stages together; `None` if the last stage ends in contact.
     pub dissipated_energy: Option<f64>,
 }
 
@@ -100,18 +101,21 @@ impl Figures {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// First point in contact after a jump into contact, if the force there is tensile.
+    /// First point in contact after the first jump from separation into contact. The mark exists only if the force at this
+    /// point is tensile.
     JumpIn,
-    /// Point of the largest force on loading, the preload; see [`Branch::preload`].
+    /// Point at which the preload acts, as [`Branch::preload`] finds it.
     Preload,
-    /// Point of the smallest force on unloading, if this force is tensile; see [`Branch::pull_off`].
+    /// Point at which the pull-off force acts, as [`Branch::pull_off`] finds it. The mark exists only if the force is tensile.
     PullOff,
-    /// Last point in contact after the pull-off, if the contact is lost there in a jump.
+    /// Last point in contact of the last unloading, before the body jumps out of contact. The mark exists only if the force
+    /// there is tensile and above the force of the pull-off.
     JumpOut,
 }
 
 impl Mark {
-    /// Finds the points of a loading history that have a mark, in the order of the variants of [`Mark`].
+    /// Finds the marked points of the loading history with the records `legs`. They are in the order of the variants of
+    /// [`Mark`].
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
         let into_contact = |leg: &LegRecord| {
             let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;

@@ -26,16 +26,17 @@ use std::ops::Range;
 pub struct LegRecord {
     /// Target of the motion.
     pub target: Move,
-    /// Direction of the motion; loading for a body that stays in place.
+    /// Direction of the motion. It is `Loading` for a stage in which the body stays in place.
     pub direction: Direction,
     /// Points of the force curve, in the order of the motion. On unloading the points of the smallest force and of the smallest
     /// displacement of the instrument are among them. A jump into or out of contact has one point before it and one point after
     /// it.
     pub curve: Vec<CurvePoint>,
-    /// Point of the largest force. On loading it is exact to rounding. On unloading it is the first point of the motion.
+    /// Point of the largest force of the motion. On loading this force is exact to rounding. On unloading the point is the
+    /// first of the motion.
     pub largest: CurvePoint,
-    /// Point of the smallest force. On unloading it is exact to rounding. On loading it is the point of the smallest force
-    /// among the points in `curve`.
+    /// Point of the smallest force of the motion. On unloading this force is exact to rounding. On loading only the points in
+    /// `curve` are compared.
     pub smallest: CurvePoint,
     /// Number of springs that attached in this stage.
     pub attached: u64,
@@ -43,12 +44,12 @@ pub struct LegRecord {
     pub detached: u64,
     /// Elastic energy in J that springs release when they detach, minus the energy that they gain when they attach. A spring of
     /// stiffness Δk that detaches or attaches with the stretch e counts with ½ Δk e². The released energy equals the work ∫F dd
-    /// of the motion minus the growth of the elastic energy stored in the springs. Its sum over a closed loop is the dissipated
-    /// energy.
+    /// of the motion minus the growth of the elastic energy stored in the springs. The sum of the released energies of all
+    /// stages of a closed loop is the dissipated energy.
     pub released_energy: f64,
-    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. It is exact for any number of
-    /// points in `curve`. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over all stages.
-    /// For this energy consecutive stages in one direction count as one motion.
+    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. This energy is exact for any
+    /// number of points in `curve`. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over all
+    /// stages. Consecutive stages in one direction are taken as one motion when this energy is computed.
     pub jump_energy: f64,
 }
 
@@ -117,12 +118,12 @@ impl LegRecord {
         self.curve.last().copied().filter(|point| point.springs > 0)
     }
 
-    /// Returns the indentation at the beginning of the motion in m.
+    /// Returns the indentation in m at the beginning of the motion.
     pub fn start(&self) -> f64 {
         self.curve.first().map_or(0.0, |point| point.indentation)
     }
 
-    /// Returns the indentation at the end of the motion in m.
+    /// Returns the indentation in m at the end of the motion.
     pub fn end(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.indentation)
     }
@@ -249,13 +250,14 @@ pub struct CurvePoint {
     pub indentation: f64,
     /// Force F in N; compression is positive.
     pub force: f64,
-    /// Sum of the lengths of all contact patches in m.
+    /// Contact length in m: the sum of the lengths of all contact patches.
     pub contact_length: f64,
     /// Number of springs in contact.
     pub springs: u64,
     /// Number of contact patches.
     pub fragments: u64,
-    /// Elastic energy stored in the springs in J: ½ Δk Σ (d − c)² over all springs in contact, where c is the gap of a spring.
+    /// Elastic energy in J that is stored in the springs: ½ Δk Σ (d − c)² over all springs in contact. Here Δk is the stiffness
+    /// of a spring and c its gap.
     pub stored_energy: f64,
 }
 
@@ -284,9 +286,9 @@ impl CurvePoint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(Serialize), serde(into = "(usize, usize)"))]
 pub struct Patch {
-    /// Index of the leftmost spring.
+    /// Index of the leftmost spring of the patch.
     pub first: usize,
-    /// Index of the rightmost spring.
+    /// Index of the rightmost spring of the patch.
     pub last: usize,
 }
 
@@ -296,12 +298,13 @@ impl Patch {
         self.first..self.last + 1
     }
 
-    /// Returns the index of the spring in the middle of the patch.
+    /// Returns the index of the spring in the middle of the patch. In a patch with an even number of springs it is the left one
+    /// of the two in the middle.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Finds the contact patches from left to right. `contact` has one item for each spring, true for a spring in contact.
+    /// Returns the contact patches from left to right. `contact` has one item for each spring, true for a spring in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {

@@ -9,9 +9,9 @@
 //!   [`Contact::reversals`] computes a [`Reversal`], the unloading to separation, for each of many turning points.
 //! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and a [`LegRecord`] of each
 //!   stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names a point of the curve, a [`Branch`] joins stages in
-//!   one direction, and a [`Patch`] is a run of springs in contact. [`History`] and [`Work`] are results of the module
-//!   [`motion`].
-//! * To check results: [`ClosedForm`] has the forces of a sphere, a cone and other bodies by theory.
+//!   one direction, and a [`Patch`] is a run of springs in contact. The module [`motion`] also returns a [`History`] of all
+//!   stages and counts of computing [`Work`].
+//! * To check results: [`ClosedForm`] computes the forces of a sphere, a cone and other bodies by theory.
 //! * Errors: [`ContactError`] names the value or the stage that is refused.
 //!
 //! Programs that decide during the motion where a body moves next use the module [`motion`].
@@ -21,8 +21,8 @@
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
 //! rules of the method of dimensionality reduction, with the rule of Hess for adhesion. A *patch* is a run of neighbouring
 //! springs in contact. The gap c of a spring is its depth below the highest point of the profile, d is the indentation, and
-//! Δl_max(n) is the largest stretch that a patch of n springs bears. Equations have their numbers in Popov and Filippov (2012).
-//! The rules are:
+//! Δl_max(n) is the largest stretch that a patch of n springs bears. The numbers of equations are those of Popov and Filippov
+//! (2012). The rules are:
 //!
 //! * *touch*: a free spring attaches when its gap is closed, c ≤ d;
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);

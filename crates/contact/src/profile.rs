@@ -46,8 +46,8 @@ pub struct Springs {
 }
 
 impl Profile {
-    /// Creates a profile from measured or computed heights in m at this spacing in m. The memory of a `Vec` is reused; a slice
-    /// is copied.
+    /// Creates a profile from measured or computed heights in m at points with this spacing in m. The memory of a `Vec` is
+    /// reused; a slice is copied.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height out of its range.
@@ -61,8 +61,8 @@ impl Profile {
         Ok(Profile { summit, ..Profile::from_gaps(heights, spacing)? })
     }
 
-    /// Creates a profile from gaps at this spacing in m. A gap is the depth in m of a point below the highest point, so at
-    /// least one gap is 0. A shared `Arc` is not copied.
+    /// Creates a profile from gaps in m at points with this spacing in m. A gap is the depth of a point below the highest
+    /// point, so at least one gap is 0. An `Arc` is shared, not copied.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -146,7 +146,7 @@ impl Profile {
         &self.springs.gaps
     }
 
-    /// Returns the array of the gaps in m, to be shared without a copy.
+    /// Returns the shared array of the gaps in m. To clone the `Arc` copies no gap.
     pub fn shared_gaps(&self) -> &Arc<Vec<f64>> {
         &self.springs.gaps
     }
@@ -156,7 +156,8 @@ impl Profile {
         self.springs.deepest
     }
 
-    /// Returns the heights of the points in m, exact to rounding.
+    /// Returns the height of each point in m, computed as the height of the highest point minus the gap. It may differ from the
+    /// height that was given by a rounding error.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps().iter().map(|gap| self.summit - gap)
     }
@@ -171,9 +172,9 @@ impl Profile {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the [contact tree](ContactTree) for contacts with this model of their [`Edges`], unless the profile has it
-    /// already. Without this call the first contact with adhesion builds the tree. `memory` is an old tree; the new tree takes
-    /// over its memory.
+    /// Builds the [contact tree](ContactTree) that contacts with the edge model `edges` need, unless the profile has this tree
+    /// already. Without this call the first contact with adhesion builds the tree. `memory` is a tree that is no longer needed;
+    /// the new tree takes over its memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.

@@ -29,11 +29,11 @@ const OF_AN_EDGE: f64 = 0.4732;
 pub struct AdhesiveState {
     /// Indentation in m from first touch.
     pub indentation: f64,
-    /// Force in N, negative in tension.
+    /// Force on the square in N; compression is positive.
     pub force: f64,
-    /// Contact area in m²: the area of all cells of the square in contact.
+    /// Contact area in m²: the sum of the areas of the cells in contact.
     pub area: f64,
-    /// Elastic energy stored in the half-space in J.
+    /// Elastic energy in J that is stored in the half-space.
     pub elastic_energy: f64,
 }
 
@@ -51,13 +51,13 @@ pub struct AdhesiveSquare {
 }
 
 impl AdhesiveSquare {
-    /// Returns the number of bytes of memory that a square with this number of cells along a side takes.
+    /// Returns the memory in bytes that a square with this number of cells along a side takes.
     pub fn bytes(cells: usize) -> u64 {
         Grid::bytes(cells + 2, Boundary::Free) + (cells as u64 + 2).pow(2)
     }
 
-    /// Creates a separated square. The pair has the work of adhesion where the interface opens, and the work of adhesion
-    /// where it closes, in J/m².
+    /// Creates a square that is not yet in contact. `opening` is the work of adhesion in J/m² where the interface opens, and
+    /// `closing` the work of adhesion in J/m² where the interface closes.
     ///
     /// # Errors
     /// Returns an error if the number of heights is not the square of an allowed number of cells along a side, if a value
@@ -105,14 +105,14 @@ impl AdhesiveSquare {
         Ok(AdhesiveSquare { grid, cells, side: scale, effective_modulus, works, opened })
     }
 
-    /// Returns the number of convolutions over the grid computed so far, a measure of the computing work.
+    /// Returns the number of convolutions over the grid since the square was created, a measure of the computing work.
     pub fn convolutions(&self) -> u64 {
         self.grid.operators.convolutions
     }
 
-    /// Moves the square to an indentation in m from first touch, and lets the edges of the contact move until they rest.
-    /// `stop` is called before each step of the solver. If `stop` returns true, the solver ends with
-    /// [`HalfSpaceError::Stopped`].
+    /// Moves the square to an indentation in m from first touch. Cells then open and close until the contact is in equilibrium
+    /// at this indentation. Returns the state of the contact there. `stop` is called before each step of the solver. If `stop`
+    /// returns true, the solver ends with [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
     /// Returns an error if the indentation is not finite, or if `stop` returned true.

@@ -3,14 +3,14 @@
 use asperity_data::OutOfMemory;
 use thiserror::Error;
 
-/// Reason why a contact is not computed.
+/// Reason why the solver does not compute a contact.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HalfSpaceError {
     /// The number of cells along a side is not allowed; the field has this number.
     #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]
     Cells(usize),
-    /// The number of heights is not the number of cells of the square.
+    /// The number of heights is not the number of cells of the solver.
     #[error("{found} heights; allowed: {allowed}, one for each cell")]
     Heights {
         /// The given number of heights.
@@ -18,7 +18,7 @@ pub enum HalfSpaceError {
         /// The number of heights that is allowed.
         allowed: usize,
     },
-    /// A value of a body, a load or an option is out of its range.
+    /// A value of the square, of its load, of its adhesion or of the tolerance is out of its range.
     #[error("{name} = {found:e}; allowed: {allowed}")]
     Value {
         /// Name of the value.
@@ -31,7 +31,7 @@ pub enum HalfSpaceError {
     /// An array does not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// The caller stopped the computation.
+    /// The computation ended because the function `stop` of the caller returned true.
     #[error("the computation was stopped")]
     Stopped,
 }

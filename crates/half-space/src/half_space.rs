@@ -35,22 +35,25 @@ pub enum Load {
 pub struct Pressed {
     /// Pressure on each cell in Pa.
     pub pressure: Vec<f64>,
-    /// Gap between the square and the half-space at each cell in m. In contact it is zero to within `residual`.
+    /// Gap between the square and the half-space at each cell in m. In contact its absolute value is at most `residual` times
+    /// the length by which [`Pressed::residual`] is divided, for a rough square its rms height.
     pub gap: Vec<f64>,
-    /// Force on the square in N, positive in compression.
+    /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is positive.
     pub force: f64,
     /// Indentation from first touch in m. With [`Boundary::Periodic`] it is the depth of the highest point of the square
     /// below the mean plane of the deformed half-space.
     pub indentation: f64,
-    /// Contact area in m²: the area of all cells in contact.
+    /// Contact area in m²: the sum of the areas of the cells in contact.
     pub area: f64,
-    /// Largest error of the gap at any cell, divided by the rms height of the square. Without error the gap is zero in
-    /// contact and at least zero elsewhere. Two other conditions hold exactly: no pressure is negative, and the pressures
-    /// sum to the force.
+    /// Largest error of the gap of any cell, divided by the rms height of the square. The error is the absolute value of the
+    /// gap of a cell in contact, and the depth of penetration of any other cell. For a flat square, whose rms height is zero,
+    /// the error is divided by the given indentation, or by F/(E* L) for a given force F. Here L is the side of the square and
+    /// E* the effective modulus.
     pub residual: f64,
-    /// True if `residual` is within the required tolerance; false if the solver used up its steps before.
+    /// True if `residual` is at most the required tolerance and no pressure is negative. False if the solver used up its steps
+    /// before.
     pub is_reached: bool,
-    /// Number of convolutions computed on the finest grid, a measure of the computing work.
+    /// Number of convolutions that the solver computed on the grid of the cells of the square, a measure of the computing work.
     pub convolutions: u64,
 }
 
@@ -63,7 +66,7 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Returns the number of bytes of memory that a solver for this number of cells along a side takes.
+    /// Returns the memory in bytes that a solver takes for squares with this number of cells along a side.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         nested(cells).map(|cells| Grid::bytes(cells, boundary)).sum()
     }
@@ -79,11 +82,13 @@ impl HalfSpace {
         Ok(HalfSpace { boundary, grids })
     }
 
-    /// Presses a square on the half-space without adhesion, until [`Pressed::residual`] is at most `tolerance`. `stop` is
-    /// called before each step of the solver. If `stop` returns true, the solver ends with [`HalfSpaceError::Stopped`].
+    /// Computes the contact of a square with the half-space under a load, without adhesion. The solver improves the pressures
+    /// in steps until [`Pressed::residual`] is at most `tolerance`. `stop` is called before each step. If `stop` returns true,
+    /// the solver ends with [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
-    /// Returns an error if a value is out of its range, or if `stop` returned true.
+    /// Returns an error if the number of heights is not the number of cells of this solver, if a value is out of its range, or
+    /// if `stop` returned true.
     pub fn press(
         &mut self,
         square: &Square<'_>,

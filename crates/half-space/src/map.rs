@@ -7,14 +7,15 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
-/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. The surface is a
-/// sum of waves with k_x periods along one side and k_y periods along the other. Such a wave contributes `variance`(k) to
-/// the mean square height, with k = √(k_x² + k_y²). The contributions of all pairs (k_x, k_y) except (0, 0) sum to the
-/// mean square height. Heights are in m if contributions are in m². The phase of each wave is random. It does not depend
-/// on `cells`, so more cells refine the same surface.
+/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. The surface is a sum of
+/// waves with k_x periods along one side and k_y periods along the other. Such a wave contributes `variance`(k) to the mean
+/// square height, with k = √(k_x² + k_y²). The surface has the waves with |k_x| and |k_y| below `cells`/2, except (0, 0), and
+/// their contributions sum to the mean square height. Heights are in m if contributions are in m². The phase of each wave is
+/// random and depends only on `seed`, k_x and k_y. With more cells, the same surface is computed at more points and has
+/// additional shorter waves.
 ///
 /// # Errors
-/// Returns an error if the memory is too small.
+/// Returns an error if the heights do not fit into memory.
 pub fn random_map(
     cells: usize,
     variance: impl Fn(f64) -> f64,

@@ -8,12 +8,12 @@ use std::f64::consts::{PI, TAU};
 /// Number of sweeps by which a residual is extended beyond the contact.
 const SWEEPS: usize = 6;
 
-/// What surrounds the square on the half-space.
+/// Surface of the half-space around the square: bare, or covered with copies of the square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// The square is alone on the half-space.
     Free,
-    /// Equal squares lie side by side without end, in both directions.
+    /// Copies of the square lie side by side without end, along both of its sides.
     Periodic,
 }
 

@@ -10,7 +10,7 @@ use thiserror::Error;
 const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
                                   or X3P in Gwyddion";
 
-/// Place of a fault. Lines and points count from 1. Bytes count from 0, after decompression.
+/// Place of a fault in a file, a surface or a scene. Lines and points count from 1. Bytes count from 0, after decompression.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -19,7 +19,7 @@ pub enum Place {
     File,
     /// Line of a text, by its number.
     Line(usize),
-    /// Point of a surface or of a curve, by its number.
+    /// Point of a surface or of a force curve, by its number.
     Point(usize),
     /// Byte of a file, by its offset.
     Byte(usize),
@@ -145,8 +145,8 @@ impl SurfaceError {
         self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
     }
 
-    /// Returns the error with its place inside an outer place, such as a file. `outer` makes the new place from the present
-    /// one.
+    /// Returns the same error with a longer place, such as the place in a file together with the file. `outer` makes the new
+    /// place from the present one.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
@@ -157,8 +157,8 @@ impl SurfaceError {
         self
     }
 
-    /// Returns the error with the path of the file of a measured surface. The place of the error then also has the field
-    /// `roughness.file`.
+    /// Returns the same error with a longer place: the field `roughness.file` of the scene, the path `file`, and the present
+    /// place inside this file.
     pub fn in_measured(self, file: &Path) -> Self {
         self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
     }

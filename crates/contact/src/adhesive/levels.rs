@@ -23,10 +23,11 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
     /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie in the middle between two
-    /// springs. The error of forces and energies by the spacing Δx falls with Δx.
+    /// springs. The error of forces and energies that results from the finite spacing Δx of the springs is proportional to Δx.
     Grid,
     /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. The error of
-    /// forces and energies by the spacing Δx of the springs falls with Δx², under a punch with Δx.
+    /// forces and energies that results from the finite spacing Δx of the springs is proportional to Δx². Under a flat punch it
+    /// is proportional to Δx.
     SubCell,
 }
 

@@ -20,8 +20,8 @@ const LANES: usize = 64;
 /// need no nodes. For random profiles of N springs whose waves end at a shortest wavelength, the tree has 0.11 N to 0.26 N
 /// nodes.
 ///
-/// Nodes are in post-order: the subtree of node j fills the places `j + 1 − size ..= j`. The tree depends on the gaps alone,
-/// not on the work of adhesion, the modulus or the loading.
+/// Nodes are in post-order: the subtree of node j, which has `size` nodes, consists of the nodes `j + 1 − size ..= j`. The tree
+/// depends on the gaps alone, not on the work of adhesion, the modulus or the loading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
     /// Local minima and maxima of the gap in turn along the profile; the first and the last are minima.

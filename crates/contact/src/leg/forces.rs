@@ -37,8 +37,8 @@ impl Leg {
         Ok(sampled.iter().map(|state| state.point(self.contact.foundation)).collect())
     }
 
-    /// Returns the energy in J that springs release where this leg has indentations above `low` and up to `high` in m; see
-    /// [`LegRecord::released_energy`](crate::history::LegRecord::released_energy).
+    /// Returns the energy in J that springs release on the part of this leg with indentations above `low` and up to `high` in
+    /// m. [`LegRecord::released_energy`](crate::history::LegRecord::released_energy) defines this energy.
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// A motion of a contact in one direction: the springs in contact, the force and the energy at each indentation.
 ///
-/// A leg remains valid after the body has moved on, and its clones share their memory.
+/// A leg remains valid after the body has moved on. All clones of a leg share the memory of the leg.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Profile};
@@ -75,7 +75,7 @@ pub struct PatchState {
     pub edges: [f64; 2],
     /// Length ℓ of the patch in m.
     pub length: f64,
-    /// Force of the patch in N; compression is positive.
+    /// Force in N of the springs of the patch; compression is positive.
     pub force: f64,
     /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and Filippov (2012).
     pub largest_stretch: f64,
@@ -277,8 +277,8 @@ impl Leg {
         }
     }
 
-    /// Computes the state of one patch at an indentation in m. Patches are numbered from the left, from 0. `None` if there is
-    /// no such patch.
+    /// Computes the state of one patch at an indentation in m. `number` counts the patches from the left, from 0. Returns
+    /// `None` if there is no patch with this number.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         self.pinned_patches(indentation).get(number).map(|patch| self.state_of(patch, indentation))
     }

@@ -29,7 +29,7 @@ const ROUNDING: f64 = 1.0e-9;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
-    /// Spectrum of each measured face.
+    /// Spectrum of each measured [face](crate::lines::Face), one of the surfaces that touch.
     pub faces: Vec<IsotropicSpectrum>,
 }
 
@@ -61,8 +61,9 @@ impl EquivalentLine {
         Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Returns a line whose spectra are changed at random, by as much as the fits of the spectra are uncertain. `share`
-    /// multiplies the change of the logarithm of each spectrum. `number` is the seed: equal numbers give equal changes.
+    /// Returns the line after a random change of the spectrum of each face. The changes of the logarithm of a spectrum are
+    /// drawn from the normal distribution of the errors of its fit, and multiplied by `share`. `number` is the seed: equal
+    /// numbers give equal changes.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
@@ -72,12 +73,13 @@ impl EquivalentLine {
     }
 
     /// Computes the moments of the line, such as the rms height, with their standard errors. The moments include all wave
-    /// numbers from half the first to the last one of [`EquivalentLine::range`].
+    /// numbers from half of the first wave number of [`EquivalentLine::range`] to its last wave number.
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
 
-    /// Returns the power spectral density (PSD) of the line in m³ at a wave number in rad/m, the sum over the faces.
+    /// Returns the power spectral density (PSD) in m³ of the line at a wave number in rad/m. It is the sum of the densities of
+    /// the faces.
     pub fn power(&self, wave_number: f64) -> f64 {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
@@ -91,7 +93,7 @@ impl EquivalentLine {
 
     /// Returns the first and the last mode k of a line of the length L = `length` in m on `points` springs. Mode k is the wave
     /// with the wave number q = 2πk/L. The modes are the waves of the spectrum that fit the line and that the springs resolve.
-    /// Waves longer than the scan are unknown and left out.
+    /// Waves longer than the measured surfaces are unknown and left out. Returns an error if no wave remains.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -114,15 +116,16 @@ impl EquivalentLine {
         EquivalentLine { faces: self.faces.iter().map(|face| face.up_to(wave_number)).collect() }
     }
 
-    /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k² = 4 C_line(q_k)/L, with the
-    /// power spectral density C_line of the line.
+    /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k² = 4 C(q_k)/L. Here C is
+    /// [`EquivalentLine::power`], q_k = 2πk/L the wave number, and L the length.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Returns the contribution A_k²/(4πk) in m² of one wave to the mean square height of a square surface with these spectra.
-    /// k = `waves` is the number of periods of the wave over the side of the square, which is `side` in m. k need not be a
-    /// whole number. The contribution is zero if k is below the first or above the last wave of the spectra by more than ½.
+    /// Returns A_k²/(4πk) in m² with k = `waves`. This is the mean square height that one wave with k periods over the length
+    /// `side` in m adds to a square surface of this side. The surface has the spectra of the faces, and A_k is
+    /// [`EquivalentLine::amplitude`] with the length `side`. k need not be a whole number. The function returns 0 if k is more
+    /// than ½ below the first or more than ½ above the last wave of the spectra.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
         if waves < first - 0.5 || waves > last + 0.5 {
@@ -141,7 +144,8 @@ impl EquivalentLine {
         4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
 
-    /// Computes the rms height, gradient and curvature of a line of this length in m that has only the modes `first..=last`.
+    /// Computes the roughness amplitude, such as the rms height, of a line of this length in m that has only the modes
+    /// `first..=last`.
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
@@ -159,11 +163,12 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Reads the files of one or two [faces](crate::lines::Face). If [`MeasuredOptions::as_line`] is given and there is only
-    /// one file, its measured profile is the rigid profile. Otherwise the rigid profile is the equivalent line of the faces.
+    /// Parses the files of one or two [faces](crate::lines::Face), and analyses them if needed. If [`MeasuredOptions::as_line`]
+    /// is given and there is only one file, its measured profile is the rigid profile. Otherwise the rigid profile is the
+    /// equivalent line of the faces.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read or has no spectrum.
+    /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         match faces {
             [face] if options.as_line.is_some() && face.len() == 1 => {

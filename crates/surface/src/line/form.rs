@@ -10,8 +10,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. Its axis lies on the spring ⌊N/2⌋ of N springs; see
-/// [`Form::spring_on_axis`].
+/// Macroscopic form of the rigid body: its shape without roughness. Depths count downwards from the apex, and r is the distance
+/// from the axis. The axis of every form except a punch lies on the spring ⌊N/2⌋ of N springs, as [`Form::spring_on_axis`]
+/// explains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -41,12 +42,12 @@ pub enum Form {
         /// Wavelength λ in m.
         wavelength: f64,
     },
-    /// Flat-ended cylinder. Nothing outside its radius touches.
+    /// Cylinder with a flat end, which alone can touch.
     Punch {
         /// Radius a of the flat end in m.
         radius: f64,
     },
-    /// Body of revolution from a file of radii and depths.
+    /// Body of revolution whose radii and depths are in a file.
     Table {
         /// Path of the file, relative to the scene file.
         file: String,
@@ -62,7 +63,8 @@ pub enum Form {
 impl Form {
     /// Reads the file of a [`Form::Table`], unless it has been read already. `folder` is the folder of the scene file. Checks
     /// that the radii of the table reach from the axis to the ends of a profile of this length in m. All clones of the form
-    /// then share the table. Other forms need no reading. Before its file is read, a [`Form::Table`] is flat.
+    /// then share the table. Other forms need no reading. Before its file is read, a [`Form::Table`] is flat. Returns an error
+    /// if the file holds no table, or if the table ends before the profile does.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let in_file = |error: SurfaceError| {
@@ -87,17 +89,17 @@ impl Form {
         if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
     }
 
-    /// Returns the index ⌊N/2⌋ of the spring on the axis of every form, for N = `points` springs. If the axis lay between two
-    /// springs, no spring would be at the tip. Force, indentation and energy would then have errors of first order in the
-    /// spacing Δx of the springs.
+    /// Returns ⌊N/2⌋ for N = `points` springs, the index of the spring on the axis of every form except a punch. The axis of a
+    /// punch is at L/2. If the axis lay between two springs, no spring would be at the tip. The errors of force, indentation
+    /// and energy would then be proportional to the spacing Δx of the springs.
     pub fn spring_on_axis(points: u64) -> u64 {
         points / 2
     }
 
     /// Returns the distance by which the body is displaced along the springs, in spring spacings. The displacement moves the
-    /// axis from L/2 onto a spring. It is ½ for an even number of springs, and 0 for an odd one. Form and roughness are
-    /// displaced together, so that their relative position does not depend on the number of springs. A punch has no tip and is
-    /// not displaced.
+    /// axis from L/2 onto a spring. This distance is ½ for an even number of springs, and 0 for an odd one. Form and roughness
+    /// are displaced together, so that their relative position does not depend on the number of springs. A punch has no tip and
+    /// is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
@@ -119,7 +121,7 @@ impl Form {
         first..first + cells
     }
 
-    /// Returns the radius of the flat end of a punch in m, outside of which no spring touches; `None` for all other forms.
+    /// Returns the radius in m of the flat end of a punch; `None` for all other forms. No spring outside this radius touches.
     pub fn flat_end(&self) -> Option<f64> {
         match *self {
             Form::Punch { radius } => Some(radius),
@@ -145,13 +147,13 @@ impl Form {
         }
     }
 
-    /// Returns the radius of a smooth sphere in m; `None` for other forms.
+    /// Returns the radius in m of a [`Form::Paraboloid`], a sphere without waves; `None` for other forms.
     pub fn sphere_radius(&self) -> Option<f64> {
         if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
     }
 
-    /// Returns the curvature at the summit in 1/m; `None` for cones, power laws, and tables without a finite curvature at the
-    /// tip.
+    /// Returns the curvature at the summit in 1/m. Returns `None` for a cone, for a power law, and for a table that has not
+    /// been read or has no finite curvature at the tip.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
@@ -165,11 +167,12 @@ impl Form {
     }
 
     /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a punch
-    /// it is 0, the depth of its flat face; [`Form::springs_under`] has the springs under this face.
+    /// it is 0, the depth of its flat face; [`Form::springs_under`] returns the springs under this face.
     ///
-    /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr. A paraboloid r²/2R becomes x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power
-    /// law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x|
-    /// H₀(2π|x|/λ), with the Struve function H₀ of [`struve_0`].
+    /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`]. A paraboloid r²/2R becomes
+    /// x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of
+    /// [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x| H₀(2π|x|/λ), with the Struve function H₀ of
+    /// [`struve_0`].
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.
@@ -192,8 +195,8 @@ impl Form {
         }
     }
 
-    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m. `None` beside a punch, where
-    /// there is no body.
+    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m. Returns `None` for a punch
+    /// at a distance above its radius, where there is no body.
     ///
     /// ```
     /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 2.0 }.depth(0.1), Some(0.1 * 0.1 / 4.0));
@@ -211,8 +214,8 @@ impl Form {
         })
     }
 
-    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent profile g(x) = c |x|ⁿ. `None` for
-    /// a punch, waves and tables.
+    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent profile g(x) = c |x|ⁿ. Returns
+    /// `None` for a [`Form::Punch`], a [`Form::WavySphere`] and a [`Form::Table`].
     ///
     /// ```
     /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 0.5 }.power_law(), Some((2.0, 2.0)));
@@ -241,7 +244,8 @@ impl Form {
     }
 }
 
-/// Returns κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor between a power law rⁿ and its equivalent profile κₙ |x|ⁿ.
+/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ has the equivalent profile κₙ
+/// |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // Logarithms of Γ: the quotient remains finite where its parts would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();

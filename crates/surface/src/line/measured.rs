@@ -18,8 +18,8 @@ pub(super) const TRANSFORM_BYTES: u64 = 96;
 /// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. `None`: the rigid profile
-    /// is an equivalent line, a random profile with the measured spectrum.
+    /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. With `None` the rigid
+    /// profile is an equivalent line, a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files.
     pub reading: ReadOptions,
@@ -36,13 +36,13 @@ pub struct MeasuredOptions {
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
     pub positions: Vec<f64>,
-    /// Heights z in m, one for each position. If a polynomial had to be removed, it has been subtracted.
+    /// Heights z in m, one for each position. If the options remove a polynomial, these are the heights after its removal.
     pub heights: Vec<f64>,
 }
 
 impl MeasuredProfile {
-    /// Reads a profile, or a row or column of a map, from the content of a file. Returns an error if a polynomial has to be
-    /// removed and the points are not equally spaced.
+    /// Parses the content of a file that holds a profile, or a map of which the options choose a row or a column. Returns an
+    /// error if a polynomial has to be removed and the points are not equally spaced.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -88,9 +88,9 @@ impl MeasuredProfile {
     }
 
     /// Computes the rms height h, the rms gradient, the rms curvature and the mean wave number of the profile. The mean wave
-    /// number is Σ q_k A_k²/2h², where A_k are the amplitudes of the waves of the profile when it is repeated periodically. For
-    /// these amplitudes a straight line is subtracted, so that the two ends meet. A step between the ends would add to every
-    /// wave.
+    /// number is Σ q_k A_k²/2h², where A_k are the amplitudes and q_k the wave numbers of the waves of the profile, when it is
+    /// repeated periodically. For these amplitudes a straight line is subtracted, so that the two ends meet. A step between the
+    /// ends would add to every wave.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
@@ -201,7 +201,7 @@ fn join_ends(heights: &mut [f64]) {
 /// samples of the same roughness.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
-/// Reads the files of one or two faces from the paths of the files.
+/// Reads the files with these paths into memory. `faces` has the paths of the files of each [`Face`].
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     let read = |path: &PathBuf| match content(path) {
         Ok(content) => Ok((path.clone(), content)),
@@ -211,10 +211,10 @@ pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
 }
 
 impl MeasuredOptions {
-    /// Analyses the files of one face as samples of the same roughness.
+    /// Parses the files of one face, and analyses their surfaces as samples of the same roughness.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read or has no spectrum.
+    /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let (mut surfaces, mut files) = (Vec::new(), Vec::new());
         for (path, content) in face {

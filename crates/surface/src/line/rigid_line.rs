@@ -18,7 +18,7 @@ pub struct Line {
     pub length: f64,
     /// Distance Δx = L/N between springs in m.
     pub spacing: f64,
-    /// Height of the highest point in m. Height 0 is the apex of the form where the roughness has its mean height.
+    /// Height of the highest point in m. Heights count from the apex of the form without roughness.
     pub summit: f64,
     /// Largest gap in m.
     pub deepest: f64,
@@ -26,10 +26,10 @@ pub struct Line {
 
 impl Line {
     /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form the body is flat, and without
-    /// roughness it is smooth. The roughness has one height for each spring, in units of `scale` in m. The axis of the form is
-    /// on the spring ⌊N/2⌋: at x = L/2 for odd N, and half a spring spacing to the right for even N. The roughness has to be
-    /// displaced equally, by [`Form::shift`]. A punch lies only above the springs of [`Form::springs_under`]. The profile then
-    /// has only these springs.
+    /// roughness it is smooth. `roughness` has one height for each spring, in units of the length `scale` in m. The axis of any
+    /// form except a punch is on the spring ⌊N/2⌋: at x = L/2 for odd N, and half a spring spacing to the right for even N. The
+    /// given roughness has to be displaced by the same distance already, which is [`Form::shift`]. A punch lies only above the
+    /// springs of [`Form::springs_under`]. The profile then has only these springs.
     ///
     /// # Errors
     /// Returns an error if the memory is too small, if a height is not finite, or if no spring lies under a punch.
@@ -110,7 +110,7 @@ impl Line {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
-    /// Returns the height of the lowest point of the profile in m.
+    /// Returns the height in m of the lowest point of the profile.
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
     }
@@ -136,7 +136,7 @@ fn largest(values: &[f64]) -> Result<f64, usize> {
     Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// Numbers of heights in bins of equal width, from the lowest to the highest height.
+/// Histogram of heights: how many heights lie in each of several bins of equal width.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
     /// Lower end of the first bin in m.

@@ -64,7 +64,7 @@ impl Synthesizer {
     }
 
     /// Sums cosine waves with k = `first..=last` periods over the length. Their amplitudes `amplitude`(k) are in m, and their
-    /// phases come from the seed. `last` is at most `points`/2. The positions of the heights are the same as in
+    /// phases come from the seed. `last` is at most `points`/2. The heights are at the same positions as the heights of
     /// [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
@@ -126,8 +126,8 @@ impl SelfAffine {
     /// the rms height, are at x = (i + ½)L/N on N = `points` springs. `points` has to be at least twice the last mode. The
     /// heights depend only on the spectrum, the seed, and the number and positions of the points, not on the length.
     ///
-    /// The rms height is the rms of the sum of cosines over the whole length. With other numbers of springs the same profile is
-    /// sampled, to within the rounding of the Fourier transform.
+    /// The rms height is that of the sum of cosines over the whole length, not that of the N heights. Another number of springs
+    /// samples the same profile at other positions, up to the rounding errors of the Fourier transform.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };

@@ -16,7 +16,7 @@ pub struct SelfAffine {
     /// Last mode, the shortest wave; at least `first`.
     pub last: u64,
     /// Mode at the roll-off: the length L divided by the roll-off wavelength. For longer waves the spectrum of the surface is
-    /// flat. The value need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
+    /// flat. The value need not be a whole number. With any value up to `first`, such as 0, the spectrum has no roll-off.
     pub roll_off_mode: f64,
 }
 
@@ -35,10 +35,11 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the contribution A_k²/(4πk) of one wave to the mean square height of a surface, divided by the A₁² of
-    /// [`Self::relative_amplitude`]. The wave has k = `waves` periods over the length. k need not be a whole number, because
-    /// waves of a surface lie in all directions. The profile has the spectrum `self`, C₁D(q). The surface has the spectrum
-    /// C₂D(q) = C₁D(q)/(πq). The contribution is zero if k is below `first` or above `last` by more than ½.
+    /// Returns (A_k/A₁)²/(4πk) with k = `waves`. This is the mean square height that one wave with k periods over the length
+    /// adds to a surface, in units of A₁². [`Self::relative_amplitude`] defines A_k and A₁. k need not be a whole number,
+    /// because waves of a surface lie in all directions. If C₁D(q) is the spectrum of the profile over the wave number q, the
+    /// surface has the spectrum C₂D(q) = C₁D(q)/(πq). The function returns 0 if k is more than ½ below `first` or more than ½
+    /// above `last`.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -48,16 +49,17 @@ impl SelfAffine {
         square / (4.0 * std::f64::consts::PI * waves)
     }
 
-    /// Returns the root mean square √(Σ A_k²/2) of the sum of cosines with the amplitudes of [`Self::relative_amplitude`].
+    /// Returns the rms height of the profile in units of A₁, which is √(Σ A_k²/2)/A₁. [`Self::relative_amplitude`] defines A_k
+    /// and A₁.
     pub fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()
     }
 
     /// Returns the rms gradient over the rms height, ⟨∇z⟩/h in 1/m, of a profile of length L in m. It is √(Σ A_k² q_k² / Σ
-    /// A_k²), summed over the modes of the profile.
+    /// A_k²), summed over the modes k of the profile. A_k is the amplitude of mode k, and q_k its wave number.
     ///
-    /// These sums are finite and have positive terms. So H → 1 is no special case, unlike in the integrals of eqs. (12) and
-    /// (13) of Popov and Filippov (2012).
+    /// These sums are finite and have positive terms. The Hurst exponent H → 1 is therefore no special case, unlike in the
+    /// integrals of eqs. (12) and (13) of Popov and Filippov (2012).
     ///
     /// ```
     /// use asperity_surface::SelfAffine;
@@ -71,8 +73,8 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m. It is summed over the modes, as in
-    /// [`Self::gradient_per_height`].
+    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m. Its values are computed from sums over
+    /// the modes, as in [`Self::gradient_per_height`].
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 512, roll_off_mode: 0.0 };
@@ -93,8 +95,8 @@ impl SelfAffine {
     /// a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, by eqs. (5)–(7) and (12) of Popov and
     /// Filippov (2012).
     ///
-    /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. It is zero
-    /// for a single mode.
+    /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. A single mode
+    /// spans no range of wave numbers; the function then returns 0.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
         let between = self.roll_off_mode.max(low).min(high);
@@ -143,7 +145,8 @@ pub struct Amplitude {
     pub rms_gradient: f64,
     /// Root mean square curvature in 1/m.
     pub rms_curvature: f64,
-    /// Mean wave number Σ q_k A_k²/Σ A_k² in rad/m; 0 for a flat profile.
+    /// Mean wave number Σ q_k A_k²/Σ A_k² in rad/m, where A_k are the amplitudes and q_k the wave numbers of the waves of the
+    /// profile. It is 0 for a flat profile.
     pub mean_wave_number: f64,
 }
 
@@ -158,7 +161,8 @@ impl Amplitude {
         }
     }
 
-    /// Returns the roughness amplitude of the profile after it is stretched to `times` its length.
+    /// Returns the roughness amplitude of the profile after it is stretched along x by the factor `times`, with the same
+    /// heights.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,
@@ -188,9 +192,10 @@ impl Amplitude {
         }
     }
 
-    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in J/m². A half-space of
-    /// effective modulus E* (Pa) has this energy in full contact with an isotropic surface. The surface has the rms height, rms
-    /// gradient and mean wave number of the profile (Persson and Tosatti, 2001).
+    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in J/m². Here A_k are the
+    /// amplitudes and q_k the wave numbers of the waves of the profile. A half-space of effective modulus E* (Pa) has this
+    /// energy in full contact with an isotropic surface. The surface has the rms height, rms gradient and mean wave number of
+    /// the profile (Persson and Tosatti, 2001).
     ///
     /// ```
     /// use asperity_surface::SelfAffine;

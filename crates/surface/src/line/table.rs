@@ -44,7 +44,7 @@ pub struct FormTable {
 }
 
 /// Rows of a [`Form::Table`](crate::Form::Table), empty until its file is read. All clones of the form share the rows that were
-/// read. In a comparison, rows that have not been read are equal to any rows.
+/// read. The operator `==` takes rows that have not been read as equal to any rows.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -67,7 +67,7 @@ impl FormTable {
         FormTable::new(radii, &depths)
     }
 
-    /// Creates a form from depths in m at two or more radii in m, ascending from 0.
+    /// Creates a form from depths in m at two or more radii in m. The radii ascend from 0.
     ///
     /// # Errors
     /// Returns an error that names the row at fault and the allowed values.
@@ -117,7 +117,7 @@ impl FormTable {
         Ok(FormTable { radii, slopes })
     }
 
-    /// Returns the largest radius of the table in m, in its last row.
+    /// Returns the radius in m of the last row, the largest radius of the table.
     pub fn reach(&self) -> f64 {
         self.radii[self.radii.len() - 1]
     }
@@ -230,8 +230,8 @@ impl FormTable {
         Ok(depths)
     }
 
-    /// Finds the smallest distance from the axis in m beyond which the depth g of the equivalent profile decreases. Searches up
-    /// to the distance `radius` in m. Returns `None` if the depth does not decrease there.
+    /// Finds the smallest distance from the axis in m beyond which the depth g of the equivalent profile decreases. The search
+    /// ends at the distance `radius` in m. Returns `None` if the depth does not decrease up to this distance.
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;

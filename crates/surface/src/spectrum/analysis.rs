@@ -40,14 +40,14 @@ const CONTINUED: f64 = 4.0;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. With `None` it is the polynomial that a container, an archive of
-    /// contact.engineering, states for the surface. If none is stated, it is the tilt, or for a periodic surface only the mean.
-    /// To remove a plane from a periodic surface would leave a step at its borders.
+    /// Polynomial removed before the analysis. With `None`, the polynomial is removed that an archive of contact.engineering
+    /// states for the surface. If none is stated, the mean and the tilt are removed, or only the mean of a periodic surface. To
+    /// remove a plane from a periodic surface would leave a step at its borders.
     pub detrend: Option<Detrend>,
     /// True for a surface that continues periodically at its borders. The analysis then uses no window function. A container
     /// may also state that its surface is periodic.
     pub periodic: bool,
-    /// Whether the surface has waves shorter than the shortest wave that its points resolve.
+    /// Assumption on waves shorter than the shortest wave that the points resolve: whether the surface has such waves.
     pub end: End,
     /// Radius in m of the tip that measured the surface.
     pub tip_radius: Option<f64>,
@@ -57,37 +57,38 @@ pub struct AnalysisOptions {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// Statistics of the measured points.
+    /// Statistics of the heights of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height of each surface in m, after removal of the polynomial.
+    /// Rms height in m of each surface, after removal of the polynomial.
     pub rms_heights: Vec<f64>,
     /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
-    /// Isotropic spectrum fitted to the surfaces, which are taken as samples of it.
+    /// Isotropic spectrum fitted to the surfaces. All of them are taken as samples of this one spectrum.
     pub isotropic: IsotropicSpectrum,
     /// Self-affine spectrum fitted to the surfaces; `None` if the fit does not converge or finds no Hurst exponent between 0
     /// and 1.
     pub power_law: Option<SelfAffineFit>,
-    /// Moments of the equivalent line, such as its rms height.
+    /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms height.
     pub line: LineMoments,
     /// Shortest wavelength in m that the tip resolves reliably. For several surfaces it is the largest of their wavelengths.
     /// `None` if no tip radius is given, or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
-    /// Number of surfaces that are profiles.
+    /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
-    /// Number of surfaces that are maps.
+    /// Number of the analysed surfaces that are maps.
     pub maps: u64,
-    /// Length of the longest row of all surfaces in m.
+    /// Length in m of the longest row of all surfaces.
     pub length: f64,
     /// [`AnalysisOptions::end`] of this analysis: whether waves continue beyond the last resolved one.
     pub end: End,
     /// True if the shortest waves that the points resolve have no significant power. The spectrum then ends before these waves.
     pub ends_inside: bool,
-    /// True if the waves parallel to one axis of a map are left out. The rows or columns of such a map are offset against each
-    /// other, or were levelled one by one.
+    /// True if the analysis leaves out the waves parallel to one axis of a map. The rows or columns of such a map are offset
+    /// against each other, or were levelled one by one.
     pub offsets: bool,
-    /// Share of the squared gradient by which waves parallel to an axis of a map differ from waves in neighbouring directions.
-    /// The share is 0 if waves parallel to an axis are left out, or if the difference is small or may be chance.
+    /// Largest difference between the squared gradient of waves parallel to an axis of a map and the value expected from waves
+    /// in neighbouring directions. It is divided by the squared gradient of the map. The value is 0 if waves parallel to an
+    /// axis are left out, or if the difference is small or may be chance.
     pub apart: f64,
     /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. For several
     /// maps it is the largest of their distances. `None` if no map has such a displacement.
@@ -109,8 +110,8 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// Returns an error for a surface with uneven points, with too few points or without roughness. Returns an error for an
-/// [`End::Continues`] with a wave number that the points already resolve.
+/// Returns an error for a surface with uneven points, with too few points or without roughness. Also returns an error if
+/// [`AnalysisOptions::end`] is [`End::Continues`] with a wave number that the points resolve already.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};
@@ -395,8 +396,8 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns the share of the mean square height that comes from waves longer than a quarter of the scan. A scan has only few
-    /// such waves, so with a large share the rms height depends on the length of the scan.
+    /// Returns the share of the mean square height that comes from waves longer than a quarter of [`Analysis::length`]. A
+    /// surface has only few such waves. With a large share the rms height therefore depends on the measured length.
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

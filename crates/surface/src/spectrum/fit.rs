@@ -209,10 +209,10 @@ const HURST: [f64; 2] = [-0.5, 1.5];
 pub struct SelfAffineFit {
     /// Hurst exponent H.
     pub hurst: ValueWithError,
-    /// Roll-off wave number in rad/m; `None` without a roll-off.
+    /// Roll-off wave number in rad/m; `None` if the fitted spectrum has no roll-off.
     pub roll_off: Option<ValueWithError>,
-    /// Two-dimensional spectral density C2D in m⁴ at the roll-off wave number. Without a roll-off it is C2D at the first wave
-    /// number.
+    /// Two-dimensional spectral density C2D in m⁴ at the roll-off wave number. If there is no roll-off, it is C2D at the first
+    /// wave number of the fit.
     pub level: ValueWithError,
 }
 

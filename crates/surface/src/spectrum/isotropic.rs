@@ -73,11 +73,11 @@ pub struct Moment {
     /// Standard error that results from the finite number of measured waves.
     pub statistical: f64,
     /// Standard error that results from the method of estimation. One part is the difference between the moment of the fitted
-    /// spectrum and the moment of the measured powers. The other part is the error by interpolated points.
+    /// spectrum and the moment of the measured powers. The other part is the error that results from interpolated points.
     pub method: f64,
-    /// Largest change of the value if the spectrum continues by a power law down to a quarter of the last resolved wavelength.
-    /// These waves are missing in the value, and by aliasing they add to the power of longer waves. The change is zero with
-    /// [`End::Continues`], and if the spectrum ends before the last resolved wave.
+    /// Largest change of the value if the surface has shorter waves than the points resolve: a power law down to a quarter of
+    /// the shortest resolved wavelength. Such waves are missing in the value, and by aliasing they add to the power of longer
+    /// waves. The change is zero with [`End::Continues`], and if the spectrum ends before the last resolved wave.
     pub missing_short_waves: f64,
 }
 
@@ -104,7 +104,7 @@ impl Moment {
     }
 }
 
-/// Moments of the equivalent line over all its waves.
+/// Moments of the [equivalent line](crate::EquivalentLine), each with its errors. They include all waves of the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineMoments {
@@ -195,7 +195,7 @@ impl Term {
     }
 }
 
-/// Values of an isotropic spectrum at one of the wave numbers at which it is given.
+/// Values of an [`IsotropicSpectrum`] at one of the wave numbers by which the spectrum is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Node {
@@ -203,7 +203,7 @@ pub struct Node {
     pub wave_number: f64,
     /// Two-dimensional spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
-    /// Standard error of ln C2D(q), about the relative error of C2D(q).
+    /// Standard error of ln C2D(q). It is about the relative standard error of C2D(q).
     pub relative_error: f64,
     /// Power spectral density of the equivalent line at q in m³.
     pub line: f64,

@@ -10,7 +10,7 @@ pub struct PointStatistics {
     pub points: usize,
     /// Root mean square height about the mean in m: Pq of profiles, Sq of maps, neither of them filtered.
     pub rms_height: f64,
-    /// Root mean square slope along rows, PΔq, from the differences between the heights of neighbouring points.
+    /// Root mean square slope along rows, PΔq. It is computed from the differences between the heights of neighbouring points.
     pub rms_slope: f64,
     /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if any surface is a profile.
     pub rms_gradient: Option<f64>,

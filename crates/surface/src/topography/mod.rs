@@ -58,7 +58,7 @@ impl Unit {
         text.parse::<Unit>().is_ok()
     }
 
-    /// Returns the usual name of the unit.
+    /// Returns the usual symbol of the unit, such as `µm`.
     pub fn name(self) -> &'static str {
         self.name
     }

@@ -45,12 +45,12 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, Surfa
     parse_all(&content(path)?, options)
 }
 
-/// Reads the bytes of a regular file of at most 1 GiB, to pass to [`parse`].
+/// Returns the bytes of a regular file of at most 1 GiB. [`parse`] takes these bytes.
 pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
 
-/// Reads the surface from the content of a file that has only one measurement.
+/// Parses the content of a file that has only one measurement, and returns its surface.
 ///
 /// # Errors
 /// Returns the errors of [`read`], and an error for a file with several measurements.
@@ -153,7 +153,7 @@ fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, Surfa
     if options.resample { surface.resampled() } else { Ok(surface) }
 }
 
-/// Returns the content of a file, decompressed if it is gzip.
+/// Returns the content of a file from its bytes. They are decompressed if the file is gzip.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());

@@ -9,30 +9,32 @@ use std::ops::Range;
 /// Largest number of points of a surface: 2 GiB of heights.
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
-/// Options for reading a surface: what the user states about a file, because the file may omit it.
+/// Options for reading a surface: units and distances that a file may omit, the part of the file to read, and corrections of
+/// the heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
     /// Unit of the heights if the file states none; `None` means the unit in `unit`.
     pub height_unit: Option<Unit>,
-    /// Unit to assume if the file states none and `unit` is `None`.
+    /// Unit of positions and heights that is assumed if the file states none and `unit` is `None`.
     pub convention: Option<Unit>,
     /// Distance between points in m if the file states none.
     pub spacing: Option<f64>,
     /// True if missing heights are interpolated from their neighbours. Otherwise a missing height is an error.
     pub interpolate: bool,
-    /// Number of the channel to read from a file with several channels.
+    /// Number, from 0, of the channel to read from a file with several channels.
     pub channel: Option<u32>,
-    /// Row or column of a map to read as a profile.
+    /// Row or column of a map that is read as a profile. With `None` the whole map is read.
     pub cut: Option<Cut>,
     /// True if a profile with uneven distances between points is interpolated at evenly spaced points.
     pub resample: bool,
-    /// True if the median height of each row of a map is subtracted, for rows that are offset against each other.
+    /// True if the median height of each row of a map is subtracted from the row, which removes offsets between rows.
     pub align_rows: bool,
     /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated from their neighbours.
     pub robust: bool,
-    /// Name of the surface or of the measurement to read from a container, an archive with several measurements.
+    /// Name of a surface or of a measurement in an archive with several measurements. Only the surface or the measurement with
+    /// this name is read.
     pub surface_name: Option<String>,
 }
 
@@ -233,7 +235,7 @@ impl Reading {
 }
 
 impl Topography {
-    /// Creates a profile from heights in m at equal distances `spacing` in m.
+    /// Creates a profile from heights in m of points at equal distances of `spacing` in m.
     ///
     /// # Errors
     /// Returns an error if there are fewer than two points, if a height is not finite, or if the distance is not above 0.
@@ -249,8 +251,9 @@ impl Topography {
         Topography::from_map(heights, heights.len(), [spacing; 2])
     }
 
-    /// Creates a map from heights in m, row by row in rows of `columns` points. `spacing` has the distances in m along and
-    /// between rows. A map of a single row or a single column is a profile.
+    /// Creates a map from heights in m, row by row in rows of `columns` points. `spacing` has the distance in m between
+    /// neighbouring points of a row, and the distance in m between neighbouring rows. A map of a single row or a single column
+    /// is a profile.
     ///
     /// # Errors
     /// Returns the errors of [`Topography::from_profile`], and an error for a number of heights that is no multiple of `columns`.

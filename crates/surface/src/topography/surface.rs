@@ -38,8 +38,8 @@ pub(super) enum Layout {
     Even([f64; 2]),
 }
 
-/// Numbers of columns and rows at the borders of a map that have no measured point and are left out. For a profile these are
-/// numbers of points at its ends.
+/// Numbers of columns and rows at the borders of a map that have no measured point and are left out. For a profile the numbers
+/// of columns are numbers of points at its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -59,14 +59,14 @@ impl Cropped {
     }
 }
 
-/// Measured heights of a profile or a map, with the positions of the points.
+/// A measured surface, which is a profile or a map: heights and the positions of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
     /// Name of the format of the file.
     pub format: &'static str,
     /// Heights in m, row by row.
     pub heights: Vec<f64>,
-    /// Number of points of a row, or of all points for a profile.
+    /// Number of points in each row. All points of a profile are one row.
     pub columns: usize,
     pub(super) layout: Layout,
     /// Numbers of rows and columns without a measured point that are left out at the borders.
@@ -77,12 +77,13 @@ pub struct Topography {
     pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
-    /// Name of the measurement in a container, an archive of several files; empty if the surface has a file of its own.
+    /// Name that a container, an archive of several measurements, gives this measurement. The name is empty if the surface has
+    /// a file of its own.
     pub name: String,
     /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
-    /// Messages for the user about unusual content of the file.
+    /// Messages for the user, each about something unusual in the file.
     pub warnings: Vec<String>,
 }
 
@@ -156,7 +157,7 @@ impl Topography {
         self.heights.len() / self.columns
     }
 
-    /// Returns the positions and heights of a profile in m. Equally spaced points begin at x = 0.
+    /// Returns the positions in m and the heights in m of the points of a profile. Equally spaced points begin at x = 0.
     ///
     /// # Errors
     /// Returns an error if the surface is a map.
@@ -299,7 +300,7 @@ fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
-/// Polynomial removed from a surface before the analysis.
+/// Polynomial that is subtracted from the heights of a surface before the analysis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
