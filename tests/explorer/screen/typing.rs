@@ -117,7 +117,7 @@ fn a_number_alone_has_the_unit_of_its_row_and_the_row_says_so() {
     assert!(!driver.text().contains('→'), "{}", driver.text());
     driver.press("Esc");
     driver.select("loading");
-    driver.sees("Enter", "a number without a unit is a force in");
+    driver.sees("Enter", "separation; a number without");
     driver.press("`2e-5, separation` Enter");
     assert_eq!(driver.document().scene().loading, rough().scene().loading);
     // A force of manual loading has the prefix of the loading.
