@@ -59,8 +59,8 @@ impl fmt::Display for Origin {
 pub struct SceneError {
     /// Source of the invalid value.
     pub origin: Origin,
-    /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage. Empty if no single field is
-    /// wrong.
+    /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage. Empty if the error does
+    /// not concern a single field.
     pub field: String,
     /// Invalid value as it was written; empty if there is none.
     pub value: String,
@@ -180,7 +180,7 @@ const LONGEST: usize = 64;
 
 /// Returns the one of `names` that is most similar to the misspelt `name`; `None` if no name is similar.
 ///
-/// It is enough that the last part of a path is similar: `hurst` finds `roughness.hurst`.
+/// For a path with dots it is enough that its last part is similar: the name `hurst` finds `roughness.hurst`.
 ///
 /// ```
 /// use asperity_scene::text::nearest;

@@ -107,8 +107,9 @@ pub struct Entry {
 }
 
 /// Returns the folder of the user's own scenes. A scene in this folder can be opened by its name without `.ron`. The folder
-/// is `asperity/presets` in the configuration folder of the user, and may not exist. The configuration folder is
-/// `$XDG_CONFIG_HOME` or `~/.config`; on Windows it is the roaming application data.
+/// is `asperity/presets` in the configuration folder of the user. It need not exist. The configuration folder is
+/// `$XDG_CONFIG_HOME` or `~/.config`; on Windows it is the folder for roaming application data. Returns `None` if the user
+/// has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }

@@ -68,7 +68,7 @@ pub(super) const STAGES: [&str; StageKind::ALL.len()] = {
     examples
 };
 
-/// Returns the largest target force of the loading stages in N; 0 if no stage has a positive one.
+/// Returns the largest target force of the loading stages in N; 0 if no stage has a positive target force.
 pub fn pressing_force(loading: &[Move]) -> f64 {
     let force = |stage: &Move| if let Move::ToForce(force) = *stage { force } else { 0.0 };
     loading.iter().map(force).fold(0.0, f64::max)
@@ -93,9 +93,9 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. Repeated loops between two
-/// stages become one item. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text
-/// into the same loading again.
+/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. Several equal loops in a row
+/// become one item, such as `3 loops 0 N to 10 µN`. If `format` is [`exact_quantity`](asperity_data::exact_quantity),
+/// [`read_loading`] turns the text into the same loading again.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -150,7 +150,7 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 }
 
 /// Reads a loading stage as [`loading_text`] writes it. A number without a unit becomes a stage of the kind with the index
-/// `usual` in [`StageKind::ALL`]. If `usual` is `None`, it becomes a force.
+/// `usual` in [`StageKind::ALL`]. If `usual` is `None`, the number is a force in N.
 ///
 /// # Errors
 /// Returns an error if the text is no stage.

@@ -46,7 +46,7 @@ impl Tree {
     }
 
     /// Sets the number at a path without checking its range. A number that the scene omits is added. If the scene has no
-    /// adhesion, a number of the adhesion adds one.
+    /// adhesion, setting one of its fields, such as `adhesion.work`, gives the scene an adhesion with this number only.
     ///
     /// Returns false, with the tree unchanged, if the scene can have no number there.
     pub fn set(&mut self, path: &str, value: f64) -> bool {

@@ -42,7 +42,8 @@ impl Reach {
         Reach { full_contact, force, indentation, displacement }
     }
 
-    /// Returns a message that says why `stage` is refused; `None` for a stage that does not end beyond the deepest state.
+    /// Returns a message that says why the loading stage `stage` is refused; `None` if the stage does not end beyond the
+    /// deepest state.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }

@@ -93,12 +93,13 @@ pub(super) struct Prepared {
     timings: Timings,
 }
 
-/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, its force curve
-/// ([`LegRecord`]) and its contact ([`Leg`]). If the function returns an error, the run ends with this error.
+/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, the force curve on the
+/// stage ([`LegRecord`]) and the solved stage ([`Leg`]), which returns force and patches at any indentation. If the
+/// function returns an error, the run ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Returns a simulation of scenes whose measured files are in `folder`.
+    /// Returns a simulation for scenes whose names of measured files are relative to `folder`.
     pub fn new(folder: PathBuf) -> Self {
         Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
     }
@@ -140,7 +141,7 @@ impl Simulation {
     }
 
     /// Returns the profile of a scene, the numbers that describe it, and the governing parameters. The profile is computed
-    /// unless the last scene had the same one.
+    /// unless the last scene had the same profile.
     ///
     /// # Errors
     /// Returns an error if the memory is too small, or if a measured file or a form cannot be used.
