@@ -91,7 +91,7 @@ impl Table<'_> {
         &self.columns
     }
 
-    /// Computes the rows one by one. A row has one value for each column.
+    /// Returns an iterator that computes the rows one by one. A row has one value for each column.
     pub fn rows(&self) -> impl Iterator<Item = Vec<Value>> {
         (self.rows)()
     }

@@ -3,7 +3,7 @@
 use crate::text_lines::TextFault;
 
 /// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space. The first line of numbers
-/// determines it.
+/// determines the separator of the whole table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
@@ -64,7 +64,8 @@ pub enum TextCell {
     /// An empty cell, or a mark of a missing point such as `NaN`.
     Missing,
     /// A number whose decimal mark differs from the numbers before it, such as `0,5` after `0.5`. If commas separate the
-    /// columns, also a number in quotation marks such as `"1,234"`, whose comma may separate thousands.
+    /// columns, a number in quotation marks such as `"1,234"` is also of this kind, because its comma may separate
+    /// thousands.
     OtherMark,
     /// A text that is no number.
     NoNumber,
@@ -73,7 +74,7 @@ pub enum TextCell {
 /// Marks of missing points, besides an empty cell and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Text that states the allowed notation of numbers, for the message about a cell with [`TextCell::OtherMark`].
+/// Text that states how numbers may be written. Messages about a cell with [`TextCell::OtherMark`] contain it.
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 

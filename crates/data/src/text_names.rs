@@ -19,7 +19,7 @@ pub enum Role {
     Y,
     /// The column has heights.
     Height,
-    /// The column has the number of each point, counted along the file.
+    /// The column has the index of each point, which counts the points in the order of the file.
     Number,
     /// The column has 0 for a point that was not measured.
     Valid,

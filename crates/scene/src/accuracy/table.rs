@@ -193,8 +193,9 @@ impl CostTable {
         Some((between(before.0, there.0), between(before.1, there.1)))
     }
 
-    /// Returns the order of convergence of the main error with a setting: the slope of ln(error) over ln(setting), fitted by
-    /// least squares to all rows with resolved errors. Returns `None` for fewer than three such rows.
+    /// Returns the order of convergence of the main error with a setting: the absolute value of the slope of ln(error) as a
+    /// function of ln(setting), fitted by least squares to all rows with resolved errors. Returns `None` for fewer than
+    /// three such rows.
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;

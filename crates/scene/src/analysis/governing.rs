@@ -11,8 +11,8 @@ use asperity_surface::Form;
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. Each parameter is given
-/// by the scene or derived from those that are given.
+/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. The scene gives some
+/// of these parameters, and the others are derived from them.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};

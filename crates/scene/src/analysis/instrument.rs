@@ -151,8 +151,8 @@ pub struct InstrumentFigures {
 }
 
 impl InstrumentFigures {
-    /// Computes these results from a computed loading. `history` has its force curves, `figures` its forces and energies.
-    /// `stiffness` is the stiffness of the instrument in N/m.
+    /// Computes these results from a computed loading. `history` has the force curves of this loading, and `figures` has
+    /// the forces and energies. `stiffness` is the stiffness of the instrument in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

@@ -93,7 +93,8 @@ pub enum Strength {
         /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None` if both are equal.
         closing: Option<f64>,
     },
-    /// A parameter and its value. The value and the roughness of the scene together give the work of adhesion.
+    /// A parameter and its value. The work of adhesion follows from this value, from the roughness and from the effective
+    /// modulus of the scene.
     Parameter(RoughnessParameter, f64),
 }
 

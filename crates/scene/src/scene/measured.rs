@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::Not;
 
-/// A measured surface, profile or map, as the roughness of a scene. Many of its fields are also options of `asperity
+/// A measured surface, profile or map, as the roughness of a scene. Many fields of this type are also options of `asperity
 /// surface`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

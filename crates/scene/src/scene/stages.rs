@@ -23,9 +23,9 @@ pub struct StageKind {
 }
 
 impl StageKind {
-    /// All kinds of loading stages, in the order in which a key changes them. In a text, a force or an indentation is a
-    /// number with a unit, such as `10 µN` or `200 nm`. A displacement is in metres as well, so the word `displacement`
-    /// precedes its number.
+    /// All kinds of loading stages, in the order in which a key of the explorer goes through them. In a text, a force or an
+    /// indentation is a number with a unit, such as `10 µN` or `200 nm`. A displacement is in metres as well, so the word
+    /// `displacement` precedes its number.
     pub const ALL: [StageKind; 6] = [
         StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
         StageKind {

@@ -9,9 +9,9 @@ use super::model::Scene;
 use super::range::Range;
 use super::text::{ron_float, ron_string};
 
-/// Values of a scene, which are read and set by the paths of fields. They form a JSON tree. A choice without fields, such as
-/// `ToTouch`, is the text of its name. A choice with fields is an object whose only key is its name. An omitted field has no
-/// value.
+/// Values of a scene, which are read and set by the paths of fields. They form a JSON tree. A choice without fields, such
+/// as `ToTouch`, is the text of its name. A choice with fields is an object whose only key is the name of the choice. An
+/// omitted field has no value.
 ///
 /// ```
 /// use asperity_scene::fields::Tree;

@@ -143,7 +143,7 @@ pub enum RunError {
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
-    /// The requested preload is below the force at first touch, so no loading can end at it.
+    /// The requested preload is below the force at first touch, so no loading from separation can end at this force.
     #[error(
         "preload {}: allowed: at least the force at first touch, {}",
         format_quantity(*preload, "N"),

@@ -27,7 +27,7 @@ pub struct Reach {
     pub force: f64,
     /// Indentation of the deepest state in m.
     pub indentation: f64,
-    /// Displacement of the instrument in the deepest state in m.
+    /// Displacement in m that the instrument has in the deepest state.
     pub displacement: f64,
 }
 

@@ -31,10 +31,10 @@ const SMALL: u64 = 32 << 20;
 /// run. It repeats only the parts of the computation that depend on a changed field of the scene. Repeated parts reuse their
 /// memory.
 ///
-/// Between runs it keeps at most 32 MiB or four times the memory of the last scene, whichever is larger. The memory of a
-/// scene is [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory goes to the allocator,
-/// which need not return it to the system. The allocator of glibc keeps blocks of less than 32 MiB, at most 64 MiB for each
-/// thread.
+/// Between runs a simulation keeps at most 32 MiB or four times the memory of the last scene, whichever is larger. The
+/// memory of a scene is here [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory
+/// goes to the allocator, which need not return it to the system. The allocator of glibc keeps blocks of less than 32 MiB,
+/// at most 64 MiB for each thread.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
@@ -94,8 +94,8 @@ pub(super) struct Prepared {
 }
 
 /// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, the force curve on the
-/// stage ([`LegRecord`]) and the solved stage ([`Leg`]), which returns force and patches at any indentation. If the
-/// function returns an error, the run ends with this error.
+/// stage ([`LegRecord`]) and the solved stage ([`Leg`]), which returns force and patches at any indentation on the stage.
+/// If the function returns an error, the run ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {

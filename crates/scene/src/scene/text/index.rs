@@ -26,7 +26,7 @@ pub struct Text {
 pub struct TextSpan {
     /// Path of the value, such as `roughness.hurst`.
     pub path: String,
-    /// Bytes of the whole entry `name: value`; in a list the same as `value`.
+    /// Bytes of the whole entry `name: value`. For an element of a list, which has no name, they are the same as `value`.
     pub entry: Range<usize>,
     /// Bytes of the value alone.
     pub value: Range<usize>,
