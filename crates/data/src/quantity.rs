@@ -49,8 +49,8 @@ impl QuantityError {
 ///
 /// The unit and blanks are optional. An `m` alone after the number is the prefix milli. If `unit` is `m`, however, it is
 /// the metre: `50m` is then fifty metres, and `50mm` fifty millimetres. An angle may be in degrees, `30°` or `30 deg`. If
-/// `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024. A decimal prefix loses no digit:
-/// the result is the `f64` nearest to the typed value.
+/// `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024. The conversion of a decimal prefix
+/// is exact up to rounding: the result is the `f64` nearest to the typed value.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.

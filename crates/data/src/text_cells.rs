@@ -138,7 +138,7 @@ impl Decimal {
     }
 
     /// Returns an error if the commas in the numbers read so far may be decimal marks as well as separators of thousands.
-    /// This is so if three digits follow each comma, and if there are also numbers without a comma.
+    /// The commas are in doubt if three digits follow each of them, and if there are also numbers without a comma.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }

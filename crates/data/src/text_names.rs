@@ -54,7 +54,7 @@ const LAST_LINES: usize = 64;
 pub struct HeadLines(VecDeque<String>);
 
 impl HeadLines {
-    /// Adds a line. The characters [`COMMENT`] at its beginning are left out.
+    /// Adds a line. The characters [`COMMENT`] at the beginning of the line are left out.
     pub fn take(&mut self, line: &str) {
         if self.0.len() == LAST_LINES {
             self.0.pop_front();

@@ -22,7 +22,7 @@ const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 pub enum Knob {
     /// Number of springs N, where the edge of a patch may lie between two springs ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N, where patches consist of whole springs as in the paper of Popov and Filippov ([`Edges::Grid`]).
+    /// Number of springs N, where a patch consists of whole springs as in Popov and Filippov (2012) ([`Edges::Grid`]).
     GridSprings,
     /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,

@@ -48,7 +48,7 @@ impl Regime {
     /// pressed them together.
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
-    /// All regimes, in the order of decreasing adhesion.
+    /// All regimes: pressure-insensitive, pressure-sensitive and non-adhesive, in this order.
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 

@@ -107,7 +107,7 @@ impl SceneError {
     }
 }
 
-/// All errors of a scene, at least one. Shown as text, each error is one line.
+/// All errors of a scene, at least one. The text of this type has one line for each error.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};

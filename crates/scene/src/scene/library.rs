@@ -19,7 +19,7 @@ pub const DEFAULT: &str = "pressure-sensitive";
 /// A built-in scene, or a built-in plan of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Name by which the command line names the scene or plan.
+    /// Name of the scene or plan, as a user types it on the command line.
     pub name: &'static str,
     /// Text of the scene or plan in RON.
     pub text: &'static str,

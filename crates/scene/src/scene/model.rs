@@ -56,7 +56,8 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants as a scene states them: E and ν of a half-space under a rigid body, or the effective modulus E*.
+/// Elastic constants as a scene states them: Young's modulus E and Poisson's ratio ν of a half-space under a rigid body, or
+/// the effective modulus E*.
 ///
 /// ```
 /// use asperity_scene::Material;
@@ -196,7 +197,8 @@ impl Scene {
         Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
-    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs. A scene with a warning is allowed.
+    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs, otherwise `None`. A scene with a
+    /// warning can still be computed.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
@@ -350,8 +352,8 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns the edge model of a scene that states none: [`Edges::SubCell`] with the exact solver, [`Edges::Grid`] with the
-    /// stepwise solver.
+    /// Returns the edge model of a scene file that states no edge model: [`Edges::SubCell`] with the exact solver,
+    /// [`Edges::Grid`] with the stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => default_of("numerics.edges"),

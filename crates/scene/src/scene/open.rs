@@ -59,7 +59,7 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     Err(whole(name_or_path, message))
 }
 
-/// Returns true if [`is_path`] is true for a name, or if the name belongs to an existing file.
+/// Returns true if [`is_path`] is true for a name, or if the name is the path of an existing file.
 pub fn is_file_name(name: &str) -> bool {
     is_path(name) || Path::new(name).is_file()
 }

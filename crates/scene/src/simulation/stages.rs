@@ -33,8 +33,8 @@ const SMALL: u64 = 32 << 20;
 ///
 /// Between runs a simulation keeps at most 32 MiB or four times the memory of the last scene, whichever is larger. The
 /// memory of a scene is here [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory
-/// goes to the allocator, which need not return it to the system. The allocator of glibc keeps blocks of less than 32 MiB,
-/// at most 64 MiB for each thread.
+/// goes to the allocator, which need not return it to the system. The allocator of glibc keeps released blocks of less than
+/// 32 MiB for reuse, in total at most 64 MiB for each thread.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
