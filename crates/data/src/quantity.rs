@@ -47,10 +47,11 @@ impl QuantityError {
 
 /// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
 ///
-/// The unit and blanks are optional. An `m` alone after the number is the prefix milli. If `unit` is `m`, however, it is
-/// the metre: `50m` is then fifty metres, and `50mm` fifty millimetres. An angle may be in degrees, `30°` or `30 deg`. If
-/// `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024. The conversion of a decimal prefix
-/// is exact up to rounding: the result is the `f64` nearest to the typed value.
+/// The text may omit the unit. Blanks are allowed before the unit and at both ends of the text. An `m` alone after the
+/// number is the prefix milli. If `unit` is `m`, however, it is the metre: `50m` is then fifty metres, and `50mm` fifty
+/// millimetres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi`
+/// or `Gi` for powers of 1024. The conversion of a decimal prefix is exact up to rounding: the result is the `f64` nearest
+/// to the typed value.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.

@@ -69,7 +69,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
 
-/// Replaces the same characters as [`printable`] by their codes, but keeps line breaks.
+/// Replaces characters by their codes as [`printable`] does, but keeps line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }

@@ -23,8 +23,9 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line into columns. The line must have no blanks at its ends. Separators within quotation marks do not count.
-    /// Between two neighbouring separators there is an empty column. Neighbouring blanks, however, are one separator.
+    /// Splits a line into columns. The line must have no blanks at its ends. Separators within quotation marks do not split
+    /// the line. Between two neighbouring separators there is an empty column. Neighbouring blanks, however, are one
+    /// separator.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();

@@ -81,8 +81,9 @@ pub enum Evidence {
     Solutions(Vec<u64>),
 }
 
-/// Estimates the error that the finite number of springs causes in the adhesion force of `outcome`, the result of `scene`. If
-/// there is no tensile force, it estimates the error of the force curve. Names of measured files are relative to `folder`.
+/// Estimates the error that the finite number of springs causes in the adhesion force of `outcome`, the result of `scene`.
+/// If the loading has no tensile force, the function estimates the error of the force curve. Names of measured files are
+/// relative to `folder`.
 ///
 /// If a closed form exists, the estimate is the true error. Otherwise the scene is also solved with about 7/8 and about 2/3
 /// of its springs, both times with [`Edges::SubCell`]. If the waves of the scene need more springs than that, the scene is

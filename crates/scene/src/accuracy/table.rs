@@ -125,10 +125,10 @@ pub struct CostTable {
     pub budget: f64,
     /// Time in s that the measurement has taken.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. It is the unit of
-    /// [`Row::transforms`].
+    /// Shortest time in s of one real Fourier transform of 2^20 points, without the time for planning the transform.
+    /// [`Row::transforms`] has times in this unit.
     pub transform_seconds: f64,
-    /// Finest solution, to which the errors in the rows are relative.
+    /// Reference solution, to which the errors in the rows are relative.
     pub reference: CostReference,
     /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to fine.
     pub rows: Vec<Row>,
@@ -137,8 +137,9 @@ pub struct CostTable {
 }
 
 impl CostTable {
-    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest contact
-    /// length. The error of the curve is the mean difference of forces at equal indentations, divided by the largest force.
+    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest
+    /// contact length. The error of the force curve is the mean absolute difference of forces at equal indentations,
+    /// divided by the largest force.
     pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
     /// Returns the rows in which this setting is varied, from coarse to fine.

@@ -72,7 +72,8 @@ impl DisplacementCurve {
         DisplacementCurve { points, sign, free }
     }
 
-    /// Returns the points in the order in which the stage passes them. Along them the displacement never turns back.
+    /// Returns the points in the order in which the stage passes them. Along these points the displacement never turns
+    /// back.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }

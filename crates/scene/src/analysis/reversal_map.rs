@@ -26,7 +26,7 @@ impl ReversalMap {
         &self.points[self.below..]
     }
 
-    /// Returns the distance between neighbouring grid points in m.
+    /// Returns the difference in indentation between neighbouring grid points in m.
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::fields::field;
 use super::text::ron_float;
 
-/// Dimensionless parameter that compares roughness and adhesion. A scene may state it in place of the work of adhesion γ.
+/// Dimensionless parameter that compares roughness and adhesion. A scene may state such a parameter in place of the work of
+/// adhesion γ.
 ///
 /// ```
 /// use asperity_scene::RoughnessParameter;

@@ -45,7 +45,8 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads and checks the text of a scene. Errors state `name`, the name of a file or of a built-in scene.
+    /// Reads and checks the text of a scene. Each message of an error states `name`, the name of a file or of a built-in
+    /// scene.
     ///
     /// # Errors
     /// Returns the first syntax error, or an error for each invalid value, with line and column. If the version of the file

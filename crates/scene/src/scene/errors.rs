@@ -204,7 +204,8 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
     names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
 }
 
-/// Returns a question to append to a message, such as `; did you mean length?`. The text is empty if no name is similar.
+/// Returns a question to append to a message, such as `; did you mean length?`, with the name that is most similar to
+/// `name`. The text is empty if no name is similar.
 pub fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }

@@ -45,7 +45,7 @@ pub struct Scene {
     /// Stiffness k of the instrument that moves the body in N/m; `None` for a rigid instrument.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loading_stiffness: Option<f64>,
-    /// Loading stages in their order. The bodies are separated before the first one.
+    /// Loading stages in their order. The bodies are separated before the first stage.
     #[serde(default = "default_loading")]
     pub loading: Vec<Move>,
     /// Number of springs, solver, and other settings of the computation.

@@ -105,8 +105,8 @@ impl Simulation {
     }
 
     /// Returns this simulation with a smaller need of memory, for a single scene. The memory of the Fourier transform is
-    /// freed before the contact is solved, and the gaps of the profile reuse the memory of its heights. Each further profile
-    /// takes more time.
+    /// freed before the contact is solved, and the gaps of the profile reuse the memory of its heights. Each further
+    /// profile then takes more time to compute.
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
@@ -135,7 +135,7 @@ impl Simulation {
         Simulation { single: self.single, maker, ..Simulation::default() }
     }
 
-    /// Returns the profile that was computed last; `None` before the first one.
+    /// Returns the profile that was computed last; `None` before the first profile.
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
     }
