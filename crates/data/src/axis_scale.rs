@@ -24,9 +24,9 @@ impl AxisScale {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }
 
-    /// Returns where `number` lies among ascending `values`, as a fractional index: 1.5 is in the middle between the values
-    /// with the indices 1 and 2. Beyond the ends the index is extrapolated from the nearest two values. For fewer than two
-    /// values the index is 0.
+    /// Returns where `number` lies among ascending `values` on this scale, as a fractional index: 1.5 is in the middle
+    /// between the values with the indices 1 and 2. For a number beyond the first or the last value the index is
+    /// extrapolated from the nearest two values. For fewer than two values the index is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);

@@ -17,8 +17,8 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// Factorises a matrix with `size` rows, stored row by row. Only its lower triangle is used. Returns `None` unless the
-    /// matrix is positive definite.
+    /// Computes the factor of the symmetric `matrix`, which has `size` rows and is stored row by row. Only the lower
+    /// triangle of the matrix is used. Returns `None` unless the matrix is positive definite.
     pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
         for row in 0..size {
             for column in 0..=row {

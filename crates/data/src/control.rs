@@ -63,7 +63,8 @@ impl<'a> Control<'a> {
         (self.stop)()
     }
 
-    /// Passes the number of finished parts to the function set by [`reporting_to`](Control::reporting_to), if there is one.
+    /// Calls the function that was set by [`reporting_to`](Control::reporting_to), if there is one, with the number of
+    /// finished parts of the computation.
     pub fn report(&mut self, done: u64) {
         if let Some(report) = &mut self.report {
             report(done);

@@ -6,7 +6,8 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io;
 use std::io::Write;
 
-/// Writes a value as JSON on one line. If the value is an object, the keys and texts of `head` become its first entries.
+/// Writes a value as JSON on one line. If the value is an object, the pairs of key and text in `head` are written as the
+/// first entries of this object.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     value: &impl Serialize,

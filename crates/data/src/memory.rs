@@ -1,7 +1,8 @@
 //! Functions for large arrays: they reuse memory, and return an error if the memory is too small.
 //!
-//! Fresh memory costs about as much time as a pass over it, because the system clears each page at its first access. An array
-//! whose length depends on the input reserves its memory before use. Without this, a failed allocation would end the process.
+//! The first use of new memory takes about as much time as one pass over it, because the system clears each page of memory
+//! at its first access. An array whose length depends on the input reserves its memory before use. Without this, a failed
+//! allocation would end the process.
 
 use std::hint::black_box;
 use thiserror::Error;
@@ -28,8 +29,8 @@ impl OutOfMemory {
     }
 }
 
-/// Returns an error unless the system could provide this many more bytes now. For less than 1 MiB it never returns an error.
-/// No memory stays reserved.
+/// Returns an error unless the system can provide `bytes` more bytes of memory now. For less than 1 MiB it never returns an
+/// error. No memory stays reserved.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());
@@ -43,7 +44,7 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
 }
 
 /// Returns an empty vector with room for `count` values. The vector reuses the memory of `values` if this memory is large
-/// enough.
+/// enough. Returns an error if the memory of the system is too small.
 pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
@@ -52,7 +53,7 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
 }
 
 /// Returns a vector of `count` values: first the values of `values`, then copies of `fill`. The vector reuses the memory of
-/// `values` if possible.
+/// `values` if possible. Returns an error if the memory of the system is too small.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());

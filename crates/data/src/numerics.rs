@@ -45,7 +45,8 @@ pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 
-/// Returns the sample standard deviation (divisor n − 1) of n values about their mean. Fewer than two values give NaN.
+/// Returns the sample standard deviation (divisor n − 1) of n values. The argument `mean` must be the mean of these values.
+/// Fewer than two values give NaN.
 pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
     let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
     (squares / (values.len() as f64 - 1.0)).sqrt()
@@ -67,8 +68,8 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
 }
 
-/// Returns a quantile of ascending values by linear interpolation. A `share` of 0 gives the first value, 0.5 the median, 1
-/// the last value. The slice must not be empty.
+/// Returns a quantile of ascending values, with linear interpolation between neighbouring values. A `share` of 0 gives the
+/// first value, 0.5 the median, 1 the last value. The slice must not be empty.
 ///
 /// ```
 /// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), 5.0);

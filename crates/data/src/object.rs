@@ -17,10 +17,10 @@ impl Entries for () {
     }
 }
 
-/// An entry of an object: a key and its value.
+/// An entry of an [`Object`]: a key and its value.
 pub struct ObjectEntry<T>(pub &'static str, pub T);
 
-/// An entry of an object that is omitted if its value is `None`.
+/// An entry of an [`Object`] that is omitted if its value is `None`.
 pub struct Optional<T>(pub &'static str, pub Option<T>);
 
 impl<T: Serialize, R: Entries> Entries for (ObjectEntry<T>, R) {

@@ -43,7 +43,8 @@ pub(crate) fn begin_threads<'scope>(
 /// threads, the others do all the work.
 ///
 /// # Errors
-/// Returns an error if the function returns one for a number. Of several errors it is the one of the smallest number.
+/// Returns the error of the function that computes the results. If this function fails for several numbers, the error for
+/// the smallest of these numbers is returned.
 ///
 /// ```
 /// use asperity_data::on_threads;
@@ -91,8 +92,8 @@ pub fn threads() -> usize {
     if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
-/// Runs the functions `one` and `other`, and returns their results. If `worth` is true, `one` runs on a second thread at the
-/// same time as `other`, where a second thread is possible.
+/// Runs the functions `one` and `other`, and returns their results. If `worth` is true and a second thread is possible,
+/// `one` runs on the second thread at the same time as `other`. Otherwise one function runs after the other.
 pub fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,

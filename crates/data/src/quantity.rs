@@ -47,10 +47,11 @@ impl QuantityError {
 
 /// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
 ///
-/// The unit and blanks are optional. A lone `m` is the prefix milli. If `unit` is `m`, it is the metre: `50m` is then fifty
-/// metres, and `50mm` fifty millimetres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in
-/// `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024. A decimal prefix loses no digit: the result is the `f64` nearest to the
-/// typed value.
+/// The text may omit the unit. Blanks are allowed before the unit and at both ends of the text. An `m` alone after the
+/// number is the prefix milli. If `unit` is `m`, however, it is the metre: `50m` is then fifty metres, and `50mm` fifty
+/// millimetres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi`
+/// or `Gi` for powers of 1024. The conversion of a decimal prefix is exact up to rounding: the result is the `f64` nearest
+/// to the typed value.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.
@@ -83,8 +84,8 @@ pub fn in_unit(typed: &str, unit: &str) -> String {
     if is_number && !unit.is_empty() { format!("{} {unit}", typed.trim()) } else { typed.to_owned() }
 }
 
-/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. For a number without a unit the text is
-/// empty.
+/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. For a number without a unit it
+/// returns an empty text.
 pub fn unit_of(shown: &str) -> &str {
     shown.trim_start_matches(['=', ' ']).split_once(' ').map_or("", |(_, unit)| unit)
 }
@@ -179,7 +180,8 @@ pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
-/// Formats a value with its unit, rounded to the second significant digit of its uncertainty: `50.05 mJ/m²` for ± 0.13 mJ/m².
+/// Formats a value with its unit, rounded to the second significant digit of its `uncertainty`, which is not written:
+/// `50.05 mJ/m²` for ± 0.13 mJ/m².
 ///
 /// ```
 /// assert_eq!(asperity_data::format_within(0.050_123, 0.001, "J/m²"), "50.1 mJ/m²");
@@ -207,7 +209,8 @@ pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> Strin
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }
 
-/// Joins the formatted ends of a range. A unit that both ends share is written once; two equal ends give one value.
+/// Joins the two formatted ends of a range to one text. If both ends have the same unit, it is written once. Two equal ends
+/// give a single value.
 pub fn one_unit([low, high]: [String; 2]) -> String {
     if low == high {
         return low;

@@ -35,7 +35,8 @@ pub struct Table<'a> {
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table to which columns can still be added. [`Table::of`] begins it, and [`TableOf::done`] ends it.
+/// A table to which columns can still be added. [`Table::of`] begins such a table, and [`TableOf::done`] returns it as a
+/// [`Table`].
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
@@ -91,7 +92,7 @@ impl Table<'_> {
         &self.columns
     }
 
-    /// Computes the rows one by one. A row has one value for each column.
+    /// Returns an iterator that computes the rows one by one. A row has one value for each column.
     pub fn rows(&self) -> impl Iterator<Item = Vec<Value>> {
         (self.rows)()
     }

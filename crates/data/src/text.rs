@@ -33,7 +33,7 @@ pub fn si_prefix(power: i32) -> Option<&'static str> {
     SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
 }
 
-/// Rounds a number to `digits` significant digits.
+/// Returns `value` rounded to `digits` significant digits.
 ///
 /// ```
 /// assert_eq!(asperity_data::round_to(0.1 + 0.2, 12), 0.3);
@@ -69,7 +69,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
 
-/// Replaces the same characters as [`printable`] by their codes, but keeps line breaks.
+/// Replaces characters by their codes as [`printable`] does, but keeps line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }

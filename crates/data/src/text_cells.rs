@@ -3,7 +3,7 @@
 use crate::text_lines::TextFault;
 
 /// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space. The first line of numbers
-/// determines it.
+/// determines the separator of the whole table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
@@ -23,8 +23,9 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line into columns. The line must have no blanks at its ends. Separators within quotation marks do not count.
-    /// Between two neighbouring separators there is an empty column. Neighbouring blanks, however, are one separator.
+    /// Splits a line into columns. The line must have no blanks at its ends. Separators within quotation marks do not split
+    /// the line. Between two neighbouring separators there is an empty column. Neighbouring blanks, however, are one
+    /// separator.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -64,7 +65,8 @@ pub enum TextCell {
     /// An empty cell, or a mark of a missing point such as `NaN`.
     Missing,
     /// A number whose decimal mark differs from the numbers before it, such as `0,5` after `0.5`. If commas separate the
-    /// columns, also a number in quotation marks such as `"1,234"`, whose comma may separate thousands.
+    /// columns, a number in quotation marks such as `"1,234"` is also of this kind, because its comma may separate
+    /// thousands.
     OtherMark,
     /// A text that is no number.
     NoNumber,
@@ -73,7 +75,7 @@ pub enum TextCell {
 /// Marks of missing points, besides an empty cell and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Text that states the allowed notation of numbers, for the message about a cell with [`TextCell::OtherMark`].
+/// Text that states how numbers may be written. Messages about a cell with [`TextCell::OtherMark`] contain it.
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
@@ -137,7 +139,7 @@ impl Decimal {
     }
 
     /// Returns an error if the commas in the numbers read so far may be decimal marks as well as separators of thousands.
-    /// This is so if three digits follow each comma, and if there are also numbers without a comma.
+    /// The commas are in doubt if three digits follow each of them, and if there are also numbers without a comma.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }

@@ -27,7 +27,7 @@ pub enum TextFault {
         /// Number of the line, from 1.
         line: usize,
     },
-    /// Each comma in a number may be a decimal mark or separate thousands.
+    /// It cannot be decided whether the commas in the numbers are decimal marks or separate thousands.
     #[error("each comma in a number may be a decimal mark or separate thousands, as in 1,234")]
     DoubtfulCommas,
     /// There is not enough memory to convert the text to UTF-8.
@@ -44,7 +44,8 @@ impl TextFault {
 /// comments with the scene above a table of results are skipped, because words in them may look like units.
 ///
 /// # Errors
-/// Returns the error of `take`. If the bytes are no text, returns a [`TextFault`], converted to the type of this error.
+/// Returns the error of `take`. If the bytes cannot be read as text, returns a [`TextFault`], converted to the error type
+/// of `take`.
 pub fn each_line<E: From<TextFault>>(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), E>,

@@ -19,7 +19,7 @@ pub enum Role {
     Y,
     /// The column has heights.
     Height,
-    /// The column has the number of each point, counted along the file.
+    /// The column has the index of each point, which counts the points in the order of the file.
     Number,
     /// The column has 0 for a point that was not measured.
     Valid,
@@ -54,7 +54,7 @@ const LAST_LINES: usize = 64;
 pub struct HeadLines(VecDeque<String>);
 
 impl HeadLines {
-    /// Adds a line. The characters [`COMMENT`] at its beginning are left out.
+    /// Adds a line. The characters [`COMMENT`] at the beginning of the line are left out.
     pub fn take(&mut self, line: &str) {
         if self.0.len() == LAST_LINES {
             self.0.pop_front();

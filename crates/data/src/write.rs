@@ -45,8 +45,8 @@ impl WriteError {
     }
 }
 
-/// Returns an error unless [`write_new`] could write the file now. A program calls it before a long computation. No file is
-/// left behind.
+/// Returns an error unless [`write_new`] could write the file now. A program calls this function before a long computation,
+/// so that the computation is not lost. The function leaves no file behind.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
@@ -170,7 +170,7 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Waits until the names of the files in a folder have reached the disk.
+/// Waits until the names of the files in the folder `path` have been written to the disk.
 pub fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };

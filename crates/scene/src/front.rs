@@ -5,7 +5,7 @@ use crate::scene::document::Document;
 use crate::simulation::outcome::Outcome;
 use crate::simulation::stages::Simulation;
 
-/// Computes the scene of a document. The names of measured files are relative to the folder of the scene file.
+/// Computes the scene of a document. Names of measured files in the scene are relative to the folder of the scene file.
 ///
 /// # Errors
 /// Returns [`Error::Run`], [`Error::Contact`] or [`Error::Values`] if the scene cannot be computed.

@@ -7,16 +7,16 @@
 //! * Scenes: [`open`] returns a [`Document`], which is a [`Scene`] with its text. [`presets`] returns the built-in scenes as
 //!   [`Preset`]s. The fields of a scene have the types [`Material`], [`Adhesion`] ([`Strength`], [`RoughnessParameter`]),
 //!   [`Roughness`] ([`Measured`]), [`Numerics`] ([`Solver`]) and [`Observer`].
-//! * Computing: [`run`] computes one document. A [`Simulation`] computes many [`CheckedScene`]s. [`ProfileBuilder`] makes a
-//!   profile and loads it without a scene.
+//! * Computing: [`run`] computes the scene of one document. A [`Simulation`] computes many [`CheckedScene`]s.
+//!   [`ProfileBuilder`] makes a profile and computes its loading for programs that have no scene.
 //! * Results: an [`Outcome`] has all results, among them the [`Governing`] parameters and the [`Regime`]. [`estimate`]
-//!   returns the [`Estimate`] of its error.
+//!   returns an [`Estimate`] of the error that the finite number of springs causes in an outcome.
 //! * Errors: [`SceneErrors`] has one [`SceneError`], with its [`Origin`], for each invalid value. [`RunError`] is an error of
 //!   the computation. [`Error`] includes both.
 //!
-//! The modules serve special programs. Editors of scenes use [`fields`], [`text`], [`loading`] and [`library`]. The number of
-//! springs is chosen with [`discretisation`]. Results are compared with [`instrument`] and [`theory`]. The progress of a
-//! computation is shown with [`stages`].
+//! The modules are for programs with special tasks. Editors of scenes use [`fields`], [`text`], [`loading`] and
+//! [`library`]. The number of springs is chosen with [`discretisation`]. Results are compared with [`instrument`] and
+//! [`theory`]. The progress of a computation is shown with [`stages`].
 
 mod accuracy;
 mod analysis;
@@ -54,8 +54,9 @@ pub mod discretisation {
     pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 }
 
-/// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed range. [`Tree`](fields::Tree)
-/// has the values of one scene. Programs that edit scenes and plans of studies use both.
+/// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed range.
+/// [`Tree`](fields::Tree) has the values of one scene. Programs that edit scenes or plans of studies use the table and the
+/// tree.
 pub mod fields {
     pub use crate::scene::changes::Change;
     pub use crate::scene::effects::Effect;
@@ -93,15 +94,15 @@ pub mod library {
     pub use crate::scene::open::{is_file_name, is_path, open_argument};
 }
 
-/// Results of theories, for comparison with the model: closed forms of smooth bodies, steep waves of a sphere, and the
-/// Everett function.
+/// Results of theories, for comparison with the model: closed forms for smooth bodies, the Everett function, and a check
+/// whether the waves of a sphere are too steep for the rule of Hess.
 pub mod theory {
     pub use crate::analysis::governing::SteepWaves;
     pub use crate::analysis::reversal_map::ReversalMap;
     pub use crate::reference::closed_form;
 }
 
-/// Force as a function of the displacement of an instrument of finite stiffness, which moves the body.
+/// Force as a function of the displacement of an instrument. The instrument has a finite stiffness and moves the body.
 pub mod instrument {
     pub use crate::analysis::instrument::{
         DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,

@@ -71,9 +71,10 @@ impl ProfileBuilder {
         self.form(Form::Paraboloid { radius })
     }
 
-    /// Sets a random self-affine roughness with the Hurst exponent H: a sum of cosines with random phases, where mode k has
-    /// an amplitude proportional to k^(−H−1/2). The roughness also needs an amplitude and waves. [`Self::rms_height`] or
-    /// [`Self::rms_gradient`] sets the amplitude, [`Self::modes`] or [`Self::wavelengths`] the waves.
+    /// Sets a random self-affine roughness with the Hurst exponent H: a sum of cosines with random phases. Mode k has k
+    /// waves on the length of the profile and an amplitude proportional to k^(−H−1/2). The roughness also needs an
+    /// amplitude and waves. [`Self::rms_height`] or [`Self::rms_gradient`] sets the amplitude, [`Self::modes`] or
+    /// [`Self::wavelengths`] the waves.
     #[must_use]
     pub fn self_affine(self, hurst: f64) -> Self {
         let roughness = Roughness::SelfAffine {
@@ -120,7 +121,7 @@ impl ProfileBuilder {
         with_member!(self, roll_off, Some(wavelength))
     }
 
-    /// Sets a roughness with a measured spectrum and random phases, in place of a self-affine one.
+    /// Sets a roughness with a measured spectrum and random phases, in place of a self-affine roughness.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -233,7 +234,8 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// Returns κ, e_el/γ and the amplitude of the roughness that this profile has with a modulus and an adhesion.
+    /// Returns the [`Governing`] parameters of a contact of this profile with this modulus and this adhesion, such as κ and
+    /// e_el/γ.
     ///
     /// ```
     /// use asperity_contact::Modulus;
@@ -249,7 +251,7 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::build`], except that waves may have two or three points.
+    /// Returns the same errors as [`Self::build`]. A shortest wave with two or three points is, however, no error here.
     pub fn governing(&self, modulus: Modulus, adhesion: Option<Adhesion>) -> Result<Governing, Error> {
         let scene = self.scene(modulus, adhesion, &[Move::ToTouch])?;
         Ok(self.simulation().make_line(&scene)?.2)

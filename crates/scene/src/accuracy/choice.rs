@@ -33,7 +33,8 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
 }
 
-/// Number of springs and edge model ([`Edges`]) with which a scene keeps a tolerance, as found by [`choose`].
+/// Number of springs and edge model ([`Edges`]) with which the error of a scene stays within a tolerance, as found by
+/// [`choose`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Largest allowed relative error of the quantity `target`.
@@ -47,7 +48,7 @@ pub struct Choice {
     /// Relative error of `target` with the chosen settings. If a closed form exists, it is the true error. Otherwise it is an
     /// estimate: the relative difference from the finest solution plus the estimated error of the finest solution.
     pub error: f64,
-    /// True if `error` is counted from a closed form, an exact formula of the adhesion force.
+    /// True if `error` is the difference from a closed form, which is an exact formula for the adhesion force.
     pub closed_form: bool,
     /// Number of springs of the finest solution that was tried.
     pub finest: u64,
@@ -57,7 +58,8 @@ impl Choice {
     /// Returns `scene` with the chosen number of springs, the chosen edge model and the exact solver.
     ///
     /// # Errors
-    /// Returns an error if `scene` does not allow these values. The scene for which they were chosen allows them.
+    /// Returns an error if `scene` does not allow the chosen settings. The scene for which [`choose`] found them always
+    /// allows them.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
@@ -123,15 +125,17 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     )
 }
 
-/// Finds the smallest number of springs, among powers of two, with which the relative error of a scene is at most
-/// `tolerance`, and the edge model ([`Edges`]) for it. The error is the error of the adhesion force. If the scene has no
-/// tensile force, it is the error of the force curve ([`Target::Curve`]). Names of measured files are relative to `folder`.
+/// Finds the number of springs and the edge model ([`Edges`]) with which the relative error of a scene is at most
+/// `tolerance`. The number is the smallest power of two that suffices. The error is the error of the adhesion force. If the
+/// scene has no tensile force, it is the error of the force curve ([`Target::Curve`]). Names of measured files are relative
+/// to `folder`.
 ///
-/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Without a
-/// closed form the error of the adhesion force is the largest of three: with the target forces and indentations of the scene,
-/// with half of these targets, and with twice these targets. It includes the estimated error of the finest solution. If both
-/// edge models need the same number of springs, [`Edges::SubCell`] is chosen. The choice does not depend on the speed of the
-/// machine. The search ends when `stop` returns true. `trying` receives each number of springs before it is tried.
+/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. If the
+/// scene has no closed form, the error of the adhesion force is the largest of three errors: with the target forces and
+/// indentations of the scene, with half of these targets, and with twice these targets. This error includes the estimated
+/// error of the finest solution. If both edge models need the same number of springs, [`Edges::SubCell`] is chosen. The
+/// choice does not depend on the speed of the machine. The search ends when `stop` returns true. `trying` receives each
+/// number of springs before it is tried.
 ///
 /// # Errors
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene has the stepwise solver,

@@ -37,9 +37,9 @@ pub struct Estimate {
     pub target: Target,
     /// Estimated relative error of `target`.
     pub error: f64,
-    /// True if the preload F_n lies near a step of the adhesion force as a function of the preload, as where two patches
-    /// merge. Another number of springs moves this step to another preload, so F_a may change by its height. `error` includes
-    /// this change.
+    /// True if the adhesion force F_a as a function of the preload has a step near the preload of the scene. Such a step
+    /// occurs where two patches merge. With another number of springs it occurs at another preload, so F_a may change by
+    /// the height of the step. `error` includes this change.
     pub near_step: bool,
     /// How the error was found: by an exact formula, or by solutions with other numbers of springs.
     pub evidence: Evidence,
@@ -53,14 +53,15 @@ impl Estimate {
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// Returns the mean error of the forces of the curve divided by the largest force; `None` if the estimate is for the
-    /// adhesion force.
+    /// Returns the mean error of the forces on the force curve, divided by the largest force on the curve; `None` if the
+    /// estimate is for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }
 
-    /// Returns the text that summaries print after the adhesion force, such as `grid ± 0.1 %`. The error has one significant
-    /// digit, or two if the first digit is 1. Near a step the text says so and states no number.
+    /// Returns the text that summaries print after the adhesion force, such as `grid ± 0.1 %`. The error has one
+    /// significant digit, or two if the first digit is 1. If [`near_step`](Self::near_step) is true, the text is `near a
+    /// step of F_a(F_n)` and has no number.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -80,13 +81,14 @@ pub enum Evidence {
     Solutions(Vec<u64>),
 }
 
-/// Estimates the error that the finite number of springs causes in the adhesion force of `outcome`, the result of `scene`. If
-/// there is no tensile force, it estimates the error of the force curve. Names of measured files are relative to `folder`.
+/// Estimates the error that the finite number of springs causes in the adhesion force of `outcome`, the result of `scene`.
+/// If the loading has no tensile force, the function estimates the error of the force curve. Names of measured files are
+/// relative to `folder`.
 ///
 /// If a closed form exists, the estimate is the true error. Otherwise the scene is also solved with about 7/8 and about 2/3
-/// of its springs, with edges between springs. If its waves need more springs, it is solved with about 3/2 and about 2 times
-/// its springs instead. The estimate is four times the larger of the two relative differences from `outcome`. Each difference
-/// is divided by the smaller of the two compared values.
+/// of its springs, both times with [`Edges::SubCell`]. If the waves of the scene need more springs than that, the scene is
+/// solved with about 3/2 and about 2 times its springs instead. The estimate is four times the larger of the two relative
+/// differences from `outcome`. Each difference is divided by the smaller of the two compared values.
 ///
 /// Returns `None` if there is neither an adhesion force nor a force curve, if `stop` returns true, or if one of the two
 /// further solutions fails. A solution fails if its number of springs is not allowed, or if its contact does not reach the

@@ -33,11 +33,11 @@ const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform whose time is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// Report of [`measure`] while it runs.
+/// State of a measurement, which the function `watch` receives while [`measure`] runs.
 pub enum Progress<'a> {
     /// Setting that is varied next, with its next value as text, such as `512 springs`.
     Trying(Knob, &'a str),
-    /// Table of the solutions so far. Its errors are relative to the finest of them.
+    /// Table of the solutions so far. The errors in the table are relative to the finest of these solutions.
     Rows(&'a CostTable),
 }
 

@@ -12,14 +12,15 @@ pub(super) const REFINEMENTS: usize = 2;
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
-/// Setting that a [`CostTable`] varies: the number of springs with either edge model ([`Edges`]), or the step.
+/// Setting that a [`CostTable`] varies: the number of springs with either edge model ([`Edges`]), or the step of the
+/// stepwise [`Solver`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
     /// Number of springs N, where the edge of a patch may lie between two springs ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N, where patches consist of whole springs as in the paper of Popov and Filippov ([`Edges::Grid`]).
+    /// Number of springs N, where a patch consists of whole springs as in Popov and Filippov (2012) ([`Edges::Grid`]).
     GridSprings,
     /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,
@@ -66,8 +67,9 @@ impl Timing {
 pub struct ErrorFigure {
     /// Relative error. If `resolved` is false, it is the smallest error that can be measured.
     pub error: f64,
-    /// True if the error is larger than the smallest error that can be measured. For springs this is the error of the
-    /// [`CostReference`], for steps the error by the finite number of curve points.
+    /// True if the error is larger than the smallest error that can be measured. In a row with a number of springs this
+    /// smallest error is the error of the [`CostReference`]. In a row with a step it is the error that the finite number of
+    /// curve points causes.
     pub resolved: bool,
     /// Order of convergence p from the previous row to this row: a setting that is r times as fine makes the error r^p times
     /// smaller. `None` unless `resolved` is true in both rows.
@@ -85,19 +87,20 @@ pub struct Row {
     pub springs: u64,
     /// Times of complete computations, which reuse no earlier result; `None` if no computation was timed.
     pub seconds: Option<Timing>,
-    /// Shortest time of `seconds` divided by the time of one Fourier transform, [`CostTable::transform_seconds`].
+    /// Shortest time of `seconds` divided by the time of one Fourier transform ([`CostTable::transform_seconds`]); `None`
+    /// if no computation was timed.
     pub transforms: Option<f64>,
-    /// Relative errors of the [`CostTable::QUANTITIES`], in their order.
+    /// Relative errors of the [`CostTable::QUANTITIES`], in their order; `None` for a quantity whose error is unknown.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Finest solution with edges between springs, from which the errors of a [`CostTable`] are counted. If an exact formula
-/// exists, its adhesion force is used instead. Only errors of steps are counted from another solution: the exact one with as
-/// many springs.
+/// Reference of the errors in a [`CostTable`]: the finest solution with [`Edges::SubCell`]. If an exact formula for the
+/// adhesion force exists, its value replaces the adhesion force of this solution. Rows with a [`Knob::Step`] have another
+/// reference: the exact solution with as many springs as the stepwise [`Solver`] has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
-    /// Number of springs of the finest solution with edges between springs.
+    /// Number of springs of the finest solution.
     pub springs: u64,
     /// Adhesion force of the reference in N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
@@ -120,10 +123,10 @@ pub struct CostTable {
     pub budget: f64,
     /// Time in s that the measurement has taken.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. It is the unit of
-    /// [`Row::transforms`].
+    /// Shortest time in s of one real Fourier transform of 2^20 points, without the time for planning the transform.
+    /// [`Row::transforms`] has times in this unit.
     pub transform_seconds: f64,
-    /// Finest solution, from which the errors are counted. A closed form may replace its adhesion force.
+    /// Reference solution, to which the errors in the rows are relative.
     pub reference: CostReference,
     /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to fine.
     pub rows: Vec<Row>,
@@ -132,8 +135,9 @@ pub struct CostTable {
 }
 
 impl CostTable {
-    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest contact
-    /// length. The error of the curve is the mean difference of forces at equal indentations, divided by the largest force.
+    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest
+    /// contact length. The error of the force curve is the mean absolute difference of forces at equal indentations,
+    /// divided by the largest force.
     pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
     /// Returns the rows in which this setting is varied, from coarse to fine.
@@ -154,17 +158,17 @@ impl CostTable {
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }
 
-    /// Returns the coarsest row of a setting whose main error is at most `bound`, as are the main errors of all finer rows.
-    /// Returns `None` unless at least two finer rows exist.
+    /// Returns the coarsest row of a setting from which on the [main error](Self::main_error) is at most `bound`, in this
+    /// row and in all finer rows. Returns `None` if there is no such row, or if it has fewer than two finer rows.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// Returns the computing time in s and the main error that the scene has with `numerics`. Between two rows both are
-    /// interpolated. Returns `None` if the number of springs or the step lies outside the range of the rows. Also returns
-    /// `None` for the stepwise solver if its rows have another number of springs.
+    /// Returns the computing time in s and the main error that the scene has with `numerics`. If `numerics` lies between
+    /// two rows, time and error are interpolated. Returns `None` if the number of springs or the step lies outside the
+    /// range of the rows. Also returns `None` for the stepwise solver if its rows have another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -188,8 +192,9 @@ impl CostTable {
         Some((between(before.0, there.0), between(before.1, there.1)))
     }
 
-    /// Returns the order of convergence of the main error with a setting: the slope of ln(error) over ln(setting), fitted by
-    /// least squares to all rows with resolved errors. Returns `None` for fewer than three such rows.
+    /// Returns the order of convergence of the main error with a setting: the absolute value of the slope of ln(error) as a
+    /// function of ln(setting), fitted by least squares to all rows with resolved errors. Returns `None` for fewer than
+    /// three such rows.
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;

@@ -10,8 +10,8 @@ use asperity_surface::{Amplitude, Form};
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. Each parameter is given
-/// by the scene or derived from those that are given.
+/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. The scene gives some
+/// of these parameters, and the others are derived from them.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -32,9 +32,10 @@ pub struct Governing {
     pub work_of_adhesion: Option<f64>,
     /// Energy γ₁ per area gained where the interface closes, in J/m²; `None` if it is not given and thus equals γ.
     pub closing_work: Option<f64>,
-    /// Rms height, rms gradient and rms curvature of the roughness; `None` for a smooth profile.
+    /// Rms height h, rms gradient ⟨∇z⟩ and rms curvature of the roughness; `None` for a smooth profile.
     pub amplitude: Option<Amplitude>,
-    /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) of eq. (11); `None` without roughness or adhesion.
+    /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012); `None` without roughness or
+    /// adhesion.
     pub kappa: Option<f64>,
     /// Ratio e_el/γ of the elastic energy that flattens the roughness to the work of adhesion; `None` without roughness or
     /// adhesion.
@@ -114,8 +115,8 @@ impl Governing {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Returns E* h L in N, the unit in which Pohrt, Popov and Filippov (2012) state forces. `length` is the length L of the
-    /// profile in m. Returns `None` without roughness.
+    /// Returns E* h L in N, with the rms height h. This is the unit in which Pohrt, Popov and Filippov (2012) state forces.
+    /// `length` is the length L of the profile in m. Returns `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
@@ -141,9 +142,10 @@ impl Governing {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
 
-    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene. It measures how short-ranged the attraction is: ρ is the
-    /// radius of curvature of the summits, z₀ the range of the attraction, and γ the work of adhesion on opening. Returns
-    /// `None` without adhesion, and for bodies such as cones, which have no ρ.
+    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene. The larger μ is, the shorter is the range z₀ of the
+    /// attraction compared with the deformation of the summits. ρ is the radius of curvature of the summits, E* the
+    /// effective modulus, and γ the work of adhesion on opening. Returns `None` without adhesion, and for bodies such as
+    /// cones, which have no ρ.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
         let (radius, work) = (curvature_radius(scene.form.as_ref(), self)?, self.adhesive_work()?);
         let range = scene.adhesion?.attraction_range();
@@ -182,15 +184,16 @@ fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus:
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are so steep that its equivalent profile g(x) does not rise everywhere from the axis outwards.
-/// By the rule of Hess a spring inside the contact then detaches first. In the theory of Johnson, Kendall and Roberts (JKR)
-/// the contact recedes at its edge.
+/// Waves of a wavy sphere that are so steep that its equivalent profile g(x) does not rise everywhere from the axis
+/// outwards. By the rule of Hess a spring inside the contact then detaches first. In the theory of Johnson, Kendall and
+/// Roberts (JKR), however, the contact always recedes at its edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
     /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R. It is below [`SteepWaves::LEAST_RATIO`].
     pub ratio: f64,
-    /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR theory. The formula holds
-    /// for waves much shorter than the contact radius (Kesari and Lew 2011).
+    /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR theory, with effective
+    /// modulus E* and work of adhesion γ. The formula holds for waves much shorter than the contact radius (Kesari and Lew
+    /// 2011).
     pub jkr_factor: f64,
 }
 
@@ -198,7 +201,7 @@ impl SteepWaves {
     /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere.
     pub const LEAST_RATIO: f64 = 12.391;
 
-    /// Returns the waves of a scene with a wavy sphere and adhesion if its equivalent profile does not rise everywhere;
+    /// Returns the waves of a wavy sphere with adhesion if the equivalent profile of the sphere does not rise everywhere;
     /// otherwise `None`.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {

@@ -6,7 +6,7 @@
 
 use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord};
 
-/// Point of a force curve over the displacement D = d + F/k of an instrument of stiffness k.
+/// Point of the force curve of an instrument of stiffness k: displacement D, indentation d and force F, with D = d + F/k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplacementPoint {
     /// Displacement D of the instrument in m, with D = 0 at first touch.
@@ -71,7 +71,8 @@ impl DisplacementCurve {
         DisplacementCurve { points, sign, free }
     }
 
-    /// Returns the points in the order in which the stage passes them. Along them the displacement never turns back.
+    /// Returns the points in the order in which the stage passes them. Along these points the displacement never turns
+    /// back.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }
@@ -86,8 +87,9 @@ impl DisplacementCurve {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// Returns the point of the curve at a displacement in m. Where the body jumps, it is the point before the jump. Beyond
-    /// an end of the stage the force is zero if the bodies are separated at that end; otherwise the function returns `None`.
+    /// Returns the point of the curve at a displacement in m. At the displacement of a jump it is the point before the
+    /// jump. Beyond an end of the stage the force is zero if the bodies are separated at that end; otherwise the function
+    /// returns `None`.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -119,9 +121,10 @@ impl DisplacementPoint {
     }
 }
 
-/// Returns the displacement of the instrument in m for each point of a loading stage. On loading it is the largest d + F/k of
-/// all points up to this one, on unloading the smallest. The stiffness k is in N/m. A point that the body passes in a jump
-/// thus has the displacement of the jump.
+/// Returns the displacement of the instrument in m for each point of a loading stage. On loading the displacement of a
+/// point is the largest d + F/k of this point and all points before it; on unloading it is the smallest. Here d is the
+/// indentation, F the force and k the `stiffness` in N/m. All points that the body passes in one jump thus have the same
+/// displacement.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {
@@ -148,8 +151,8 @@ pub struct InstrumentFigures {
 }
 
 impl InstrumentFigures {
-    /// Computes these results from a computed loading. `history` has its force curves, `figures` its forces and energies.
-    /// `stiffness` is the stiffness of the instrument in N/m.
+    /// Computes these results from a computed loading. `history` has the force curves of this loading, and `figures` has
+    /// the forces and energies. `stiffness` is the stiffness of the instrument in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

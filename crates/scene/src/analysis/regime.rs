@@ -4,7 +4,9 @@ use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Regime of adhesion of a loading (Fig. 4): how strongly the adhesion force depends on the preload.
+/// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)): how strongly the adhesion force depends on the
+/// preload. The adhesion force without a preload is F_a(d=0), of a loop that turns at first touch, or F_a(F=0), of a loop
+/// that turns where the force is back at zero. [`Regime::of_loading`] has the exact conditions of each regime.
 ///
 /// ```
 /// use asperity_contact::Figures;
@@ -19,41 +21,48 @@ use strum::IntoStaticStr;
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Regime {
-    /// Without the preload the adhesion force is at least half of the adhesion force after it (Fig. 4a).
+    /// The preload hardly matters (Fig. 4a): a contact has this regime only if its adhesion force without a preload is at
+    /// least half of its adhesion force after the preload.
     PressureInsensitive,
-    /// Without the preload the adhesion force is less than half of the adhesion force after it (Fig. 4b).
+    /// The adhesion force depends on the preload (Fig. 4b): all contacts that are neither pressure-insensitive nor
+    /// non-adhesive.
     PressureSensitive,
-    /// There is no adhesion, or the adhesion force is at most a hundredth of the preload (Fig. 4c).
+    /// There is no adhesion, or the contact is not pressure-insensitive and its adhesion force is negligible, mostly at
+    /// most a hundredth of the preload (Fig. 4c).
     NonAdhesive,
 }
 
 impl Regime {
-    /// A contact is pressure-insensitive if its adhesion force without a preload is at least this share of its adhesion force
-    /// after the preload.
+    /// A contact is pressure-insensitive only if its adhesion force without a preload is at least this share of its
+    /// adhesion force after the preload.
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
     /// The adhesion force without a preload counts as vanished below this share of the adhesion force of the same body
-    /// without roughness. It falls from one half to one twentieth of that force while κ grows by a factor of about three.
-    /// Another share would therefore hardly move the boundary of the regime.
+    /// without roughness. While the roughness-adhesion parameter κ grows by a factor of about three, the adhesion force
+    /// without a preload falls from one half to one twentieth of the smooth adhesion force. Another share would therefore
+    /// move the boundary of the regime only a little.
     pub const VANISHING_SHARE: f64 = 0.05;
 
-    /// A contact is non-adhesive if its adhesion coefficient F_a/F_n is at most this number. The bodies then adhere with at most
-    /// a hundredth of the force that pressed them together.
+    /// A contact that is not pressure-insensitive is non-adhesive if its adhesion coefficient F_a/F_n, the adhesion force
+    /// divided by the preload, is at most this number. The bodies then adhere with at most a hundredth of the force that
+    /// pressed them together.
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
-    /// All regimes, in the order of decreasing adhesion.
+    /// All regimes: pressure-insensitive, pressure-sensitive and non-adhesive, in this order.
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 
     /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force.
     ///
-    /// `turned` is F_a(d=0) for the regime turned at first touch, or F_a(F=0) for the regime turned at zero force. `smooth`
-    /// is the adhesion force of the same body without roughness. `turned` and `smooth` are in N, and `None` without adhesion.
+    /// `turned` is the adhesion force without a preload in N: F_a(d=0) of a loop that turns at first touch, or F_a(F=0) of
+    /// a loop that turns at zero force. `smooth` is the adhesion force in N of the same body without roughness. Both are
+    /// `None` for a contact without adhesion, which is non-adhesive.
     ///
-    /// F_a is the adhesion force after the preload F_n, both of this loading. The regime is pressure-insensitive if `turned`
-    /// is at least [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the
-    /// regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive
-    /// if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
+    /// F_a is the adhesion force after the preload F_n, both of this loading. The regime is pressure-insensitive if
+    /// `turned` is above zero, at least [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of
+    /// `smooth`. Otherwise the regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. A loading
+    /// without a preload is also non-adhesive if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All other loadings
+    /// are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
@@ -87,7 +96,7 @@ impl Regime {
     }
 
     /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0), insensitive (F=0)`. This regime
-    /// is turned at first touch (d = 0), and `after_zero_force` is turned at zero force (F = 0).
+    /// follows from F_a(d=0), and `after_zero_force` from F_a(F=0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

@@ -26,7 +26,7 @@ impl ReversalMap {
         &self.points[self.below..]
     }
 
-    /// Returns the distance between neighbouring grid points in m.
+    /// Returns the difference in indentation between neighbouring grid points in m.
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
@@ -38,9 +38,9 @@ impl ReversalMap {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
-    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. It is half of the fall of the force on the
-    /// unloading from the turning point d_r (index `turn`) to the indentation d (index `point`). Returns `None` if d is above
-    /// d_r.
+    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. F(d_r) is the force at the turning point d_r
+    /// of index `turn`. F(d_r, d) is the force at the grid point d of index `point` on the unloading from d_r. E is thus
+    /// half of the fall of the force from d_r to d. Returns `None` if d is above d_r.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))

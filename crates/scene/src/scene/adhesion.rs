@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::fields::field;
 use super::text::ron_float;
 
-/// Dimensionless parameter that compares roughness and adhesion. A scene may state it in place of the work of adhesion γ.
+/// Dimensionless parameter that compares roughness and adhesion. A scene may state such a parameter in place of the work of
+/// adhesion γ.
 ///
 /// ```
 /// use asperity_scene::RoughnessParameter;
@@ -17,10 +18,11 @@ use super::text::ron_float;
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
-    /// κ = √(h⟨∇z⟩E*/γ) of eq. (11), with rms height h and rms gradient ⟨∇z⟩.
+    /// κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012), with rms height h, rms gradient ⟨∇z⟩, effective modulus E*
+    /// and work of adhesion γ.
     #[default]
     Kappa,
-    /// e_el/γ, with the elastic energy e_el per area that flattens the roughness.
+    /// e_el/γ: elastic energy e_el per area that flattens the roughness, divided by the work of adhesion γ.
     ElasticEnergyRatio,
 }
 
@@ -78,21 +80,22 @@ impl RoughnessParameter {
 pub struct Adhesion {
     /// Strength of the adhesion, given by a work of adhesion or by κ or e_el/γ.
     pub strength: Strength,
-    /// Range z₀ of the attraction in m; `None` for 0.3 nm. Only the Tabor number depends on it.
+    /// Range z₀ of the attraction in m; `None` means 0.3 nm. Only the Tabor number depends on it.
     pub range: Option<f64>,
 }
 
 /// Strength of the adhesion: a work of adhesion, or a [`RoughnessParameter`] from which the work follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
-    /// Work of adhesion, which may be smaller where the interface closes.
+    /// Work of adhesion. Its value may be smaller where the interface closes than where the interface opens.
     Work {
         /// Work of adhesion γ in J/m²: energy per area that opens the interface.
         opening: f64,
         /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None` if both are equal.
         closing: Option<f64>,
     },
-    /// A parameter and its value. The value and the roughness of the scene together give the work of adhesion.
+    /// A parameter and its value. The work of adhesion follows from this value, from the roughness and from the effective
+    /// modulus of the scene.
     Parameter(RoughnessParameter, f64),
 }
 
@@ -126,7 +129,7 @@ impl Adhesion {
         Adhesion { strength: Strength::Parameter(parameter, value), range: None }
     }
 
-    /// Returns the given work of adhesion γ in J/m²; `None` if a parameter is given instead.
+    /// Returns the given work of adhesion γ on opening in J/m²; `None` if κ or e_el/γ is given instead.
     pub fn work(&self) -> Option<f64> {
         if let Strength::Work { opening, .. } = self.strength { Some(opening) } else { None }
     }
@@ -141,7 +144,7 @@ impl Adhesion {
         self.closing_work().is_some()
     }
 
-    /// Returns the given parameter and its value; `None` if a work of adhesion is given instead.
+    /// Returns the given parameter, κ or e_el/γ, and its value; `None` if a work of adhesion is given instead.
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         if let Strength::Parameter(parameter, value) = self.strength {
             Some((parameter, value))

@@ -62,9 +62,10 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 }
 
 impl Document {
-    /// Lists the fields whose values differ in another scene. Title, notes and version do not count. If the two scenes have
-    /// different forms, such as a cone and a sphere, the whole form is one entry; the same holds for other groups. The
-    /// loading is one entry. If a list of its changed stages is shorter, each changed stage is an entry instead.
+    /// Lists the fields whose values differ between this scene and `other`, except title, notes and version. If the two
+    /// scenes have different forms, such as a cone and a sphere, the whole form is one entry. The same holds for the
+    /// roughness and for other groups of fields. Of two different loadings either each changed stage is an entry, or the
+    /// whole loading is one entry if this is shorter.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;

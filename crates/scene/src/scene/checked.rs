@@ -101,7 +101,8 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with its measured files renamed by `rename`. A name is checked when its file is read.
+    /// Returns this scene with other names for its measured files, as `rename` returns them. A name is checked only when
+    /// its file is read.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

@@ -45,7 +45,8 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads and checks the text of a scene. Errors state `name`, the name of a file or of a built-in scene.
+    /// Reads and checks the text of a scene. Each message of an error states `name`, the name of a file or of a built-in
+    /// scene.
     ///
     /// # Errors
     /// Returns the first syntax error, or an error for each invalid value, with line and column. If the version of the file
@@ -101,8 +102,9 @@ impl Document {
     /// Returns this document with fields changed one after the other. Each pair is the path of a field and its new value in
     /// RON. A number may have an SI prefix and a unit: `50 mJ/m²`.
     ///
-    /// A field that the text omits is inserted, and so is its group. The value `None` removes an optional part. Values are
-    /// checked once, at the end, so values that are only allowed together may come in any order.
+    /// A field that the text omits is inserted. If the text also omits the group of the field, the group is inserted too.
+    /// The value `None` removes an optional part. Values are checked once, at the end, so values that are only allowed
+    /// together may come in any order.
     ///
     /// # Errors
     /// Returns an error for each override that cannot be read and each value that is invalid, with the overrides that cause
@@ -242,8 +244,8 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with its measured files renamed by `rename`. If a name changes, the text is written anew,
-    /// without comments.
+    /// Returns this document with other names for its measured files, as `rename` returns them; the files themselves stay.
+    /// If a name changes, the text is written anew, without comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.

@@ -32,10 +32,10 @@ pub enum Effect {
 }
 
 impl Effect {
-    /// All effects, in the order of their fields in a scene file.
+    /// All optional parts, in the order of their fields in a scene file.
     pub const ALL: [Effect; 4] = [Effect::Form, Effect::Roughness, Effect::Adhesion, Effect::Unloading];
 
-    /// Returns the name of the effect: `form`, `roughness`, `adhesion` or `unloading`.
+    /// Returns the name of this optional part: `form`, `roughness`, `adhesion` or `unloading`.
     pub const fn name(self) -> &'static str {
         match self {
             Effect::Form => "form",
@@ -45,12 +45,14 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field with the effect: `loading` for unloading, otherwise the name of the effect.
+    /// Returns the path of the field that has this optional part: `loading` for unloading, otherwise its
+    /// [`name`](Self::name).
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self { "loading" } else { self.name() }
     }
 
-    /// Returns true if the scene has the effect. A work of adhesion of zero is no adhesion.
+    /// Returns true if the scene has this optional part. A scene whose work of adhesion is zero counts as a scene without
+    /// adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
             Effect::Form => scene.form.is_some(),

@@ -59,8 +59,8 @@ impl fmt::Display for Origin {
 pub struct SceneError {
     /// Source of the invalid value.
     pub origin: Origin,
-    /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage. Empty if no single field is
-    /// wrong.
+    /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage. Empty if the error does
+    /// not concern a single field.
     pub field: String,
     /// Invalid value as it was written; empty if there is none.
     pub value: String,
@@ -107,7 +107,7 @@ impl SceneError {
     }
 }
 
-/// All errors of a scene, at least one. Shown as text, each error is one line.
+/// All errors of a scene, at least one. The text of this type has one line for each error.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -180,7 +180,7 @@ const LONGEST: usize = 64;
 
 /// Returns the one of `names` that is most similar to the misspelt `name`; `None` if no name is similar.
 ///
-/// It is enough that the last part of a path is similar: `hurst` finds `roughness.hurst`.
+/// For a path with dots it is enough that its last part is similar: the name `hurst` finds `roughness.hurst`.
 ///
 /// ```
 /// use asperity_scene::text::nearest;
@@ -204,7 +204,8 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
     names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
 }
 
-/// Returns a question to append to a message, such as `; did you mean length?`. The text is empty if no name is similar.
+/// Returns a question to append to a message, such as `; did you mean length?`, with the name that is most similar to
+/// `name`. The text is empty if no name is similar.
 pub fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }

@@ -6,8 +6,8 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// Description of one field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). The value of the
-/// field in a scene is not part of it.
+/// Description of one field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). The description
+/// does not contain the value that the field has in a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
@@ -19,7 +19,7 @@ pub struct Field {
     pub name: &'static str,
     /// Symbol of the field in the equations; empty if it has none.
     pub symbol: &'static str,
-    /// SI unit of the field; `1` for a number without a unit, empty for other values.
+    /// SI unit of the field; `1` for a number without a unit, empty for a field that is not a number.
     pub unit: &'static str,
     /// Allowed values of the field.
     pub range: Range,
@@ -41,12 +41,12 @@ pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 pub enum Step {
     /// A small step adds the first number, a large step the second one. The result is a multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number. A small step has twenty such numbers per decade (Renard series R20). A large step
-    /// has three: 1, 2 and 5 times a power of ten.
+    /// Goes to the next preferred number. For small steps a decade has twenty preferred numbers (Renard series R20). For
+    /// large steps it has three: 1, 2 and 5 times a power of ten.
     Logarithmic,
     /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),
-    /// Goes to the next power of two; a large step is four small ones.
+    /// A small step goes to the next power of two. A large step is as far as four small steps.
     Doubling,
     /// Changes one number of a pair. A small step changes the last mode or the shortest wavelength, a large step the first
     /// mode or the longest wavelength. Modes go to the next power of two, wavelengths to the next preferred number.

@@ -19,8 +19,8 @@ pub const SCENE_VERSION: u32 = 1;
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// Returns the description of the field at a path. Several choices may have a field at the same path, such as the radius of a
-/// sphere and of a punch. Then `variant` is the name of the choice; `None` selects the first one.
+/// Returns the description of the field at a path. Several choices may have a field at the same path, such as the radius of
+/// a sphere and of a punch. Then `variant` is the name of the choice; `None` means the first choice that has the field.
 ///
 /// ```
 /// let radius = asperity_scene::fields::field("form.radius", Some("Paraboloid")).unwrap();

@@ -17,7 +17,7 @@ pub const DEFAULT: &str = "pressure-sensitive";
 /// A built-in scene, or a built-in plan of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Name on the command line.
+    /// Name of the scene or plan, as a user types it on the command line.
     pub name: &'static str,
     /// Text of the scene or plan in RON.
     pub text: &'static str,
@@ -105,8 +105,9 @@ pub struct Entry {
 }
 
 /// Returns the folder of the user's own scenes. A scene in this folder can be opened by its name without `.ron`. The folder
-/// is `asperity/presets` in the configuration folder of the user, and may not exist. The configuration folder is
-/// `$XDG_CONFIG_HOME` or `~/.config`; on Windows it is the roaming application data.
+/// is `asperity/presets` in the configuration folder of the user. It need not exist. The configuration folder is
+/// `$XDG_CONFIG_HOME` or `~/.config`; on Windows it is the folder for roaming application data. Returns `None` if the user
+/// has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::Not;
 
-/// A measured surface, profile or map, as the roughness of a scene. Many of its fields are also options of `asperity
+/// A measured surface, profile or map, as the roughness of a scene. Many fields of this type are also options of `asperity
 /// surface`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,7 +34,7 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long, default_value = "", hide_default_value = true, value_parser = unit_name))]
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// Unit of heights where a file states none; default: as --unit
+    /// Unit of heights where a file states none, if not the unit of lengths
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "UNIT", default_value = "", hide_default_value = true, value_parser = unit_name)
@@ -82,7 +82,7 @@ pub struct Measured {
     pub column: Option<u64>,
     /// Part of the heights to remove: none, mean, tilt or curvature
     ///
-    /// Default: tilt, or mean with --periodic.
+    /// Default: tilt, or mean if the surface is periodic.
     #[cfg_attr(feature = "clap", arg(long, value_enum, hide_possible_values = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub detrend: Option<Detrend>,
@@ -149,8 +149,8 @@ impl Measured {
         std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
     }
 
-    /// Returns the options for reading and analysing the files of this surface. Its values must be valid, as
-    /// [`Scene::checked`](crate::Scene::checked) finds them.
+    /// Returns the options for reading and analysing the files of this surface. The values of this surface must be valid.
+    /// [`Scene::checked`](crate::Scene::checked) finds invalid values.
     pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
             as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),

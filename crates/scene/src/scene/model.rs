@@ -45,7 +45,7 @@ pub struct Scene {
     /// Stiffness k of the instrument that moves the body in N/m; `None` for a rigid instrument.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loading_stiffness: Option<f64>,
-    /// Loading stages in their order. The bodies are separated before the first one.
+    /// Loading stages in their order. The bodies are separated before the first stage.
     #[serde(default = "default_loading")]
     pub loading: Vec<Move>,
     /// Number of springs, solver, and other settings of the computation.
@@ -56,7 +56,8 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants as a scene states them: E and ν of a half-space under a rigid body, or the effective modulus E*.
+/// Elastic constants as a scene states them: Young's modulus E and Poisson's ratio ν of a half-space under a rigid body, or
+/// the effective modulus E*.
 ///
 /// ```
 /// use asperity_scene::Material;
@@ -75,7 +76,7 @@ pub struct Material {
     /// Poisson's ratio ν.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson_ratio: Option<f64>,
-    /// Effective modulus E* of eq. (2) in Pa, in place of E and ν.
+    /// Effective modulus E* in Pa, given in place of E and ν.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effective_modulus: Option<f64>,
 }
@@ -92,15 +93,16 @@ impl Material {
         Material { youngs_modulus, poisson_ratio, effective_modulus: None }
     }
 
-    /// Returns the effective modulus E* of eq. (2) in Pa; NaN if a constant is missing or out of its range.
+    /// Returns the effective modulus E* in Pa (eq. (2) of Popov and Filippov (2012)). If E* is not given, it is E/(1 − ν²).
+    /// Returns NaN if neither E* nor both E and ν are given, or if a used value is out of its range.
     pub fn effective_modulus(&self) -> f64 {
         self.modulus().map_or(f64::NAN, Modulus::pascals)
     }
 
-    /// Returns the effective modulus E* of eq. (2).
+    /// Returns the effective modulus E* as [`Self::effective_modulus`] does, but with an error in place of NaN.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] if a constant is missing or out of its range.
+    /// Returns [`ContactError::Value`] if neither E* nor both E and ν are given, or if a used value is out of its range.
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
         let [modulus, ratio] =
             [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
@@ -112,7 +114,8 @@ impl Material {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Roughness {
-    /// Random self-affine profile, eqs. (4)–(9). Either `rms_height` or `rms_gradient` gives its amplitude.
+    /// Random self-affine profile, eqs. (4) to (9) of Popov and Filippov (2012). Either `rms_height` or `rms_gradient`
+    /// gives its amplitude.
     SelfAffine {
         /// Hurst exponent H, above 0 and below 1.
         hurst: f64,
@@ -169,7 +172,7 @@ impl Scene {
         }
     }
 
-    /// Returns the distance Δx = L/N between springs in m.
+    /// Returns the distance Δx between springs in m: the apparent diameter L divided by the number of springs N.
     pub fn spacing(&self) -> f64 {
         self.length / self.numerics.points as f64
     }
@@ -181,8 +184,8 @@ impl Scene {
         self.form.as_ref().map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness.
-    /// Wavelengths λ become the modes nearest to L/λ, so the waves stay the same when the length changes.
+    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness. A given
+    /// wavelength λ becomes the mode nearest to L/λ, so the waves keep their wavelengths if the length L changes.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine { hurst, modes, wavelengths, roll_off, .. }) = self.roughness else {
             return None;
@@ -194,7 +197,8 @@ impl Scene {
         Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
-    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs. A scene with a warning is allowed.
+    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs, otherwise `None`. A scene with a
+    /// warning can still be computed.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
@@ -257,8 +261,8 @@ impl Scene {
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
     }
 
-    /// Changes the names of the measured files and of the table of the form in this scene. The files themselves are not
-    /// renamed.
+    /// Changes the names of the measured files and of the table of the form in this scene to the names that `rename`
+    /// returns. The files themselves are not renamed.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
@@ -295,7 +299,7 @@ impl Scene {
 pub struct Numerics {
     /// Number of springs N.
     pub points: u64,
-    /// Solver for the equilibrium of the springs: exact, or stepwise as in the paper of Popov and Filippov.
+    /// Solver for the equilibrium of the springs: exact, or stepwise as by Popov and Filippov (2012).
     pub solver: Solver,
     /// Edge model: the edge of a contact patch may lie between two springs, or a patch consists of whole springs.
     pub edges: Edges,
@@ -336,7 +340,8 @@ impl From<NumericsText> for Numerics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// Exact solver: it computes at which indentations patches form, merge, split and detach, without an error from a step.
+    /// Exact solver: it computes the indentations at which patches form, merge, split and detach. It makes no steps, so it
+    /// has no error that depends on a step.
     Exact,
     /// Method of Popov and Filippov (2012): the body moves by one step, springs attach and detach until no further one does,
     /// and the next step follows.
@@ -347,8 +352,8 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns the edge model of a scene that states none: [`Edges::SubCell`] with the exact solver, [`Edges::Grid`] with the
-    /// stepwise solver.
+    /// Returns the edge model of a scene file that states no edge model: [`Edges::SubCell`] with the exact solver,
+    /// [`Edges::Grid`] with the stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => default_of("numerics.edges"),

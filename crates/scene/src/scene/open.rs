@@ -12,10 +12,10 @@ use super::library::{describe, find_scene, own_folder, own_names, own_scene, pre
 use super::typed::LONGEST_TEXT;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, printable, read_limited};
 
-/// Opens a scene. A name that ends in `.ron`, contains a path separator or belongs to a file is opened as a file. Other names
-/// are searched among the built-in scenes, then in the user's [`own_folder`]. A table of results in CSV repeats the scene
-/// that was computed, and opens as this scene. Only regular files are read, because a pipe or a terminal would make the
-/// program wait.
+/// Opens a scene. A name that ends in `.ron`, contains a path separator or is the name of an existing file is opened as a
+/// file. Other names are searched among the built-in scenes, then in the user's [`own_folder`]. A CSV table of results
+/// contains the scene from which it was computed. If the file is such a table, this scene is opened. Only regular files are
+/// read, because a pipe or a terminal would make the program wait.
 ///
 /// # Errors
 /// Returns an error if there is no such scene, if its file cannot be read, or if the scene has errors.
@@ -58,7 +58,7 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     Err(whole(name_or_path, message))
 }
 
-/// Returns true if [`is_path`] is true for a name, or if the name belongs to an existing file.
+/// Returns true if [`is_path`] is true for a name, or if the name is the path of an existing file.
 pub fn is_file_name(name: &str) -> bool {
     is_path(name) || Path::new(name).is_file()
 }
@@ -68,8 +68,8 @@ pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene that an argument on the command line names. For `-` the scene is read from standard input. From a pipe or
-/// a device, such as `<(…)` of a shell, it is read to the end. All other arguments are opened as [`open`] does.
+/// Opens the scene that an argument on the command line names. For `-` the scene is read from standard input. A pipe or a
+/// device, such as `<(…)` of a shell, is read to its end. All other arguments are opened as [`open`] does.
 ///
 /// For a pipe the function waits until another program has written the scene. A program that controls the terminal should
 /// call [`open`], which never waits.

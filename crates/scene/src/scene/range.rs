@@ -11,10 +11,11 @@ pub enum Range {
     Real(Bound<f64>, Bound<f64>),
     /// An integer from the first to the second number, both included.
     Whole(u64, u64),
-    /// A pair `(first, last)` of integers with first ≤ last. Both lie between these ends, which are included.
+    /// A pair `(first, last)` of integers with first ≤ last. Both integers lie from the first to the second number of this
+    /// variant.
     Band(u64, u64),
-    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest. Both lie between these ends, which are
-    /// included.
+    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest. Both wavelengths lie from the first to the
+    /// second number of this variant.
     Wavelengths(f64, f64),
     /// Text without control characters, except for line breaks where they are allowed.
     Text {

@@ -14,7 +14,8 @@ use super::tree::{Tree, differing};
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
-    /// Returns this document without an effect; unchanged if the effect is already off.
+    /// Returns this document without the optional part `effect` of its scene. If the scene has no such part, the document
+    /// stays unchanged.
     ///
     /// If the roughness is removed, κ or e_el/γ can no longer give the work of adhesion. The scene then gets the work of
     /// adhesion that it had before [`Self::with_next_choice`] chose κ or e_el/γ. If there is none, it gets 50 mJ/m². If the
@@ -22,7 +23,7 @@ impl Document {
     /// deepest indentation.
     ///
     /// # Errors
-    /// Returns an error if the scene is not valid without the effect.
+    /// Returns an error if the scene is not valid without this part.
     pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
@@ -49,13 +50,14 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns this document with an effect; unchanged if the effect is already on.
+    /// Returns this document with the optional part `effect` in its scene. If the scene has such a part, the document stays
+    /// unchanged.
     ///
-    /// The effect gets back the values that it had when it was switched off. A value that was changed since then stays. If
-    /// there are no such values, or if they are no longer valid, the effect gets values that suit the scene.
+    /// The part gets back the values that it had before [`Self::without`] removed it. A value that was changed since then
+    /// stays. If there are no such values, or if they are no longer valid, the part gets values that suit the scene.
     ///
     /// # Errors
-    /// Returns an error if the effect is impossible in the scene, such as roughness on a single spring.
+    /// Returns an error if the part is impossible in the scene, such as roughness on a single spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
@@ -88,8 +90,9 @@ impl Document {
     /// Returns this document with the next choice of a field that the scene allows, or the previous one if `forwards` is
     /// false. Returns `None` if there is no other choice.
     ///
-    /// The field of an [`Effect`] also has the choice `None`, which switches the effect off; the choice after it switches the
-    /// effect on again. A choice that the field had earlier gets back its numbers. Any other choice has its usual numbers.
+    /// The field of an optional part ([`Effect`]) also has the choice `None`, which removes the part as [`Self::without`]
+    /// does. The choice after `None` adds the part again. A choice that the field had earlier gets back its numbers. Any
+    /// other choice has its usual numbers.
     ///
     /// # Errors
     /// Returns an error if the scene allows none of the other choices.

@@ -9,9 +9,9 @@ use super::model::Scene;
 use super::range::Range;
 use super::text::{ron_float, ron_string};
 
-/// Values of a scene, which are read and set by the paths of fields. They form a JSON tree. A choice without fields, such as
-/// `ToTouch`, is the text of its name. A choice with fields is an object whose only key is its name. An omitted field has no
-/// value.
+/// Values of a scene, which are read and set by the paths of fields. They form a JSON tree. A choice without fields, such
+/// as `ToTouch`, is the text of its name. A choice with fields is an object whose only key is the name of the choice. An
+/// omitted field has no value.
 ///
 /// ```
 /// use asperity_scene::fields::Tree;
@@ -46,7 +46,7 @@ impl Tree {
     }
 
     /// Sets the number at a path without checking its range. A number that the scene omits is added. If the scene has no
-    /// adhesion, a number of the adhesion adds one.
+    /// adhesion, setting one of its fields, such as `adhesion.work`, gives the scene an adhesion with this number only.
     ///
     /// Returns false, with the tree unchanged, if the scene can have no number there.
     pub fn set(&mut self, path: &str, value: f64) -> bool {

@@ -20,20 +20,24 @@ pub struct Outcome {
     pub line: LineFacts,
     /// Effective modulus, work of adhesion, rms height and rms gradient of the roughness, κ and e_el/γ.
     pub governing: Governing,
-    /// Ideal adhesion force F_a,max of eq. (14) in N; `None` without adhesion.
+    /// Ideal adhesion force F_a,max in N of a flat face of the length of the profile, eq. (14) of Popov and Filippov
+    /// (2012); `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
     /// Adhesion force F_smooth in N of the same body without roughness after the same preload; `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(d=0) in N, turned at first touch; `None` without adhesion or without an unloading stage.
+    /// Adhesion force F_a(d=0) in N of a loop that turns at first touch; `None` without adhesion or without an unloading
+    /// stage.
     pub first_touch_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(F=0) in N, turned at zero force; `None` without adhesion or without an unloading stage.
+    /// Adhesion force F_a(F=0) in N of a loop that turns where the force is back at zero; `None` without adhesion or
+    /// without an unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion, and for a body without a radius of curvature, such as a cone.
     pub tabor_number: Option<f64>,
-    /// Waves of a wavy sphere, if they are so steep that the rule of Hess differs from the theory of Johnson, Kendall and
-    /// Roberts.
+    /// Waves of a wavy sphere with adhesion, if the waves are so steep that the rule of Hess differs from the theory of
+    /// Johnson, Kendall and Roberts; otherwise `None`.
     pub steep_waves: Option<SteepWaves>,
-    /// Regime of adhesion (Fig. 4) that follows from F_a(d=0); `None` for a loading without a tensile force.
+    /// Regime of adhesion (Fig. 4 of Popov and Filippov (2012)) that follows from F_a(d=0); `None` for a loading without a
+    /// tensile force.
     pub regime: Option<Regime>,
     /// Regime of adhesion that follows from F_a(F=0); `None` for a loading without a tensile force.
     pub regime_after_zero_force: Option<Regime>,
@@ -43,17 +47,19 @@ pub struct Outcome {
     pub instrument: Option<InstrumentFigures>,
     /// Force curves of all loading stages, and the contact patches after the last one.
     pub history: History,
-    /// Contact patches at the end of each loading stage. Empty unless the scene records them.
+    /// Contact patches at the end of each loading stage. The list is empty unless the scene has
+    /// [`Observer::Fragments`](crate::Observer::Fragments).
     pub fragments: Vec<Vec<Patch>>,
-    /// Histogram of the heights of the profile; `None` unless the scene records it.
+    /// Histogram of the heights of the profile; `None` unless the scene has
+    /// [`Observer::HeightHistogram`](crate::Observer::HeightHistogram).
     pub histogram: Option<Histogram>,
     /// Times that the parts of the computation have taken.
     pub timings: Timings,
 }
 
 impl Outcome {
-    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal one; `None` without a tensile force or without
-    /// adhesion.
+    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force; `None` without a tensile force or
+    /// without adhesion.
     pub fn adhesion_share(&self) -> Option<f64> {
         Some(self.figures.adhesion_force? / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?)
     }
@@ -69,7 +75,7 @@ pub struct LineFacts {
     pub length: f64,
     /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Index of the first spring under the body, which is above zero only for a punch.
+    /// Index of the first spring under the body. The index is above zero only for a punch.
     pub first: usize,
     /// Height of the highest point in m. The apex of the form without roughness has the height zero.
     pub summit: f64,
@@ -79,8 +85,9 @@ pub struct LineFacts {
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient of a continuous spectrum with the same rms height, by the integrals of eq. (12). The profile itself is a
-    /// sum of modes. `None` unless the roughness is self-affine.
+    /// Rms gradient that a continuous spectrum with the same rms height has, by the integrals of eq. (12) of Popov and
+    /// Filippov (2012). The profile itself is a sum of discrete modes, so the two rms gradients may differ. `None`
+    /// unless the roughness is self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
@@ -112,7 +119,7 @@ impl Timings {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The computation changes the scene, and a changed value is out of its range.
+    /// The computation changes values of the scene, and a changed value is out of its range.
     #[error(transparent)]
     Values(#[from] SceneErrors),
     /// There is not enough memory for the scene.
@@ -127,15 +134,16 @@ pub enum RunError {
     /// The profile could not be computed from the form and the roughness.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Unloadings from many turning points were requested for a scene with the stepwise solver. They need the exact solver.
+    /// A [`ReversalMap`](crate::theory::ReversalMap), which has unloadings from many turning points, was requested for a
+    /// scene with the stepwise solver. Such a map needs the exact solver.
     #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
     NeedsExactSolver,
-    /// Turning points were requested for a loading that never presses the bodies together.
+    /// A [`ReversalMap`](crate::theory::ReversalMap) was requested for a loading that never presses the bodies together.
     #[error(
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
-    /// The requested preload is below the force at first touch, so no loading can end at it.
+    /// The requested preload is below the force at first touch, so no loading from separation can end at this force.
     #[error(
         "preload {}: allowed: at least the force at first touch, {}",
         format_quantity(*preload, "N"),

@@ -26,7 +26,7 @@ pub struct Reach {
     pub force: f64,
     /// Indentation of the deepest state in m.
     pub indentation: f64,
-    /// Displacement of the instrument in the deepest state in m.
+    /// Displacement in m that the instrument has in the deepest state.
     pub displacement: f64,
 }
 
@@ -41,7 +41,8 @@ impl Reach {
         Reach { full_contact, force, indentation, displacement }
     }
 
-    /// Returns a message that says why `stage` is refused; `None` for a stage that does not end beyond the deepest state.
+    /// Returns a message that says why the loading stage `stage` is refused; `None` if the stage does not end beyond the
+    /// deepest state.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }

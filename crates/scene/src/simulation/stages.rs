@@ -31,10 +31,10 @@ const SMALL: u64 = 32 << 20;
 /// run. It repeats only the parts of the computation that depend on a changed field of the scene. Repeated parts reuse their
 /// memory.
 ///
-/// Between runs it keeps at most 32 MiB or four times the memory of the last scene, whichever is larger. The memory of a
-/// scene is [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory goes to the allocator,
-/// which need not return it to the system. The allocator of glibc keeps blocks of less than 32 MiB, at most 64 MiB for each
-/// thread.
+/// Between runs a simulation keeps at most 32 MiB or four times the memory of the last scene, whichever is larger. The
+/// memory of a scene is here [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory
+/// goes to the allocator, which need not return it to the system. The allocator of glibc keeps released blocks of less than
+/// 32 MiB for reuse, in total at most 64 MiB for each thread.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
@@ -93,19 +93,20 @@ pub(super) struct Prepared {
     timings: Timings,
 }
 
-/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, its force curve
-/// ([`LegRecord`]) and its contact ([`Leg`]). If the function returns an error, the run ends with this error.
+/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, the force curve on the
+/// stage ([`LegRecord`]) and the solved stage ([`Leg`]), which returns force and patches at any indentation on the stage.
+/// If the function returns an error, the run ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Returns a simulation of scenes whose measured files are in `folder`.
+    /// Returns a simulation for scenes whose names of measured files are relative to `folder`.
     pub fn new(folder: PathBuf) -> Self {
         Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
     }
 
     /// Returns this simulation with a smaller need of memory, for a single scene. The memory of the Fourier transform is
-    /// freed before the contact is solved, and the gaps of the profile reuse the memory of its heights. Each further profile
-    /// takes more time.
+    /// freed before the contact is solved, and the gaps of the profile reuse the memory of its heights. Each further
+    /// profile then takes more time to compute.
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
@@ -134,13 +135,13 @@ impl Simulation {
         Simulation { single: self.single, maker, ..Simulation::default() }
     }
 
-    /// Returns the profile that was computed last; `None` before the first one.
+    /// Returns the profile that was computed last; `None` before the first profile.
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
     }
 
     /// Returns the profile of a scene, the numbers that describe it, and the governing parameters. The profile is computed
-    /// unless the last scene had the same one.
+    /// unless the last scene had the same profile.
     ///
     /// # Errors
     /// Returns an error if the memory is too small, or if a measured file or a form cannot be used.

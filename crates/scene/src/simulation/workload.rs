@@ -49,7 +49,7 @@ pub enum Stage {
     UnloadingPass,
     /// Steps of the stepwise solver. In each step the body moves, then springs attach and detach until no further one does.
     Relaxation,
-    /// Loops that turn at first touch and at zero force, for F_a(d=0), F_a(F=0) and the regimes.
+    /// Two loops, of which one turns at first touch and one at zero force. They give F_a(d=0), F_a(F=0) and the regimes.
     WithoutPreload,
     /// List of the contact patches at the end of each loading stage.
     Fragments,
@@ -71,8 +71,8 @@ impl Stage {
     }
 }
 
-/// Part of the computation of a scene in a [`Workload`], with its passes and its memory. They are zero for a part that the
-/// scene does not need.
+/// Part of the computation of a scene in a [`Workload`], with its passes and its memory. Passes and memory are zero for a
+/// part that the scene does not need.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// Part of the computation.

@@ -17,8 +17,8 @@ impl Text {
         self.spliced(vec![(entry.value.clone(), value.to_string())], path, value)
     }
 
-    /// Returns the text with a new entry `name: value` in the group at a path; an empty path is the whole text. The entry
-    /// comes after the entries whose names precede `name` in `order`.
+    /// Returns the text with a new entry `name: value` in the group at a path. An empty path means the whole text. The new
+    /// entry comes after the entries whose names precede `name` in `order`.
     ///
     /// # Errors
     /// Returns an error if there is no group at the path, or if `value` is not exactly one value.
@@ -43,8 +43,8 @@ impl Text {
     }
 
     /// Returns the text with other elements in the list at a path. An element with an index keeps the text and the comments
-    /// of that element in the present list. An element without an index is new, with the given text. Returns `None` for an
-    /// empty list, or if a comment would make the text unreadable.
+    /// of that element in the present list. An element without an index is new, and the given text is its value. Returns
+    /// `None` if the present list is empty or missing, or if a comment would make the new text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
         let (old, mut start) = (self.inside(list), inside.start);

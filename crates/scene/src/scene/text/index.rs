@@ -12,7 +12,7 @@ use super::scan::{Kind, Scan, Token, Unreadable, scan};
 const LONGEST_PATH: usize = 100;
 
 /// RON text and the places of its values. A value is found by its path, which consists of the names of fields and of
-/// positions in lists, from 0: `roughness.hurst`, `loading.0`. The empty path is the whole text.
+/// positions in lists, from 0: `roughness.hurst`, `loading.0`. The empty path means the whole text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub(super) source: String,
@@ -26,7 +26,7 @@ pub struct Text {
 pub struct TextSpan {
     /// Path of the value, such as `roughness.hurst`.
     pub path: String,
-    /// Bytes of the whole entry `name: value`; in a list the same as `value`.
+    /// Bytes of the whole entry `name: value`. For an element of a list, which has no name, they are the same as `value`.
     pub entry: Range<usize>,
     /// Bytes of the value alone.
     pub value: Range<usize>,
