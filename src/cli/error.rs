@@ -2,10 +2,9 @@
 
 use asperity_data::WriteError;
 use std::error::Error;
-use std::fmt;
 use std::fmt::Display;
-use std::io;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{fmt, io};
 
 /// Exit code of a failed run or wrong input.
 const FAILED: u8 = 1;

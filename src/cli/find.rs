@@ -6,8 +6,7 @@ use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
 use asperity_report::{FindReport, Format};
 use asperity_scene::Simulation;
-use asperity_study::Axis;
-use asperity_study::{Found, Quantity, Question};
+use asperity_study::{Axis, Found, Quantity, Question};
 use clap::Args;
 use std::io::Write;
 

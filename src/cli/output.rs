@@ -2,13 +2,12 @@
 
 use super::error::CliError;
 use super::typed::TYPED;
-use asperity_data::parse_quantity;
-use asperity_data::path_name;
-use asperity_data::{check_writable, write_new};
+use asperity_data::{check_writable, parse_quantity, path_name, write_new};
 use asperity_plot::{Colours, Figure, figure_text};
-use asperity_report::parameter_lines;
-use asperity_report::{Format, Report, check_extension};
-use asperity_report::{entries, files_provenance, scene_provenance, scenes_provenance};
+use asperity_report::{
+    Format, Report, check_extension, entries, files_provenance, parameter_lines, scene_provenance,
+    scenes_provenance,
+};
 use asperity_scene::text::quoted;
 use asperity_scene::{Document, Scene};
 use clap::{Arg, ArgGroup, Args};

@@ -2,12 +2,10 @@
 
 use super::error::CliError;
 use super::output::AnswerFormat;
-use asperity_data::object;
-use asperity_data::{printable, printable_lines};
+use asperity_data::{object, printable, printable_lines};
 use asperity_report::Sheet;
-use asperity_scene::Document;
-use asperity_scene::Simulation;
 use asperity_scene::library::Entry;
+use asperity_scene::{Document, Simulation};
 use clap::Subcommand;
 use std::io;
 use std::io::{IsTerminal, Write};

@@ -8,15 +8,11 @@ use asperity_contact::LegRecord;
 use asperity_contact::motion::Leg;
 use asperity_data::{grouped, wrap};
 use asperity_plot::Figure;
-use asperity_report::ContactSets;
-use asperity_report::PreloadReport;
-use asperity_report::RunReport;
-use asperity_report::check_measured_files;
-use asperity_report::{ComparedScene, ScenesReport};
-use asperity_report::{Format, Report};
+use asperity_report::{
+    ComparedScene, ContactSets, Format, PreloadReport, Report, RunReport, ScenesReport, check_measured_files,
+};
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
-use asperity_scene::estimate;
-use asperity_scene::{CheckedScene, Document, Scene, Simulation};
+use asperity_scene::{CheckedScene, Document, Scene, Simulation, estimate};
 use asperity_study::trust::MeasuredAdhesion;
 use asperity_study::{Axis, Ensemble, Results, Staircase};
 use clap::{Args, ValueEnum};

@@ -2,11 +2,9 @@
 
 use super::error::CliError;
 use crate::explorer::recognition::no_scene;
-use asperity_data::parallel;
-use asperity_data::printable;
+use asperity_data::{parallel, printable};
 use asperity_scene::library::open_argument;
-use asperity_scene::{CheckedScene, Document, Scene};
-use asperity_scene::{Outcome, Simulation};
+use asperity_scene::{CheckedScene, Document, Outcome, Scene, Simulation};
 use asperity_study::Ensemble;
 use clap::Args;
 use std::io;

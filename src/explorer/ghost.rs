@@ -1,8 +1,7 @@
 //! Computed scenes kept for comparison.
 
-use asperity_scene::Document;
-use asperity_scene::Outcome;
 use asperity_scene::fields::Change;
+use asperity_scene::{Document, Outcome};
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]

@@ -2,9 +2,8 @@
 
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
-use asperity_contact::Move;
 use asperity_contact::motion::{Body, Leg, Motion, MovingBody};
-use asperity_contact::{CurvePoint, Direction};
+use asperity_contact::{CurvePoint, Direction, Move};
 use asperity_data::round_to;
 use asperity_scene::stages::Reach;
 

@@ -3,8 +3,7 @@
 use super::measured::Measured;
 use super::reading;
 use asperity_contact::Move;
-use asperity_data::format_quantity;
-use asperity_data::grouped;
+use asperity_data::{format_quantity, grouped};
 use asperity_scene::fields::{Effect, Field, Range, STAGE, choice_in_words, field, target_field};
 use asperity_scene::loading::{loading_text, stage_in_ron};
 use asperity_scene::text::ron_float;

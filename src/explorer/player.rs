@@ -1,7 +1,6 @@
 //! State of the animation, and the indentation that it shows.
 
-use asperity_contact::Branch;
-use asperity_contact::LegRecord;
+use asperity_contact::{Branch, LegRecord};
 
 /// Height, as a share of the range of indentations, at which the body begins above first touch.
 const LIFT: f64 = 0.12;

@@ -2,15 +2,11 @@
 //! pane.
 
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
-use asperity_contact::Move;
 use asperity_contact::motion::PatchState;
-use asperity_contact::{CurvePoint, Patch};
-use asperity_report::Section;
-use asperity_report::{LineColumns, Part, SectionContact};
-use asperity_scene::CheckedScene;
-use asperity_scene::Outcome;
-use asperity_scene::stages::LineFacts;
-use asperity_scene::stages::Reach;
+use asperity_contact::{CurvePoint, Move, Patch};
+use asperity_report::{LineColumns, Part, Section, SectionContact};
+use asperity_scene::stages::{LineFacts, Reach};
+use asperity_scene::{CheckedScene, Outcome};
 use std::sync::{Arc, Weak};
 
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,10 @@
 //! Atomic writing of files. An existing file is replaced only on request.
 
 use crate::text::path_name;
-use std::fs;
 use std::fs::{File, OpenOptions, Permissions};
-use std::io;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 use tempfile::TempPath;
 use thiserror::Error;
 

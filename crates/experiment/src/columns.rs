@@ -2,9 +2,8 @@
 
 use crate::metadata::Metadata;
 use crate::options::CurveOptions;
-use asperity_data::shown;
 use asperity_data::text_table::TextColumn;
-use asperity_data::{format_quantity, parse_quantity};
+use asperity_data::{format_quantity, parse_quantity, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 

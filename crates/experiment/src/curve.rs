@@ -8,9 +8,7 @@ use crate::points::{Points, ends_free, kept};
 use crate::read::Columns;
 use crate::segment::{Segments, are_shuffled};
 use crate::zero::FreeParts;
-use asperity_data::format_quantity;
-use asperity_data::grouped;
-use asperity_data::mean;
+use asperity_data::{format_quantity, grouped, mean};
 use asperity_surface::files::content;
 use std::path::Path;
 

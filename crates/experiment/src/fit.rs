@@ -14,8 +14,7 @@ use crate::search::{Found, MISFIT, Search};
 use crate::space::Space;
 use crate::statistics::{block_error, correlated, correlation, spread, widen};
 use asperity_data::{Control, format_rounded};
-use asperity_scene::Document;
-use asperity_scene::Simulation;
+use asperity_scene::{Document, Simulation};
 
 /// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
 /// parameter is undetermined.

@@ -6,9 +6,8 @@ use crate::error::ExperimentError;
 use crate::parameter::{Parameter, Values};
 use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Modulus};
-use asperity_scene::Simulation;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
-use asperity_scene::{CheckedScene, RunError};
+use asperity_scene::{CheckedScene, RunError, Simulation};
 use asperity_surface::Form;
 use std::ops::Range;
 

@@ -6,11 +6,8 @@ use crate::error::ExperimentError;
 use crate::free::least_squares;
 use crate::model::Model;
 use crate::parameter::{Parameter, Values};
-use asperity_data::format_quantity;
-use asperity_data::median;
-use asperity_scene::CheckedScene;
-use asperity_scene::Governing;
-use asperity_scene::Simulation;
+use asperity_data::{format_quantity, median};
+use asperity_scene::{CheckedScene, Governing, Simulation};
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 

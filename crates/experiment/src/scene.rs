@@ -4,9 +4,8 @@ use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::parameter::{Parameter, Values};
 use asperity_data::{format_quantity, round_to};
-use asperity_scene::Governing;
 use asperity_scene::text::ron_float;
-use asperity_scene::{Adhesion, Document, Scene, SceneErrors};
+use asperity_scene::{Adhesion, Document, Governing, Scene, SceneErrors};
 
 /// Relative difference of two stiffnesses of one instrument above which the difference is reported.
 const OTHER: f64 = 0.01;

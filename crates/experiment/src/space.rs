@@ -9,8 +9,7 @@ use crate::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use crate::start::{Known, Starts};
 use crate::statistics::{PARTS, scale};
 use asperity_data::format_quantity;
-use asperity_scene::Simulation;
-use asperity_scene::{Document, Solver};
+use asperity_scene::{Document, Simulation, Solver};
 use std::ops::Range;
 
 /// Ratio between the start and the ends of a range that is not given.

@@ -5,8 +5,7 @@ use crate::error::{ExperimentError, refused};
 use crate::free::{FEWEST, NoBaseline, Slopes, free_count};
 use crate::options::{CurveOptions, Drift, Tilt};
 use crate::points::Points;
-use asperity_data::format_quantity;
-use asperity_data::mean;
+use asperity_data::{format_quantity, mean};
 use std::ops::Range;
 
 /// Drift or tilt, in standard errors, above which it is reported to remain in a curve.

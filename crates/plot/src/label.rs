@@ -1,7 +1,6 @@
 //! Text in figures: italic symbols, indices and exponents, SI prefixes, numbers.
 
-use asperity_data::format_rounded;
-use asperity_data::{grouped, printable, si_prefix};
+use asperity_data::{format_rounded, grouped, printable, si_prefix};
 use std::fmt;
 
 /// Powers of ten of the smallest and the largest SI prefix on an axis: femto and giga.

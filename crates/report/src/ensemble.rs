@@ -3,8 +3,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use asperity_data::{Kind, Table, object};
-use asperity_data::{format_range, format_rounded, grouped, one_unit};
+use asperity_data::{Kind, Table, format_range, format_rounded, grouped, object, one_unit};
 use asperity_plot::Label;
 use asperity_scene::Regime;
 use asperity_study::{Ensemble, Plan, Quantity, RegimeCounts, Results, Statistics};

@@ -2,8 +2,9 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use asperity_data::{AxisScale, Kind, Table};
-use asperity_data::{format_quantity, format_range, format_rounded, grouped, per_cent};
+use asperity_data::{
+    AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, per_cent,
+};
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 

@@ -1,7 +1,6 @@
 //! The event at a point of a loading history in words, such as first contact, preload, pull-off or separation.
 
-use asperity_contact::Branch;
-use asperity_contact::{CurvePoint, Direction, LegRecord};
+use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 
 /// Share of the range of indentations of a loading or unloading within which a state counts as its end or its smallest
 /// force.
@@ -42,8 +41,7 @@ pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&
 mod tests {
     use super::*;
     use asperity_contact::History;
-    use asperity_scene::Simulation;
-    use asperity_scene::open;
+    use asperity_scene::{Simulation, open};
 
     fn history(name: &str, loading: Option<&str>) -> History {
         let mut document = open(name).unwrap();

@@ -4,8 +4,7 @@ use crate::ensemble::{profiles_named, rounded};
 use crate::report::{Json, Report};
 use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
-use asperity_data::{Kind, Table, object};
-use asperity_data::{format_quantity, format_range, format_rounded, grouped, one_unit};
+use asperity_data::{Kind, Table, format_quantity, format_range, format_rounded, grouped, object, one_unit};
 use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found};
 

@@ -3,10 +3,7 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::summary::tabor_number;
-use asperity_data::AxisScale;
-use asperity_data::Table;
-use asperity_data::grouped;
-use asperity_data::{format_quantity, format_rounded};
+use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped};
 use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;

@@ -1,7 +1,6 @@
 //! The chart of force loops, which is the same in figures of scenes and in the explorer.
 
-use asperity_contact::Mark;
-use asperity_contact::{CurvePoint, Direction, LegRecord};
+use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
 use asperity_scene::Outcome;

@@ -1,11 +1,9 @@
 //! Measured surfaces of one face, as samples of the same roughness, with facts about their files and warnings about their
 //! analysis.
 
-use asperity_data::format_quantity;
-use asperity_data::{grouped, path_name, printable};
-use asperity_surface::Analysis;
-use asperity_surface::Topography;
+use asperity_data::{format_quantity, grouped, path_name, printable};
 use asperity_surface::spectra::End;
+use asperity_surface::{Analysis, Topography};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 

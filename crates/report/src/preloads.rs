@@ -2,10 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use asperity_data::AxisScale;
-use asperity_data::grouped;
-use asperity_data::{Kind, Table, object};
-use asperity_data::{format_quantity, format_range, format_rounded};
+use asperity_data::{AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, object};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::discretisation::Choice;
 use asperity_study::{Results, Staircase, Statistics};

@@ -2,8 +2,7 @@
 //!
 //! CSV has these lines first, each after `# `. SVG has them as metadata. JSON begins with version and command.
 
-use asperity_data::sha256_of;
-use asperity_data::{path_name, printable};
+use asperity_data::{path_name, printable, sha256_of};
 use asperity_scene::text::to_ron;
 use asperity_scene::{Document, Scene};
 use std::path::{Path, PathBuf};

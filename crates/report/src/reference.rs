@@ -3,8 +3,7 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::status::duration;
-use asperity_data::{AxisScale, Table, object};
-use asperity_data::{format_quantity, format_rounded, grouped, memory_size};
+use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped, memory_size, object};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
 use asperity_study::Statistics;

@@ -1,8 +1,7 @@
 //! A result in up to four forms (text, JSON, table, figure), and the formats in which these forms are written.
 
 use crate::provenance::entries;
-use asperity_data::{Kind, Table, write_json};
-use asperity_data::{path_name, printable};
+use asperity_data::{Kind, Table, path_name, printable, write_json};
 use asperity_plot::{Chart, ChartAxis, Figure, Layer};
 use serde::Serialize;
 use std::io;
@@ -239,8 +238,7 @@ mod tests {
         use crate::scene_spectra::SceneSpectra;
         use crate::scenes::{ComparedScene, ScenesReport};
         use asperity_plot::judge::check_picture;
-        use asperity_scene::Simulation;
-        use asperity_scene::open;
+        use asperity_scene::{Simulation, open};
         use asperity_study::{Axis, Results, Staircase};
         let few = ("numerics.points", "512");
         let rough = [few, ("roughness.modes", "(1, 64)")];

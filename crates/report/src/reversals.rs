@@ -3,9 +3,7 @@
 use crate::preloads::{preload_chart, preload_table, unloadings};
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use asperity_data::AxisScale;
-use asperity_data::grouped;
-use asperity_data::{Table, object};
+use asperity_data::{AxisScale, Table, grouped, object};
 use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use asperity_scene::Scene;
 use asperity_scene::theory::ReversalMap;

@@ -1,9 +1,8 @@
 //! Figures of the contact: the profile in contact, and contact patches over the indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
-use asperity_contact::Branch;
 use asperity_contact::motion::Leg;
-use asperity_contact::{CurvePoint, Direction, LegRecord, Patch};
+use asperity_contact::{Branch, CurvePoint, Direction, LegRecord, Patch};
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use asperity_scene::Outcome;
@@ -135,8 +134,7 @@ fn position(outcome: &Outcome) -> ChartAxis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::Document;
-    use asperity_scene::Simulation;
+    use asperity_scene::{Document, Simulation};
 
     const SCENE: &str = "(
     version: 1,

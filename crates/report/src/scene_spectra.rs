@@ -3,13 +3,10 @@
 
 use crate::spectrum_figure::{Spectra, SpectrumPoint};
 use asperity_data::check_room;
-use asperity_scene::{CheckedScene, Scene};
-use asperity_scene::{Outcome, RunError, Simulation};
-use asperity_surface::EquivalentLine;
-use asperity_surface::Form;
+use asperity_scene::{CheckedScene, Outcome, RunError, Scene, Simulation};
 use asperity_surface::lines::{Line, read_faces};
 use asperity_surface::spectra::line_spectrum;
-use asperity_surface::{Analysis, LineMoments};
+use asperity_surface::{Analysis, EquivalentLine, Form, LineMoments};
 use std::f64::consts::TAU;
 use std::path::Path;
 

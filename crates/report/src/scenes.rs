@@ -6,9 +6,7 @@ use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
 use asperity_data::{format_quantity, format_range};
 use asperity_plot::{Colours, Figure, figure_text};
-use asperity_scene::Document;
-use asperity_scene::Outcome;
-use asperity_scene::Regime;
+use asperity_scene::{Document, Outcome, Regime};
 use asperity_study::{Ensemble, Quantity};
 
 /// One of several computed scenes in a [`ScenesReport`].

@@ -2,10 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use asperity_data::AxisScale;
-use asperity_data::grouped;
-use asperity_data::{Kind, Table, object};
-use asperity_data::{format_quantity, format_rounded, one_unit};
+use asperity_data::{AxisScale, Kind, Table, format_quantity, format_rounded, grouped, object, one_unit};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};

@@ -1,7 +1,6 @@
 //! Plain text with aligned columns, for a terminal of 80 columns.
 
-use asperity_data::format_quantity;
-use asperity_data::{printable, wrap};
+use asperity_data::{format_quantity, printable, wrap};
 
 /// Width of a line in characters, which is the width of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;

@@ -2,9 +2,8 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_surface::Analysis;
-use asperity_surface::EquivalentLine;
 use asperity_surface::spectra::{Along, Bin, End};
+use asperity_surface::{Analysis, EquivalentLine};
 use std::f64::consts::TAU;
 
 /// Number of points of a curve per decade of wave numbers.
@@ -135,8 +134,7 @@ mod tests {
     use super::*;
     use asperity_plot::Figure;
     use asperity_plot::judge::check_picture;
-    use asperity_surface::{AnalysisOptions, SelfAffineFit, ValueWithError, analyse};
-    use asperity_surface::{ReadOptions, parse};
+    use asperity_surface::{AnalysisOptions, ReadOptions, SelfAffineFit, ValueWithError, analyse, parse};
 
     fn analysis(end: End) -> Analysis {
         let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();

@@ -4,19 +4,13 @@ use crate::ensemble::{headline, rounded};
 use crate::measured_face::steep;
 use crate::sheet::Sheet;
 use crate::trust::{trust, without_jkr};
-use asperity_contact::Move;
-use asperity_contact::Work;
-use asperity_data::format_quantity;
-use asperity_data::grouped;
-use asperity_scene::Estimate;
-use asperity_scene::Governing;
-use asperity_scene::Outcome;
-use asperity_scene::Regime;
-use asperity_scene::Scene;
+use asperity_contact::{Move, Work};
+use asperity_data::{format_quantity, grouped};
 use asperity_scene::discretisation::Choice;
 use asperity_scene::loading::loading_text;
 use asperity_scene::stages::Timings;
 use asperity_scene::theory::SteepWaves;
+use asperity_scene::{Estimate, Governing, Outcome, Regime, Scene};
 use asperity_study::{Ensemble, Quantity};
 use asperity_surface::Form;
 
@@ -335,8 +329,7 @@ fn counts(work: &Work) -> [(&'static str, u64); 15] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::Document;
-    use asperity_scene::Simulation;
+    use asperity_scene::{Document, Simulation};
 
     const ROUGH: &str = r#"(
     version: 1,

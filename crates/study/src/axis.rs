@@ -3,9 +3,7 @@
 
 use super::error::StudyError;
 use asperity_contact::Move;
-use asperity_data::AxisScale;
-use asperity_data::format_quantity;
-use asperity_data::{printable, round_to};
+use asperity_data::{AxisScale, format_quantity, printable, round_to};
 use asperity_scene::fields::{FIELDS, Field, Range, field};
 use asperity_scene::text::did_you_mean;
 use asperity_scene::{RoughnessParameter, Scene};

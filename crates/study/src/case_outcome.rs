@@ -1,12 +1,7 @@
 //! The outcome of one loading on one profile, from which all recorded quantities follow.
 
-use asperity_contact::Branch;
-use asperity_contact::ClosedForm;
-use asperity_contact::Figures;
-use asperity_contact::Move;
-use asperity_contact::{CurvePoint, History, LegRecord, Reversal};
-use asperity_scene::Scene;
-use asperity_scene::{Governing, Regime};
+use asperity_contact::{Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Reversal};
+use asperity_scene::{Governing, Regime, Scene};
 
 /// Outcome of one loading on one profile. A figure that it does not have is `None`.
 pub(super) struct CaseOutcome<'o> {
@@ -125,8 +120,7 @@ impl CaseOutcome<'_> {
 mod tests {
     use super::*;
     use asperity_contact::Edges;
-    use asperity_scene::Simulation;
-    use asperity_scene::open;
+    use asperity_scene::{Simulation, open};
 
     #[test]
     fn shapes_of_known_heights() {

@@ -7,9 +7,7 @@ use super::criterion::{Criterion, long_ranged};
 use super::ensemble::Ensemble;
 use super::quantity::Quantity;
 use super::rough_contact::RoughContact;
-use asperity_scene::Governing;
-use asperity_scene::Regime;
-use asperity_scene::{Outcome, Scene};
+use asperity_scene::{Governing, Outcome, Regime, Scene};
 
 const TABOR: Criterion = Criterion::new(
     "Tabor number",

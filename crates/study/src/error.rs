@@ -1,7 +1,6 @@
 //! The errors of studies.
 
-use asperity_data::WriteError;
-use asperity_data::{memory_size, path_name};
+use asperity_data::{WriteError, memory_size, path_name};
 use asperity_half_space::HalfSpaceError;
 use asperity_scene::{RunError, Scene};
 use asperity_surface::SurfaceError;

@@ -4,8 +4,7 @@ use super::axis::Axis;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::AxisScale;
-use asperity_scene::Regime;
-use asperity_scene::RoughnessParameter;
+use asperity_scene::{Regime, RoughnessParameter};
 
 const LOGARITHMIC_RATIO: f64 = 50.0;
 

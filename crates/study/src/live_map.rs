@@ -185,9 +185,8 @@ mod tests {
     use crate::store::Folder;
     use crate::study_map::StudyMap;
     use crate::tables::merge;
-    use asperity_scene::Regime;
-    use asperity_scene::open;
     use asperity_scene::text::to_ron;
+    use asperity_scene::{Regime, open};
     use std::cell::Cell;
 
     const HURSTS: usize = 19;

@@ -6,8 +6,7 @@
 
 use super::error::StudyError;
 use super::plan::{PLAN_FILE, Plan};
-use asperity_data::path_name;
-use asperity_data::{hexadecimal, sha256_of};
+use asperity_data::{hexadecimal, path_name, sha256_of};
 use asperity_surface::Form;
 use asperity_surface::lines::{MeasuredRoughness, read_faces};
 use sha2::{Digest, Sha256};

@@ -8,11 +8,8 @@
 use super::error::StudyError;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
-use asperity_data::on_threads;
-use asperity_data::root_mean_square;
-use asperity_scene::Regime;
-use asperity_scene::{CheckedScene, Document};
-use asperity_scene::{RunError, Simulation};
+use asperity_data::{on_threads, root_mean_square};
+use asperity_scene::{CheckedScene, Document, Regime, RunError, Simulation};
 use asperity_surface::EquivalentLine;
 use asperity_surface::lines::{MeasuredRoughness, read_faces};
 use serde::Serialize;

@@ -2,9 +2,8 @@
 
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
-use asperity_scene::Governing;
 use asperity_scene::fields::{FIELDS, Field, Range, Tree};
-use asperity_scene::{Adhesion, Document, RoughnessParameter, Scene, SceneError, SceneErrors};
+use asperity_scene::{Adhesion, Document, Governing, RoughnessParameter, Scene, SceneError, SceneErrors};
 
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no such value. `computed` has
@@ -157,8 +156,7 @@ mod tests {
     use super::*;
     use crate::axis::Spacing;
     use crate::plan::Plan;
-    use asperity_scene::Simulation;
-    use asperity_scene::open;
+    use asperity_scene::{Simulation, open};
 
     fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, SceneErrors> {
         let axis = Axis::new(path, Spacing::List, vec![value], base).unwrap();

@@ -7,8 +7,7 @@ use crate::preloads::Staircase;
 use crate::profiles::Stop;
 use crate::results::Results;
 use crate::statistics::Statistics;
-use asperity_contact::Figures;
-use asperity_contact::Move;
+use asperity_contact::{Figures, Move};
 use asperity_data::AxisScale;
 use asperity_scene::{CheckedScene, Outcome, RunError, Simulation, Solver};
 

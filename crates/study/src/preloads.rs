@@ -7,12 +7,10 @@ use super::plan::PRELOAD;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::statistics::Statistics;
-use asperity_contact::Move;
-use asperity_contact::Reversal;
+use asperity_contact::{Move, Reversal};
 use asperity_data::{AxisScale, parse_quantity};
-use asperity_scene::CheckedScene;
 use asperity_scene::fields::LEG_FORCE;
-use asperity_scene::{RunError, Simulation};
+use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::RangeInclusive;
 
 /// Usual number of preloads, and what a text of preloads may be.

@@ -4,13 +4,9 @@ use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Streak;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
-use asperity_contact::ContactError;
-use asperity_contact::Move;
-use asperity_data::printable;
-use asperity_data::slope;
-use asperity_scene::Governing;
-use asperity_scene::{CheckedScene, Roughness, Solver};
-use asperity_scene::{Outcome, RunError, Simulation};
+use asperity_contact::{ContactError, Move};
+use asperity_data::{printable, slope};
+use asperity_scene::{CheckedScene, Governing, Outcome, Roughness, RunError, Simulation, Solver};
 use asperity_surface::SurfaceError;
 use std::mem::take;
 

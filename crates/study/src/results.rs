@@ -11,9 +11,7 @@ use super::recorder::{Recorded, Recorder, with_recorder};
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
 use asperity_data::AxisScale;
-use asperity_scene::Regime;
-use asperity_scene::{RunError, Simulation};
-use asperity_scene::{Scene, Solver};
+use asperity_scene::{Regime, RunError, Scene, Simulation, Solver};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

@@ -6,8 +6,7 @@ use super::grid::{Grid, GridLayer, across_and_up, scale_of};
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
-use asperity_data::AxisScale;
-use asperity_data::{format_quantity, parse_quantity};
+use asperity_data::{AxisScale, format_quantity, parse_quantity};
 
 /// Largest number of values of a second axis that is shown as curves. With more values the figure is a map.
 const MOST_CURVES: usize = 5;

@@ -1,7 +1,6 @@
 //! Statistics over random profiles: mean, spread and quartiles of a quantity, and numbers of profiles in each regime.
 
-use asperity_data::{format_range, format_rounded};
-use asperity_data::{mean, quantile, standard_deviation, student_quantile};
+use asperity_data::{format_range, format_rounded, mean, quantile, standard_deviation, student_quantile};
 use asperity_scene::Regime;
 use serde::Serialize;
 

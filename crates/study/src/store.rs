@@ -10,18 +10,18 @@ use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
 use super::recorder::Recorded;
 use super::shard::Shard;
-use asperity_data::{WriteError, open_regular, read_regular_text, sync_folder, write_new};
-use asperity_data::{path_name, printable};
+use asperity_data::{
+    WriteError, open_regular, path_name, printable, read_regular_text, sync_folder, write_new,
+};
 use asperity_scene::text::LONGEST_TEXT;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
-use std::fs;
 use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher, RandomState};
-use std::io;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
+use std::{fs, io};
 
 /// Version of the shard files.
 pub const STORE_VERSION: u32 = 1;

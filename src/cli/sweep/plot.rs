@@ -2,8 +2,7 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::OutputArguments;
-use asperity_report::Format;
-use asperity_report::{study_curves, study_figure, study_map};
+use asperity_report::{Format, study_curves, study_figure, study_map};
 use asperity_scene::Scene;
 use asperity_study::Results;
 use asperity_study::maps::{Selected, Selection};

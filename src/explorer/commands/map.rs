@@ -6,9 +6,8 @@ use crate::explorer::app::App;
 use crate::explorer::keys::key::direction;
 use crate::explorer::map::OpenStudy;
 use asperity_scene::{Document, SceneErrors};
-use asperity_study::Axis;
-use asperity_study::Plan;
 use asperity_study::maps::GridPlace;
+use asperity_study::{Axis, Plan};
 use crossterm::event::{KeyCode, KeyEvent};
 use std::sync::Arc;
 

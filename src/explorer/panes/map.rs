@@ -8,13 +8,11 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
-use asperity_data::grouped;
-use asperity_data::{format_range, format_rounded};
+use asperity_data::{format_range, format_rounded, grouped};
 use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use asperity_report::{study_curves, study_figure, study_map};
-use asperity_study::Plan;
 use asperity_study::maps::{Grid, GridCell, GridPlace, LiveMap};
-use asperity_study::{Axis, Quantity, Statistics};
+use asperity_study::{Axis, Plan, Quantity, Statistics};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 

@@ -8,8 +8,7 @@ use crate::explorer::text::Part;
 use crate::explorer::theme::{Appearance, Meaning};
 use asperity_data::format_quantity;
 use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
-use asperity_report::Report;
-use asperity_report::{Part as LinePart, Section};
+use asperity_report::{Part as LinePart, Report, Section};
 use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
 

@@ -3,8 +3,7 @@
 use super::levels::Edges;
 use crate::totals::GapScale;
 use crate::totals::sums_of_few;
-use asperity_data::in_parallel;
-use asperity_data::{OutOfMemory, emptied, push, reserve};
+use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
 /// Number of springs above which a second thread saves more time than it costs.
 pub const TWO_THREADS: usize = 1 << 17;

@@ -2,9 +2,7 @@
 
 use crate::scene::model::{Numerics, Solver};
 use asperity_contact::Edges;
-use asperity_data::format_rounded;
-use asperity_data::grouped;
-use asperity_data::slope;
+use asperity_data::{format_rounded, grouped, slope};
 use serde::{Serialize, Serializer};
 use strum::IntoStaticStr;
 

@@ -6,8 +6,7 @@
 use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
 use crate::scene::model::{Roughness, Scene};
 use asperity_contact::{Contact, ContactBuilder, ContactError, Modulus, Profile};
-use asperity_surface::Amplitude;
-use asperity_surface::Form;
+use asperity_surface::{Amplitude, Form};
 use serde::Serialize;
 use std::f64::consts::PI;
 

@@ -4,8 +4,7 @@
 //! maximum of d + F(d)/k reaches D. While D falls, it is the largest d at which the running minimum reaches D. Where dF/dd <
 //! −k, d + F(d)/k turns back, and the body jumps at constant D to the next d at which the instrument can hold it.
 
-use asperity_contact::Branch;
-use asperity_contact::{CurvePoint, Direction, Figures, History, LegRecord};
+use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord};
 
 /// Point of a force curve over the displacement D = d + F/k of an instrument of stiffness k.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -19,8 +19,7 @@ use super::text::{ron_float, ron_string};
 use super::tree::{Tree, in_ron, written};
 use asperity_contact::{Edges, Move};
 use asperity_data::{is_control, round_to};
-use asperity_surface::Form;
-use asperity_surface::Unit;
+use asperity_surface::{Form, Unit};
 
 /// Largest number of curve points of all loading stages together. Such a curve still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;

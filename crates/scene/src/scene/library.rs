@@ -1,8 +1,7 @@
 //! Sources of scenes: the built-in scenes, the user's own folder of scenes, and the working folder.
 
-use std::fs;
-use std::io;
 use std::path::{Component, Path, PathBuf, is_separator};
+use std::{fs, io};
 
 use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
@@ -10,8 +9,7 @@ use super::document::Document;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::text::index::Text;
 use super::typed::LONGEST_TEXT;
-use asperity_data::{ReadError, read_regular_text};
-use asperity_data::{path_name, printable};
+use asperity_data::{ReadError, path_name, printable, read_regular_text};
 
 /// Name of the built-in scene that the program opens if no other scene is named.
 pub const DEFAULT: &str = "pressure-sensitive";

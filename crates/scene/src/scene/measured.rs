@@ -3,8 +3,7 @@
 use super::fields::default_of;
 use asperity_surface::lines::MeasuredOptions;
 use asperity_surface::spectra::End;
-use asperity_surface::{AnalysisOptions, Detrend};
-use asperity_surface::{Cut, ReadOptions, Unit};
+use asperity_surface::{AnalysisOptions, Cut, Detrend, ReadOptions, Unit};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::Not;

@@ -10,8 +10,7 @@ use super::errors::did_you_mean;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{describe, find_scene, own_folder, own_names, own_scene, presets};
 use super::typed::LONGEST_TEXT;
-use asperity_data::printable;
-use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
+use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, printable, read_limited};
 
 /// Opens a scene. A name that ends in `.ron`, contains a path separator or belongs to a file is opened as a file. Other names
 /// are searched among the built-in scenes, then in the user's [`own_folder`]. A table of results in CSV repeats the scene

@@ -1,9 +1,8 @@
 //! Allowed values of fields: checks of values, and text for readers.
 
 use std::fmt;
-use std::ops::Bound;
 use std::ops::Bound::{Excluded, Included};
-use std::ops::RangeBounds;
+use std::ops::{Bound, RangeBounds};
 
 /// Allowed values of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,8 +3,7 @@
 use super::range::choice_name;
 use super::text::ron_float;
 use asperity_contact::Move;
-use asperity_data::shown;
-use asperity_data::{QuantityError, parse_quantity};
+use asperity_data::{QuantityError, parse_quantity, shown};
 use std::mem::discriminant;
 
 /// Largest number of stages of a loading.

@@ -6,8 +6,7 @@ use super::model::Scene;
 use super::range::Range;
 use super::stages::loading_text;
 use super::tree::Tree;
-use asperity_data::exact_quantity;
-use asperity_data::grouped;
+use asperity_data::{exact_quantity, grouped};
 
 /// Paths of fields on which the solution does not depend.
 const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numerics.samples"];

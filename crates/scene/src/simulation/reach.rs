@@ -1,8 +1,7 @@
 //! Loading stages beyond the reach of the model: the reason in words, and the nearest allowed target.
 
 use crate::scene::field::target_field;
-use asperity_contact::Contact;
-use asperity_contact::Move;
+use asperity_contact::{Contact, Move};
 use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 

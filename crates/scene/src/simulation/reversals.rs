@@ -10,9 +10,8 @@ use crate::analysis::reversal_map::ReversalMap;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::{Scene, Solver as SolverChoice};
-use asperity_contact::Move;
 use asperity_contact::motion::Body;
-use asperity_contact::{ContactError, Reversal};
+use asperity_contact::{ContactError, Move, Reversal};
 
 /// Largest number of grid points below the first turning point of a map, for each turning point.
 const MOST_BELOW: usize = 4;

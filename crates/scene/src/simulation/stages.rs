@@ -9,13 +9,13 @@ use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
-use asperity_contact::ClosedForm;
 use asperity_contact::motion::{Body, ContactTree, Leg, MovingBody, Stepwise, load_body};
-use asperity_contact::{Contact, ContactError, Edges, Figures, History, LegRecord, Move, Patch, Profile};
+use asperity_contact::{
+    ClosedForm, Contact, ContactError, Edges, Figures, History, LegRecord, Move, Patch, Profile,
+};
 use asperity_data::{check_room, emptied};
-use asperity_surface::Form;
 use asperity_surface::lines::{Histogram, Line, MeasuredRoughness, Synthesizer};
-use asperity_surface::{EquivalentLine, SurfaceError};
+use asperity_surface::{EquivalentLine, Form, SurfaceError};
 use std::mem::take;
 use std::path::PathBuf;
 use std::sync::Arc;

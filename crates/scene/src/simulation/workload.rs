@@ -3,8 +3,7 @@
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
 use crate::scene::model::{Observer, Roughness, Scene, Solver};
-use asperity_contact::CurvePoint;
-use asperity_contact::Edges;
+use asperity_contact::{CurvePoint, Edges};
 use serde::Serialize;
 
 /// Bytes per spring of the heights of the roughness or the gaps of the profile.

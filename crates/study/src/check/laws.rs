@@ -5,8 +5,7 @@ use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
     Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with,
 };
-use asperity_contact::Edges;
-use asperity_contact::{CurvePoint, Cycle, LegRecord};
+use asperity_contact::{CurvePoint, Cycle, Edges, LegRecord};
 use asperity_scene::{CheckedScene, Solver};
 
 const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];

@@ -3,8 +3,7 @@
 use super::modes::{Modes, phases};
 use super::spectrum::SelfAffine;
 use crate::error::SurfaceError;
-use asperity_data::in_parallel;
-use asperity_data::memory;
+use asperity_data::{in_parallel, memory};
 use asperity_fourier::{Complex64, ComplexToReal, plan_real_inverse};
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -2,9 +2,7 @@
 
 use super::reading::MOST_POINTS;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::gathered;
-use asperity_data::read_limited;
-use asperity_data::shown;
+use asperity_data::{gathered, read_limited, shown};
 use encoding_rs::WINDOWS_1252;
 use std::borrow::Cow;
 use std::collections::HashMap;

@@ -2,8 +2,7 @@
 //! around them, such as spikes of an instrument and grains of dust.
 
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{OutOfMemory, gathered};
-use asperity_data::{between, median};
+use asperity_data::{OutOfMemory, between, gathered, median};
 use std::ops::Range;
 
 /// Smallest share of points that must be measured for the others to be interpolated.

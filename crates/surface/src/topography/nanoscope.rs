@@ -5,8 +5,7 @@ use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::reading::Reading;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::gathered;
-use asperity_data::shown;
+use asperity_data::{gathered, shown};
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 

@@ -7,9 +7,7 @@
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::SIGNATURE;
-use asperity_data::shown;
-use asperity_data::{emptied, gathered};
+use asperity_data::{SIGNATURE, emptied, gathered, shown};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     const FORMAT: &str = "NumPy array";

@@ -5,8 +5,7 @@ use super::bytes::{Archive, Bytes, Number, Order, unpacked_size};
 use super::grid::{Digits, map_of};
 use super::reading::Reading;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::shown;
-use asperity_data::{emptied, gathered, push};
+use asperity_data::{emptied, gathered, push, shown};
 use encoding_rs::{Encoding, UTF_8};
 use roxmltree::{Document, Node, ParsingOptions};
 

@@ -71,8 +71,7 @@ pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceErr
 mod tests {
     use super::super::super::Unit;
     use super::*;
-    use asperity_data::text_table::HeadLines;
-    use asperity_data::text_table::Separator;
+    use asperity_data::text_table::{HeadLines, Separator};
 
     fn list(names: &str) -> Result<Option<[Option<usize>; 4]>, String> {
         let mut header = HeadLines::default();

@@ -14,9 +14,8 @@ use header::TextHeader;
 use super::Unit;
 use super::reading::Reading;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::PROVENANCE;
-use asperity_data::shown;
 use asperity_data::text_table::{COMMENT, each_line};
+use asperity_data::{PROVENANCE, shown};
 use std::ops::Range;
 use table::{Table, is_header};
 

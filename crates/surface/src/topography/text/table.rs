@@ -8,9 +8,8 @@ use super::columns::{List, list_of};
 use super::header::TextHeader;
 use super::{matrix, warnings};
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::shown;
 use asperity_data::text_table::{Decimal, ONE_MARK, Role, Separator, TextCell, TextColumn};
-use asperity_data::{gathered, push, reserve};
+use asperity_data::{gathered, push, reserve, shown};
 use std::ops::Range;
 
 /// Number of first columns whose printed digits are recorded, because they may be positions.
