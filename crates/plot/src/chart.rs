@@ -19,7 +19,8 @@ pub struct Figure {
     /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given, only the ratio of both
     /// counts.
     pub size: (f64, f64),
-    /// Lines that say how to repeat the figure: version, command and scene. Only an SVG document contains them, as metadata.
+    /// Lines that say how to compute the figure again: version, command and scene. Only an SVG document contains them, as
+    /// metadata.
     pub origin: String,
     /// Lines of text in a box below the legend, such as the numbers of the scene.
     pub parameters: Vec<Label>,

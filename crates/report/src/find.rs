@@ -19,7 +19,7 @@ pub struct FindReport<'a> {
     pub title: &'a str,
     /// Scene in which this number is searched.
     pub scene: &'a Scene,
-    /// Numbers found on each profile.
+    /// Answer: the numbers found on each profile.
     pub found: &'a Found,
 }
 

@@ -71,7 +71,7 @@ impl Report for Figure {
 }
 
 /// Writes a report in a format. `provenance` has the lines of [`scene_provenance`](crate::scene_provenance), which say how to
-/// repeat the result. CSV and SVG contain all lines, JSON only version and command, and the other formats none.
+/// compute the result again. CSV and SVG contain all lines, JSON only version and command, and the other formats none.
 ///
 /// # Errors
 /// Returns an error if the report lacks the form that the format needs, or if the output cannot be written.

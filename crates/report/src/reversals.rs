@@ -15,9 +15,9 @@ const MOST_ROWS: usize = 16;
 /// Largest number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
-/// Report on the unloadings of one profile from many turning points, the indentations where its loading ends, and on their
-/// Everett function. At a turning point and an indentation this function is half of the fall of the force on unloading from the
-/// one to the other.
+/// Report on the unloadings of one profile from many turning points, and on its Everett function. A turning point is an
+/// indentation at which the loading ends. The Everett function of a turning point and a smaller indentation is half of the fall
+/// of the force on unloading from the one to the other.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
     /// Title of the scene.

@@ -160,7 +160,7 @@ fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -
 /// Index of a loading stage, a point of its curve, and the displacement of the instrument in m.
 type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 
-/// Profile, whose table has the position x and the height z of every spring in m.
+/// A profile is a result with the form of a table: the position x and the height z of each spring in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
         let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));

@@ -23,7 +23,7 @@ pub type SpectrumPoint = (f64, f64);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,
-    /// Intended spectrum of the profile; empty for none.
+    /// Spectrum that the profile should have, by the scene or the measured surfaces; empty for none.
     pub line: Vec<SpectrumPoint>,
     /// Spectrum computed from the heights of the profile, averaged over ranges of wave numbers; empty for none.
     pub heights: Vec<SpectrumPoint>,
@@ -89,8 +89,8 @@ impl Spectra {
     }
 
     /// Returns the spectra of the measured surfaces of one body, or of both bodies in contact. Each [`Analysis`] is of one body.
-    /// For one body the fits to its spectrum are shown too. For two bodies the intended spectrum of the profile is for the sum
-    /// of both roughnesses.
+    /// For one body the fits to its spectrum are shown too. For two bodies [`Self::line`] is the spectrum of a profile with the
+    /// sum of both roughnesses.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),

@@ -39,7 +39,7 @@ pub struct PaneChart {
     pub contact: ContactRow,
 }
 
-/// Springs in contact along the horizontal axis of a chart.
+/// Row of signs below a chart that shows which springs along its horizontal axis are in contact.
 #[derive(Default)]
 pub struct ContactRow {
     /// Whether each spring is in contact, from left to right.
