@@ -79,8 +79,8 @@ impl<'a> Fit<'a> {
     /// times the noise counts by its logarithm, because the point is on the wrong side of a jump.
     ///
     /// Zero, drift and tilt of the force that were subtracted on reading are estimated anew for each set. If the residuals
-    /// remain larger than the noise, the search is repeated with other sets, and the better result is kept. If they are
-    /// still larger, each segment is divided into four parts. The error of a parameter is then the scatter of its value as
+    /// remain larger than the noise, the search is repeated with other sets, and the better result is kept. If they are still
+    /// larger, each segment is divided into four parts. The error of a parameter is then at least the scatter of its value as
     /// the weights of the parts change (jackknife).
     ///
     /// # Errors
