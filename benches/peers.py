@@ -152,7 +152,7 @@ def main():
     packages = ["asperity", *(peer.split("==")[0] for peer in PEERS)]
     print("Versions: " + ", ".join(f"{name} {version(name)}" for name in packages), time.strftime("(%B %Y)"))
     print("\n| map | contact | Asperity | ContactMechanics | tamaas |\n| --- | --- | --- | --- | --- |")
-    for cells in [128, 256]:
+    for cells in [256, 512]:
         for row in pressed(np, cells):
             print(row, flush=True)
     print("\n| pull-off of a sphere | CPU, ms | against the exact force |\n| --- | --- | --- |")

@@ -51,11 +51,11 @@ pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<St
         let Case { document, jobs, watch, .. } = case;
         let (free, instrument) = (arguments.free, document.scene().loading_stiffness);
         let (reading, stop) = (CurveOptions { instrument, ..arguments.reading }, || watch.stop());
+        let mut report = |done| watch.report(done, 0);
         if let Some(lines) = arguments.ensemble.lines {
             let options = arguments.ensemble.options(&free, lines).map_err(|error| error.to_string())?;
             let curves = curves.iter().map(|curve| Ok((curve.0.clone(), curve.read(&reading)?)));
             let curves = curves.collect::<Result<Vec<_>, Failure>>()?;
-            let mut report = |done| watch.report(done, 0);
             let control = Control::default().on_threads(jobs).stopped_by(&stop).reporting_to(&mut report);
             let fit = fit_ensemble(&curves, &document, &options, control)?;
             let has_roughness_errors = options.height_error.is_some() || options.hurst_error.is_some();
@@ -67,7 +67,6 @@ pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<St
         let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
         if let ([curve], true) = (&curves[..], is_one) {
             let (title, curve) = (curve.0.clone(), curve.read(&reading)?);
-            let mut report = |done| watch.report(done, 0);
             let fit = fit.run(&curve, Control::default().stopped_by(&stop).reporting_to(&mut report))?;
             return Ok(Report::new(move |format| {
                 bytes(Some(&fit.document), &FitReport { title: &title, curve: &curve, fit: &fit }, format)

@@ -109,7 +109,7 @@ impl Loop {
             })?;
             let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
             let (stages, figures) = (outcome.history.legs.clone(), outcome.figures);
-            let (title, outcome) = (document.title().to_owned(), Some(Arc::new(outcome)));
+            let (title, outcome) = (scene.title.clone(), Some(Arc::new(outcome)));
             Ok(Loop { stages, figures, stiffness, title, outcome })
         })
     }
@@ -118,8 +118,7 @@ impl Loop {
     fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
         let stages = self.stages.iter();
         let points = || stages.clone().flat_map(|stage| &stage.curve);
-        let numbered = stages.clone().zip(0_i64..);
-        let numbers = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]);
+        let numbers = stages.clone().zip(0_i64..).flat_map(|(stage, number)| vec![number; stage.curve.len()]);
         let counts = [numbers.collect(), points().map(|point| point.fragments as i64).collect()];
         let columns = [
             points().map(|point| point.indentation).collect(),

@@ -24,7 +24,6 @@ pub fn press<'py>(
         let stop = || watch.stop();
         Ok(HalfSpace::new(cells, boundary)?.press(&square, Load::Force(force), residual, &stop)?)
     })?;
-    let convolutions = found.convolutions as f64;
-    let numbers = [found.force, found.indentation, found.area, found.residual, convolutions];
+    let numbers = [found.force, found.indentation, found.area, found.residual, found.convolutions as f64];
     Ok(([found.pressure, found.gap].map(|map| array(py, map)), numbers))
 }

@@ -5,10 +5,9 @@ use crate::failure::Failure;
 use crate::force_loop::Loop;
 use asperity::data::Control;
 use asperity::scene::{Document, Simulation, estimate};
-use asperity::study::Axis;
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity::study::trust::MeasuredAdhesion;
-use asperity::study::{Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
+use asperity::study::{Axis, Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport, RunReport,
     scene_provenance,

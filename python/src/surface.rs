@@ -75,7 +75,6 @@ impl Surface {
     /// A scene of the equivalent line over the length of the scan, on a body of this effective modulus, Pa.
     fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
         let scene = self.arguments.scene_of(modulus, &self.report.faces, &self.report.line);
-        let scene = scene.map_err(|error| error.to_string())?;
-        Ok(Scene { document: Document::from_scene(&scene, "scene")? })
+        Ok(Scene { document: Document::from_scene(&scene.map_err(|error| error.to_string())?, "scene")? })
     }
 }

@@ -79,6 +79,7 @@ class Loops(unittest.TestCase):
     def test_a_loop_is_a_table_and_a_picture(self):
         loop = asp.load(sphere(256), **LOAD)
         self.assertTrue(loop._repr_svg_().startswith("<svg"))
+        self.assertNotIn(">scene<", loop._repr_svg_())
         self.assertRegex(repr(loop), r"^<Loop: pull_off 23\.\d+ µN, preload 100 µN, dissipated .* pJ>$")
 
 

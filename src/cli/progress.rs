@@ -1,7 +1,9 @@
-//! Progress on standard error: on a terminal a single line that changes.
+//! Progress on standard error, on a terminal a single line that changes, and the signals that end a long command.
 
 use std::io;
 use std::io::{IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize};
 
 #[derive(Default)]
 pub(super) struct ProgressLine {
@@ -34,4 +36,19 @@ impl ProgressLine {
             let _ = writeln!(io::stderr());
         }
     }
+}
+
+/// Returns the number of the first signal that asks the process to end, 0 until then; a second signal ends it at once.
+pub(super) fn stop_by_signal() -> io::Result<Arc<AtomicUsize>> {
+    let first = Arc::new(AtomicUsize::new(0));
+    #[cfg(unix)]
+    {
+        let stop = Arc::new(AtomicBool::new(false));
+        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+            signal_hook::flag::register_conditional_default(signal, Arc::clone(&stop))?;
+            signal_hook::flag::register(signal, Arc::clone(&stop))?;
+            signal_hook::flag::register_usize(signal, Arc::clone(&first), signal as usize)?;
+        }
+    }
+    Ok(first)
 }

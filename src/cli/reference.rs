@@ -2,9 +2,8 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, stop_by_signal};
 use super::scene::{ProfileArguments, SceneArguments};
-use super::sweep::run::stop_by_signal;
 use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
 use asperity_study::half_space::{Reference, ReferenceOptions};

@@ -51,8 +51,12 @@ fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     if forces.is_empty() && text.starts_with(':') {
         return Ok((None, count));
     }
-    let ends = Axis::parse_range(forces, "N")?;
-    Axis::of_preloads(ends, *Axis::PRELOADS.start(), AxisScale::Linear).map(|_| (Some(ends), count))
+    let ends = Axis::parse_range(forces, "N");
+    let checked = ends.and_then(|ends| {
+        Axis::of_preloads(ends, *Axis::PRELOADS.start(), AxisScale::Linear)?;
+        Ok((Some(ends), count))
+    });
+    checked.map_err(|error| error.to_string())
 }
 
 pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {

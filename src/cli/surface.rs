@@ -225,7 +225,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let adhesion = scene.filter(|_| is_asked).map(|scene| {
         let scene = scene.checked()?;
         let unasked = (scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS).then_some(LINES);
-        let solve = |lines: u32| MeasuredAdhesion::solve(&scene, &line, lines, threads(None));
+        let solve = |lines: u32| MeasuredAdhesion::of_line(&scene, &line, lines, threads(None));
         let solved = arguments.lines.or(unasked).map(solve).transpose();
         let solved = solved.map_err(|error| CliError::named(path_name(&arguments.files[0]), error))?;
         Ok::<_, CliError>((scene, solved))

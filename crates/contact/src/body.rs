@@ -13,8 +13,8 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// A rigid body that moves from target to target on its elastic foundation. It begins separated, at d = 0 just before first
-/// touch.
+/// A rigid body that moves from target to target on its springs: [`Body`], or [`Stepwise`](crate::motion::Stepwise). It is
+/// separated at first, at the indentation d = 0 just before first touch.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -31,25 +31,25 @@ use std::time::{Duration, Instant};
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 pub trait MovingBody {
-    /// Moves the body to a target and returns the record of the motion.
+    /// Moves the body to a target. Returns the force curve and the energies of this motion as a record.
     ///
     /// # Errors
-    /// Returns an error for a target out of reach. The body then stays in place.
+    /// Returns an error for a target that the contact cannot reach. The body then stays in place.
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
 
-    /// Returns the contact at all indentations of the present motion.
+    /// Returns the leg of the present motion, from which the contact at each of its indentations follows.
     fn leg(&self) -> Leg;
 
-    /// Returns the counts of computing work since the start.
+    /// Returns counts of the computing work for this body since it was created.
     fn work(&self) -> Work;
 
-    /// Returns the seconds spent on force curves and their extremes since the start. The time of finding the patches is not
-    /// included.
+    /// Returns the computing time in s for force curves and their extremes since the body was created. The time in which the
+    /// patches were found is not included.
     fn curve_seconds(&self) -> f64;
 }
 
-/// The exact solver: a rigid body with its position and the contact at all indentations of its present motion. Both are the
-/// whole state of the model.
+/// The exact solver: a rigid body with its present indentation and the [`Leg`] of its present motion. Indentation and leg
+/// together are the whole state of the model.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -73,7 +73,7 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// Result of [`Body::move_to`]: a motion of a body without a force curve.
+/// Result of [`Body::move_to`]: the leg of a motion and the range of its indentations.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -91,7 +91,7 @@ pub struct Body {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Motion {
-    /// Contact at all indentations of the motion.
+    /// Leg of the motion, from which the contact at each of its indentations follows.
     pub leg: Leg,
     /// Smallest indentation of the motion in m.
     pub low: f64,
@@ -101,16 +101,18 @@ pub struct Motion {
 }
 
 impl Body {
-    /// Creates a separated body at d = 0, just before first touch. Each motion records `samples` points of its force curve, at
-    /// least 2.
+    /// Creates a separated body at d = 0, just before first touch. The force curve of each motion is computed at `samples`
+    /// points, at least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at an indentation in m on a leg; the body can continue the motion of the leg.
+    /// Creates a body in the middle of a motion, at this indentation in m on this leg. The body can continue the motion or turn
+    /// back.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise). May also return
+    /// [`ContactError::OutOfMemory`].
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -121,7 +123,7 @@ impl Body {
         Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
     }
 
-    /// Returns the present point of the force curve.
+    /// Returns the point of the force curve at the present indentation.
     pub fn point(&self) -> CurvePoint {
         self.point_of(self.state)
     }
@@ -129,7 +131,7 @@ impl Body {
     /// Moves the body to a target without recording a force curve. Returns `None` if the body is there already.
     ///
     /// # Errors
-    /// Returns an error for a target out of reach. The body then stays in place.
+    /// Returns an error for a target that the contact cannot reach. The body then stays in place.
     pub fn move_to(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let Some(motion) = self.plan(target)? else { return Ok(None) };
         let state = match (motion.leg.direction(), motion.goal) {
@@ -262,15 +264,16 @@ impl Body {
         Ok(record)
     }
 
-    /// Loads this separated body once, and unloads it from the turning point of each target. Each turning point is reached from
-    /// separation at d = 0. A target force is reached where the loading first has at least this force. For a tensile force this
-    /// is at first touch, or while attraction draws the bodies together. Calls `see` with the index of each target and its
-    /// reversal, the shallowest turning point first. Each reversal has the forces at the ascending indentations `points` in m.
-    /// The body stays separated.
+    /// Computes the unloading to separation from several turning points. All turning points lie on one loading, which begins
+    /// separated at d = 0. There is one turning point for each target: where the loading reaches it. A target force is reached
+    /// where the loading first has at least this force. For a tensile force this is at first touch, or while adhesion draws the
+    /// bodies together. `see` is called with the index of each target and its [`Reversal`], in the order of growing indentation
+    /// at the turning point. The reversal has the forces at the indentations `points` in m, which ascend. The body itself stays
+    /// separated.
     ///
     /// # Errors
-    /// Returns an error for a target that is out of reach or without contact, [`ContactError::OutOfMemory`], or the first error
-    /// of `see`.
+    /// Returns an error for a target that the contact cannot reach, and for a target at which the body is not in contact. Also
+    /// returns the first error of `see`, and [`ContactError::OutOfMemory`].
     pub fn reversals(
         &mut self,
         targets: &[Move],
@@ -301,9 +304,10 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. Both loadings begin at separation. The first turns at first
-    /// touch, the second where the force is back at zero. A force is `None` if the contact does not pull, or if the loading
-    /// never returns to zero force. The body stays in place.
+    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them the body is loaded from separation and then
+    /// unloaded. The body turns at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0). An adhesion
+    /// force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading never returns
+    /// to zero force. The body itself stays in place.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -384,10 +388,11 @@ impl MovingBody for Body {
     }
 }
 
-/// Moves `solver` through a whole loading history. Calls `after` with the record and the leg of each completed stage.
+/// Moves the body `solver` through loading stages with these targets. `after` is called at the end of each stage with the
+/// record and the leg of the stage.
 ///
 /// # Errors
-/// Returns the error of the first stage that fails, or the first error of `after`.
+/// Returns the error of the first stage that fails, or the first error that `after` returns.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, load_body};
@@ -422,7 +427,7 @@ pub fn load_body(
     Ok(history)
 }
 
-/// The unloading from one turning point to separation, without a step error.
+/// The unloading from one turning point, the end of a loading, to separation. It is solved exactly, without load steps.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -446,12 +451,14 @@ pub struct Reversal {
     pub separation: f64,
     /// Energy in J dissipated on the way from separation to the turning point and back to separation.
     pub dissipated_energy: f64,
-    /// Forces in N at the given indentations up to the turning point, in their order. Below the separation the force is 0.
+    /// Forces in N on unloading, at the indentations that [`Contact::reversals`] was given. Indentations above the turning
+    /// point are left out. At indentations below `separation` the force is 0.
     pub forces: Vec<f64>,
 }
 
 impl Reversal {
-    /// Returns the adhesion force F_a in N, minus the smallest force; `None` if the smallest force is above zero.
+    /// Returns the adhesion force F_a in N: the smallest force with the opposite sign. Returns `None` if the smallest force is
+    /// above zero.
     pub fn adhesion_force(&self) -> Option<f64> {
         // Not −F: that would make a force of zero negative.
         Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)

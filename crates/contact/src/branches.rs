@@ -9,7 +9,7 @@ pub(super) const ROUNDING: f64 = 1e-9;
 /// Relative motion that counts as rounding, for a force or displacement that is reached again.
 const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 
-/// Consecutive loading stages of a history that move the body in one direction, as one motion.
+/// Consecutive loading stages that move the body in the same direction, taken together as one motion.
 ///
 /// ```
 /// use asperity_contact::Branch;
@@ -49,7 +49,7 @@ impl Branch {
         branches
     }
 
-    /// Returns the last branch that unloads a body in contact; `None` if there is none.
+    /// Returns the last branch that unloads a body in contact; `None` if no branch does.
     pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
         let unloads = |branch: &Branch| {
             branch.direction == Direction::Unloading && branch.touching(legs).next().is_some()
@@ -63,11 +63,11 @@ impl Branch {
         touching(legs, self.stages.clone(), self.direction)
     }
 
-    /// Finds the preload, the point of the largest force while loading, and the index of its stage. Only stages after the last
-    /// separation and before the last unloading count.
+    /// Finds the preload, the point of the largest force on loading, and the index of its stage. Only the stages between the
+    /// last unloading and the separation before this unloading count.
     ///
     /// ```
-    /// use asperity_contact::{Contact, Modulus, Move, Profile};
+    /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};
     ///
     /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
     /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -88,7 +88,7 @@ impl Branch {
         largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
     }
 
-    /// Finds the pull-off, the point of the smallest force of the last unloading in contact, and the index of its stage. `None` if
+    /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of its stage. Returns `None` if
     /// this force is above zero, or if the unloading ends in contact while the force still falls.
     pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let unloading = Branch::last_unloading(legs)?;
@@ -99,7 +99,8 @@ impl Branch {
         Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
     }
 
-    /// Returns the point of the smallest force in contact, and the index of its stage; `None` without contact.
+    /// Returns the point of the smallest force while the branch is in contact, and the index of its stage. Returns `None` if
+    /// the branch has no contact.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let smallest = self.touching(legs).map(|(stage, leg)| (stage, leg.smallest));
         // Of equal forces the one at the smallest indentation, as on one stage.

@@ -4,8 +4,8 @@
 use super::modulus::Modulus;
 use std::f64::consts::PI;
 
-/// Closed forms of a body with the equivalent profile g(x) = c |x|ⁿ on an elastic half-space with adhesion. Force and
-/// indentation follow from the contact radius.
+/// Closed-form solution for a body with the equivalent profile g(x) = c |x|ⁿ on an elastic half-space with adhesion. It gives
+/// the force and the indentation at any contact radius.
 ///
 /// ```
 /// use asperity_contact::ClosedForm;
@@ -31,8 +31,9 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). Here γ is the work of adhesion in
-    /// J/m² and E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
+    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L in m. Here γ is the work of
+    /// adhesion in J/m² and E* the effective modulus in Pa. The formula is eq. (14) of Popov and Filippov (2012), after Kendall
+    /// (1971).
     pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
         (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
     }
@@ -97,8 +98,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. No force of the
-    /// contact is smaller.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This is the
+    /// smallest force that the contact can have.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);

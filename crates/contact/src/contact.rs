@@ -10,8 +10,8 @@ use super::modulus::Modulus;
 use super::profile::Profile;
 use std::sync::{Arc, OnceLock};
 
-/// A rigid profile on an elastic half-space, with or without adhesion. Its forces under any loading are exact, without a step
-/// error.
+/// A rigid profile on an elastic half-space, with or without adhesion. Its forces under any loading are solved exactly, without
+/// load steps.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -67,7 +67,8 @@ impl ContactBuilder {
         self.works_of_adhesion([work; 2])
     }
 
-    /// Sets two works of adhesion in J/m²: γ₁ for closing the interface and γ for opening it. γ₁ is at most γ.
+    /// Sets two works of adhesion `[γ₁, γ]` in J/m². γ₁ is gained where the interface closes, γ is spent where it opens, and γ₁
+    /// ≤ γ.
     #[must_use]
     pub fn works_of_adhesion(self, works: [f64; 2]) -> Self {
         ContactBuilder { works, ..self }
@@ -80,13 +81,13 @@ impl ContactBuilder {
         ContactBuilder { loading_stiffness: stiffness, ..self }
     }
 
-    /// Sets the edge model of the contact patches. The default is [`Edges::SubCell`], edges between springs.
+    /// Sets where the edges of contact patches may lie. The default is [`Edges::SubCell`], anywhere between springs.
     #[must_use]
     pub fn edges(self, edges: Edges) -> Self {
         ContactBuilder { edges, ..self }
     }
 
-    /// Builds the contact.
+    /// Builds the contact from the values set.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a value out of its range.
@@ -120,8 +121,8 @@ impl Contact {
         Contact { edges: Edges::Grid, loading_stiffness: f64::INFINITY, closing, ..self.clone() }
     }
 
-    /// Begins to build a contact with another modulus and the same profile and edge model. The defaults are no adhesion and a
-    /// rigid instrument.
+    /// Begins to build a contact with another modulus and the same profile and edge model. The new contact has no adhesion and
+    /// a rigid instrument unless the builder sets them.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -141,7 +142,7 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force of full contact in N. Without adhesion the last spring touches the rigid body at this force.
+    /// Returns the force in N at which a contact without adhesion becomes full: the last spring touches the rigid body.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};
@@ -157,23 +158,23 @@ impl Contact {
         self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
     }
 
-    /// Returns the displacement D = d + F/k in m of the instrument that moves the body, at an indentation d in m and a force F
-    /// in N.
+    /// Returns the displacement D = d + F/k in m of the drive of the instrument of stiffness k that moves the body. The
+    /// indentation d is in m, the force F in N.
     pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
         indentation + force / self.loading_stiffness
     }
 
-    /// Returns the profile, which other contacts may share.
+    /// Returns the profile of the rigid body.
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
 
-    /// Returns the gaps along the profile in m.
+    /// Returns the gap of each spring in m: the depth of the profile there below its highest point.
     pub fn gaps(&self) -> &[f64] {
         self.profile.gaps()
     }
 
-    /// Returns the edge model of the contact patches.
+    /// Returns where the edges of contact patches may lie.
     pub fn edges(&self) -> Edges {
         self.edges
     }
@@ -188,8 +189,8 @@ impl Contact {
         self.foundation.spring_stiffness()
     }
 
-    /// Returns half the distance between the outermost edges of the contact in m; zero in separation. `patches` and `point`
-    /// belong to the same state of this contact.
+    /// Returns half the distance between the outermost edges of the contact in m; zero in separation. `patches` are the contact
+    /// patches at the point `point` of the force curve.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         self.foundation.contact_radius(patches, point)
     }

@@ -11,7 +11,8 @@ use super::target::Move;
 /// Number of samples of the force curve of a stage, if none is given.
 const SAMPLES: usize = 512;
 
-/// Options of [`Contact::load_with`]: samples and further indentations of the force curve, and a function before each stage.
+/// Options of [`Contact::load_with`]: the number of points of the force curve, further indentations at which it is computed,
+/// and a function that is called before each stage.
 ///
 /// ```
 /// use asperity_contact::{Contact, ContactError, LoadOptions, Modulus, Move, Profile};
@@ -35,29 +36,30 @@ pub struct LoadOptions<'a> {
 }
 
 impl<'a> LoadOptions<'a> {
-    /// Sets the number of samples of the force curve on each loading stage, from 2 to a million. The default is 512. Extremes
-    /// of the force are exact for any number of samples.
+    /// Sets the number of points at which the force curve of each loading stage is computed, from 2 to a million. The default
+    /// is 512. The largest and the smallest force are exact for any number of points.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         LoadOptions { samples: Some(samples), ..self }
     }
 
-    /// Sets indentations in m, in ascending order. [`Cycle::at`] returns the point of the force curve at each of them that a
-    /// stage passes.
+    /// Sets further indentations in m, in ascending order, at which the force curve is computed. [`Cycle::at`] returns the
+    /// points of a stage at the indentations that the stage passes.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions { indentations, ..self }
     }
 
-    /// Sets a function that is called before each stage with the index of the stage, from 0. If it returns false, the loading
-    /// ends with [`ContactError::Interrupted`].
+    /// Sets a function that is called before each stage with the index of the stage, from 0. If the function returns false, the
+    /// loading ends with [`ContactError::Interrupted`].
     #[must_use]
     pub fn before_stage(self, proceed: &'a mut dyn FnMut(usize) -> bool) -> Self {
         LoadOptions { before_stage: Some(proceed), ..self }
     }
 }
 
-/// Result of a loading history that begins separated: force curve, figures and final patches.
+/// Result of loading a separated body through several stages: the force curve, figures such as the pull-off force, and the
+/// patches in contact at the end.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -84,7 +86,8 @@ pub struct Cycle {
     leg: Leg,
 }
 
-/// Force curve of a loading history in columns of equal length. Each row is one point, in the order of the motion.
+/// Force curve of all loading stages as columns of equal length. The values with the same index in all columns describe one
+/// point of the curve. The points are in the order of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -101,16 +104,16 @@ pub struct Cycle {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Curve {
-    /// Index of the loading stage of each point, from 0.
+    /// Index of the loading stage to which each point belongs, from 0.
     pub stage: Vec<usize>,
     /// Indentation d of each point in m.
     pub indentation: Vec<f64>,
     /// Force F at each point in N; compression is positive.
     pub force: Vec<f64>,
-    /// Displacement D = d + F/k at each point in m, of the instrument of stiffness k that moves the body. For a rigid
-    /// instrument it equals the indentation.
+    /// Displacement D = d + F/k in m, at each point, of the drive of the instrument that moves the body. Here k is the
+    /// stiffness of the instrument. If the instrument is rigid, D equals d.
     pub displacement: Vec<f64>,
-    /// Length in contact at each point in m.
+    /// Sum of the lengths of all contact patches at each point in m.
     pub contact_length: Vec<f64>,
     /// Number of contact patches at each point.
     pub patches: Vec<u64>,
@@ -119,20 +122,22 @@ pub struct Curve {
 }
 
 impl Contact {
-    /// Loads the separated body through these loading stages, one after the other.
+    /// Moves the body, which is separated at first, through these loading stages one after the other. Each stage ends where the
+    /// body reaches its target.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target
-    /// that the contact cannot reach, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and [`ContactError::Stage`] for a
+    /// target that the contact cannot reach. May also return [`ContactError::OutOfMemory`].
     pub fn load(&self, stages: &[Move]) -> Result<Cycle, ContactError> {
         self.load_with(stages, LoadOptions::default())
     }
 
-    /// Loads the separated body as [`Contact::load`] does, with options.
+    /// Moves the body as [`Contact::load`] does. The options set the points of the force curve, and a function that may stop
+    /// the loading.
     ///
     /// # Errors
-    /// Returns the errors of [`Contact::load`], [`ContactError::Value`] for an option out of its range, and
-    /// [`ContactError::Interrupted`].
+    /// Returns the errors of [`Contact::load`], and [`ContactError::Value`] for an option out of its range. Returns
+    /// [`ContactError::Interrupted`] if the function of [`LoadOptions::before_stage`] returned false.
     ///
     /// ```
     /// use asperity_contact::{Contact, LoadOptions, Modulus, Move, Profile};
@@ -168,12 +173,13 @@ impl Contact {
         Ok(Cycle { figures: Figures::of(&history), history, at, leg: body.leg() })
     }
 
-    /// Finds the pull-off after each of several turning points. All turning points are on one loading, so the cost is only that
-    /// of a few loadings. The body loads from separation to each of these `ends` and unloads to separation. Each result equals
-    /// the result of [`Contact::load`] with this end and [`Move::ToSeparation`]. A tensile force is reached at first touch, or
-    /// while adhesion draws the bodies together.
+    /// Computes the unloading to separation from each of several turning points. A turning point is the end of a loading from
+    /// separation to one of the targets `ends`. The results are the same as from [`Contact::load`] with this target and then
+    /// [`Move::ToSeparation`], but the loading is computed only once for all targets. A tensile target force is reached at
+    /// first touch, or while adhesion draws the bodies together.
     ///
-    /// `indentations` are in m, in ascending order. [`Reversal::forces`] has the force at each of them up to the turning point.
+    /// `indentations` are in m, in ascending order. [`Reversal::forces`] has the force on unloading at each of these
+    /// indentations up to the turning point.
     ///
     /// ```
     /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -192,7 +198,8 @@ impl Contact {
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and for indentations that do not
-    /// ascend. Returns [`ContactError::Stage`] for a target without contact or out of reach, and [`ContactError::OutOfMemory`].
+    /// ascend. Returns [`ContactError::Stage`] for a target that the contact cannot reach, and for a target at which the body
+    /// is not in contact. May also return [`ContactError::OutOfMemory`].
     pub fn reversals(&self, ends: &[Move], indentations: &[f64]) -> Result<Vec<Reversal>, ContactError> {
         check_targets(ends)?;
         check_ascending(indentations)?;
@@ -242,44 +249,46 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
 }
 
 impl Cycle {
-    /// Returns the pull-off force in N, minus the smallest force of the last unloading, which may take several stages. `None`
-    /// if the smallest force is above zero, or if the unloading ends in contact while the force still falls.
+    /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite sign. The last unloading
+    /// may consist of several stages. Returns `None` if the smallest force is above zero, or if the unloading ends in contact
+    /// while the force still falls.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
     }
 
-    /// Returns the indentation at the pull-off force in m; `None` without a pull-off force.
+    /// Returns the indentation in m at which the pull-off force acts; `None` without a pull-off force.
     #[must_use]
     pub fn pull_off_indentation(&self) -> Option<f64> {
         self.figures.pull_off_indentation
     }
 
-    /// Returns the preload in N, the largest force while loading. Only stages after the last separation and before the last
-    /// unloading count. `None` if no such stage loads the body in contact.
+    /// Returns the preload in N, the largest force on loading. Only the stages between the last unloading and the separation
+    /// before this unloading count. Returns `None` if none of these stages loads the body in contact.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
     }
 
-    /// Returns the dissipated energy in J; `None` if the history ends in contact.
+    /// Returns the energy in J dissipated in the contact over all stages; `None` if the last stage ends in contact.
     #[must_use]
     pub fn dissipated_energy(&self) -> Option<f64> {
         self.figures.dissipated_energy
     }
 
-    /// Returns the preload, the pull-off force, their indentations and ratio, and the dissipated energy.
+    /// Returns all figures at once: the preload and the pull-off force, the indentations at which they act, the ratio of the
+    /// two forces, and the dissipated energy.
     #[must_use]
     pub fn figures(&self) -> Figures {
         self.figures
     }
 
-    /// Returns the points of the force curve of all loading stages in their order.
+    /// Returns all points of the force curve, stage after stage, in the order of the motion.
     pub fn points(&self) -> impl Iterator<Item = &CurvePoint> {
         self.history.legs.iter().flat_map(|leg| &leg.curve)
     }
 
-    /// Returns the force curve of all loading stages in columns.
+    /// Returns the force curve of all stages as columns, one for each quantity.
     #[must_use]
     pub fn curve(&self) -> Curve {
         let mut curve = Curve::default();
@@ -298,20 +307,21 @@ impl Cycle {
         curve
     }
 
-    /// Returns the points of a stage at all [`LoadOptions::indentations`] that the stage passes, in ascending order. The slice
-    /// is empty for a stage that does not exist.
+    /// Returns the points of a stage at the indentations of [`LoadOptions::indentations`] that the stage passes. The
+    /// indentations ascend, on unloading too. The slice is empty for a stage that does not exist.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the records of the loading stages, with their curves, exact extremes and released energies.
+    /// Returns one record for each loading stage: its force curve, its largest and smallest force, and the elastic energy that
+    /// it releases.
     #[must_use]
     pub fn stages(&self) -> &[LegRecord] {
         &self.history.legs
     }
 
-    /// Returns the contact patches at the end of the history from left to right, with their edges, forces and stretches.
+    /// Returns the edges, the force and the stretch of each contact patch at the end of the last stage, from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
         let end = self.history.legs.last().and_then(LegRecord::end_in_contact);

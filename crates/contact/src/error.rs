@@ -37,23 +37,23 @@ pub enum ContactError {
         /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
-    /// A stage of a loading is refused.
+    /// A loading stage cannot be computed; the fields say which stage and why.
     #[error("stage {}: {}", index + 1, reason.in_words(*target))]
     Stage {
         /// Index of the stage, from 0.
         index: usize,
         /// Target of the stage.
         target: Move,
-        /// Reason of the refusal, an error of another variant.
+        /// Reason why it cannot be computed, an error of another variant.
         reason: Box<ContactError>,
     },
     /// An array does not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// A target is infinite or not a number; the field has its value.
+    /// A target is infinite or not a number; the field has the value of the target.
     #[error("{0} is not finite; allowed: finite numbers")]
     NotFinite(f64),
-    /// A separated body has a tensile force as its target.
+    /// A body that is separated cannot move to a tensile force.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
     /// A turning point lies where the body is not in contact.
@@ -68,7 +68,7 @@ pub enum ContactError {
     /// The force of the target is not reached at any finite indentation.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,
-    /// The stepwise solver would need too many steps; the field has the length of a step in m.
+    /// The [stepwise solver](crate::motion::Stepwise) would need too many steps; the field has the length of a step in m.
     #[error(
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
@@ -91,7 +91,7 @@ impl ContactError {
         if let ContactError::Stage { index, .. } = self { Some(*index) } else { None }
     }
 
-    /// Returns the smallest force in N that the contact bears, if a stage was refused because of a smaller target force.
+    /// Returns the smallest force in N that the contact bears, if a stage has a target force below it; `None` for other errors.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() { Some(*smallest) } else { None }
     }
@@ -102,7 +102,8 @@ impl ContactError {
         matches!(self.reason(), NothingToPull | DetachesBefore { .. } | OutOfReach)
     }
 
-    /// Describes in words why a body does not move to a target. Forces are rounded into the allowed range.
+    /// Describes in words why a body does not move to a target. A force that limits the target is rounded into the allowed
+    /// range.
     pub fn in_words(&self, target: Move) -> String {
         match (self, target) {
             (&ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {

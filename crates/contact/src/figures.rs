@@ -21,25 +21,26 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n in N, the largest force while loading after the last separation and before the last unloading. `None` if no
-    /// such stage loads the body in contact.
+    /// Preload F_n in N, the largest force on loading. Only the stages between the last unloading and the separation before
+    /// this unloading count. `None` if none of these stages loads the body in contact.
     pub preload: Option<f64>,
-    /// Indentation at the preload in m; `None` without a preload.
+    /// Indentation in m at which the preload acts; `None` without a preload.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a in N, minus the smallest force of the last unloading, which may take several stages. `None` if the
-    /// smallest force is above zero, or if the unloading ends in contact while the force still falls.
+    /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign. The last unloading may
+    /// consist of several stages. `None` if the smallest force is above zero, or if the unloading ends in contact while the
+    /// force still falls.
     pub adhesion_force: Option<f64>,
-    /// Adhesion coefficient F_a/F_n; `None` without an adhesion force or a compressive preload.
+    /// Adhesion coefficient F_a/F_n; `None` if there is no adhesion force, or if the preload is not compressive.
     pub adhesion_coefficient: Option<f64>,
     /// Indentation in m at the smallest force of the last unloading; `None` without an adhesion force. The force hardly changes
-    /// near its minimum, so the relative error of this indentation exceeds the error of the force.
+    /// near its minimum, so this indentation has a larger relative error than the smallest force.
     pub pull_off_indentation: Option<f64>,
-    /// Dissipated energy in J; `None` if the history ends in contact.
+    /// Energy in J dissipated in the contact over all stages; `None` if the last stage ends in contact.
     pub dissipated_energy: Option<f64>,
 }
 
 impl Figures {
-    /// Computes the figures of a history.
+    /// Computes preload, pull-off and dissipated energy from the records of a history.
     pub fn of(history: &History) -> Self {
         let legs = &history.legs;
         let ends_separated =
@@ -51,8 +52,8 @@ impl Figures {
         )
     }
 
-    /// Computes the figures of a history that loads from separation to the target `leg` and unloads to separation. The target
-    /// is the turning point of `reversal`.
+    /// Computes the figures of a loading from separation to the target `leg`, followed by the unloading `reversal` back to
+    /// separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         Figures::at(
@@ -83,7 +84,7 @@ impl Figures {
     }
 }
 
-/// Kind of a marked point of a force curve.
+/// Name of a special point of a force curve: a jump, the preload or the pull-off.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -99,18 +100,18 @@ impl Figures {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// First point in contact, if the contact forms in a jump and the force there is tensile.
+    /// First point in contact after a jump into contact, if the force there is tensile.
     JumpIn,
-    /// Point of the preload; see [`Branch::preload`].
+    /// Point of the largest force on loading, the preload; see [`Branch::preload`].
     Preload,
-    /// Point of the pull-off, if the force there is tensile; see [`Branch::pull_off`].
+    /// Point of the smallest force on unloading, if this force is tensile; see [`Branch::pull_off`].
     PullOff,
     /// Last point in contact after the pull-off, if the contact is lost there in a jump.
     JumpOut,
 }
 
 impl Mark {
-    /// Finds the marked points of a loading history, in the order of the [`Mark`] variants.
+    /// Finds the points of a loading history that have a mark, in the order of the variants of [`Mark`].
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
         let into_contact = |leg: &LegRecord| {
             let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
@@ -140,7 +141,7 @@ impl Mark {
         found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
     }
 
-    /// Returns the technical name of the mark, such as `pull-off`.
+    /// Returns the name of the mark as figures print it, such as `pull-off`.
     pub fn name(self) -> &'static str {
         match self {
             Mark::JumpIn => "jump-in",

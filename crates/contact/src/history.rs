@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of one loading stage, the motion of a body to one target.
+/// Record of one loading stage, the motion of a body to one target: the force curve, its extremes and the energies.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -26,26 +26,29 @@ use std::ops::Range;
 pub struct LegRecord {
     /// Target of the motion.
     pub target: Move,
-    /// Direction of the motion.
+    /// Direction of the motion; loading for a body that stays in place.
     pub direction: Direction,
-    /// Force curve of the motion: the samples, and on unloading also the points of the smallest force and of the smallest
-    /// displacement of the instrument. A jump into or out of contact has one point before it and one point after it.
+    /// Points of the force curve, in the order of the motion. On unloading the points of the smallest force and of the smallest
+    /// displacement of the instrument are among them. A jump into or out of contact has one point before it and one point after
+    /// it.
     pub curve: Vec<CurvePoint>,
-    /// On loading the point of the largest force, exact to rounding; on unloading the first point.
+    /// Point of the largest force. On loading it is exact to rounding. On unloading it is the first point of the motion.
     pub largest: CurvePoint,
-    /// On unloading the point of the smallest force, exact to rounding; on loading the point of the smallest force in `curve`.
+    /// Point of the smallest force. On unloading it is exact to rounding. On loading it is the point of the smallest force
+    /// among the points in `curve`.
     pub smallest: CurvePoint,
-    /// Number of springs that attached.
+    /// Number of springs that attached in this stage.
     pub attached: u64,
-    /// Number of springs that detached.
+    /// Number of springs that detached in this stage.
     pub detached: u64,
-    /// Released elastic energy in J: ½ Δk Σ e² over the springs that detached with a stretch e, minus the same sum over the
-    /// springs that attached. The energy is negative where adhesion stretches springs. It equals the work ∫F dd of the motion
-    /// minus the growth of the stored elastic energy. Over a closed loop it sums to the dissipated energy.
+    /// Elastic energy in J that springs release when they detach, minus the energy that they gain when they attach. A spring of
+    /// stiffness Δk that detaches or attaches with the stretch e counts with ½ Δk e². The released energy equals the work ∫F dd
+    /// of the motion minus the growth of the elastic energy stored in the springs. Its sum over a closed loop is the dissipated
+    /// energy.
     pub released_energy: f64,
-    /// Energy in J that a compliant instrument and the moving body lose in the jumps of the motion, exact for any number of
-    /// samples. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over its stages. Consecutive
-    /// stages in one direction count as one motion.
+    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. It is exact for any number of
+    /// points in `curve`. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over all stages.
+    /// For this energy consecutive stages in one direction count as one motion.
     pub jump_energy: f64,
 }
 
@@ -125,7 +128,7 @@ impl LegRecord {
     }
 }
 
-/// A whole loading history: the records of its motions, the final patches and the computing work.
+/// Result of [`load_body`](crate::motion::load_body): the records of all stages, the patches at the end and the computing work.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, load_body};
@@ -140,15 +143,15 @@ impl LegRecord {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    /// Records of the loading stages, in order.
+    /// One record for each loading stage, in the order of the stages.
     pub legs: Vec<LegRecord>,
     /// Patches in contact after the last stage, from left to right.
     pub contacts: Vec<Patch>,
-    /// Counts of the computing work.
+    /// Counts of the computing work for all stages.
     pub work: Work,
 }
 
-/// Counts of computing work. Unlike times, they are the same on every machine.
+/// Counts of computing work, such as evaluated rules and passes over a tree. Unlike times, they are the same on every machine.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -171,33 +174,34 @@ pub struct Work {
     pub springs: u64,
     /// Number of random phases drawn for the profile.
     pub random_phases: u64,
-    /// Number of Fourier transforms of the whole profile.
+    /// Number of Fourier transforms over the whole profile.
     pub transforms: u64,
-    /// Number of nodes of the contact tree, see [`ContactTree`](crate::motion::ContactTree).
+    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree), the places where two patches can merge.
     pub tree_nodes: u64,
-    /// Number of passes over the contact tree for loadings.
+    /// Number of times that the solver passed over the contact tree to compute a loading.
     pub loading_passes: u64,
-    /// Number of passes over the contact tree for unloadings.
+    /// Number of times that the solver passed over the contact tree to compute an unloading.
     pub unloading_passes: u64,
-    /// Number of passes over the contact tree for the adhesion forces F_a(d=0) and F_a(F=0).
+    /// Number of times that the solver passed over the contact tree to compute the adhesion forces F_a(d=0) and F_a(F=0).
     pub passes_without_preload: u64,
-    /// Number of evaluations of the rule of Hess.
+    /// Number of times that the rule of Hess was evaluated for a patch.
     pub hess_evaluations: u64,
-    /// Number of attachments and detachments sorted by indentation in the search for extremes of the force.
+    /// Number of events that were sorted by indentation to find extremes of the force. An event is an indentation at which
+    /// springs attach or detach.
     pub events_sorted: u64,
-    /// Number of springs that attached during the loading history. Files call it `joins`.
+    /// Number of springs that attached during the loading history. In result files this field is `joins`.
     #[cfg_attr(feature = "serde", serde(rename = "joins"))]
     pub attached: u64,
-    /// Number of springs that detached during the loading history. Files call it `leaves`.
+    /// Number of springs that detached during the loading history. In result files this field is `leaves`.
     #[cfg_attr(feature = "serde", serde(rename = "leaves"))]
     pub detached: u64,
-    /// Number of steps of the stepwise solver.
+    /// Number of load steps of the [stepwise solver](crate::motion::Stepwise).
     pub steps: u64,
-    /// Number of relaxation sweeps of the stepwise solver over the profile.
+    /// Number of times that the stepwise solver swept over all springs to relax to equilibrium.
     pub relaxation_sweeps: u64,
-    /// Number of springs that the stepwise solver visited in relaxation sweeps.
+    /// Number of visits to springs by the stepwise solver, which moves in load steps. A spring counts again at each visit.
     pub spring_updates: u64,
-    /// Number of heights counted into the histogram of heights.
+    /// Number of heights that were sorted into the bins of a histogram of heights.
     pub heights_binned: u64,
 }
 
@@ -208,7 +212,7 @@ impl Work {
     }
 }
 
-/// Direction of a motion.
+/// Direction in which a body moves.
 ///
 /// ```
 /// use asperity_contact::{Contact, Direction, Modulus, Move, Profile};
@@ -230,7 +234,7 @@ pub enum Direction {
     Unloading,
 }
 
-/// One point of a force curve.
+/// One point of a force curve: indentation, force, contact and stored energy.
 ///
 /// ```
 /// use asperity_contact::CurvePoint;
@@ -245,13 +249,13 @@ pub struct CurvePoint {
     pub indentation: f64,
     /// Force F in N; compression is positive.
     pub force: f64,
-    /// Length in contact in m.
+    /// Sum of the lengths of all contact patches in m.
     pub contact_length: f64,
     /// Number of springs in contact.
     pub springs: u64,
     /// Number of contact patches.
     pub fragments: u64,
-    /// Stored elastic energy in J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
+    /// Elastic energy stored in the springs in J: ½ Δk Σ (d − c)² over all springs in contact, where c is the gap of a spring.
     pub stored_energy: f64,
 }
 
@@ -261,7 +265,8 @@ impl CurvePoint {
         CurvePoint { indentation, ..CurvePoint::default() }
     }
 
-    /// Returns the displacement D = d + F/k in m of an instrument of stiffness k (N/m) that holds the body at this point.
+    /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body at this point. The
+    /// instrument has the stiffness k = `stiffness` in N/m.
     pub fn displacement(&self, stiffness: f64) -> f64 {
         self.indentation + self.force / stiffness
     }
@@ -296,8 +301,7 @@ impl Patch {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Finds the contact patches from left to right. `contact` yields true for each spring in contact and false for each free
-    /// spring.
+    /// Finds the contact patches from left to right. `contact` has one item for each spring, true for a spring in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {

@@ -4,31 +4,35 @@
 //!
 //! # Names by task
 //!
-//! * A contact: [`Profile`], [`Modulus`], [`Edges`], and [`Contact`] from a [`ContactBuilder`].
-//! * Loading it: [`Move`]s with [`LoadOptions`], the turning points of [`Contact::reversals`] with a [`Reversal`] each.
-//! * Results: a [`Cycle`] with its [`History`] of [`LegRecord`]s in one [`Direction`] each; the [`Curve`] with its
-//!   [`CurvePoint`]s; the [`Patch`]es at the end; [`Figures`], the marked points ([`Mark`]) and the [`Branch`]es; the
-//!   [`Work`] done by the computer.
-//! * Theory beside them: [`ClosedForm`].
-//! * What is refused: [`ContactError`].
+//! * To set up a [`Contact`]: a [`ContactBuilder`] takes a [`Profile`], a [`Modulus`] and the edge model [`Edges`].
+//! * To load it: [`Contact::load`] takes one [`Move`] for each stage, and [`Contact::load_with`] also takes [`LoadOptions`].
+//!   [`Contact::reversals`] computes a [`Reversal`], the unloading to separation, for each of many turning points.
+//! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and a [`LegRecord`] of each
+//!   stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names a point of the curve, a [`Branch`] joins stages in
+//!   one direction, and a [`Patch`] is a run of springs in contact. [`History`] and [`Work`] are results of the module
+//!   [`motion`].
+//! * To check results: [`ClosedForm`] has the forces of a sphere, a cone and other bodies by theory.
+//! * Errors: [`ContactError`] names the value or the stage that is refused.
 //!
-//! Programs that move a contact step by step also need the module [`motion`].
+//! Programs that decide during the motion where a body moves next use the module [`motion`].
 //!
 //! # Rules
 //!
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
-//! rules of the method of dimensionality reduction, with the rule of Hess for adhesion. Here c is the gap of a spring, d the
-//! indentation and Δl_max(n) the largest stretch of a patch of n springs. The paper, whose equations are cited by number, is
-//! Popov and Filippov (2012). The rules are:
+//! rules of the method of dimensionality reduction, with the rule of Hess for adhesion. A *patch* is a run of neighbouring
+//! springs in contact. The gap c of a spring is its depth below the highest point of the profile, d is the indentation, and
+//! Δl_max(n) is the largest stretch that a patch of n springs bears. Equations have their numbers in Popov and Filippov (2012).
+//! The rules are:
 //!
 //! * *touch*: a free spring attaches when its gap is closed, c ≤ d;
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
 //! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A
-//! [`Leg`](motion::Leg) is the contact at all indentations of a motion in one direction, and a [`Body`](motion::Body) is a leg
-//! with the position on it. A leg follows from these rules in one pass over a tree. [`Stepwise`](motion::Stepwise) moves by
-//! small steps and relaxes after each step, as the paper does. Any function that allocates may return
+//! [`Leg`](motion::Leg) describes a motion in one direction: which springs are in contact at each indentation. A
+//! [`Body`](motion::Body) is the exact solver. It has a present leg and a present indentation, and computes each leg from the
+//! rules in one pass over a [tree](motion::ContactTree). [`Stepwise`](motion::Stepwise) is the stepwise solver. It moves by
+//! small steps and relaxes to equilibrium after each step, as the paper does. Any function that allocates may return
 //! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 
 mod adhesive;
@@ -64,8 +68,8 @@ pub use modulus::Modulus;
 pub use profile::Profile;
 pub use target::Move;
 
-/// Bodies that move from target to target, as instruments and particle codes need them. The stepwise solver serves to check the
-/// exact one.
+/// Bodies that move from one target to the next, for models of instruments and for particle codes. [`Body`](motion::Body) is
+/// the exact solver. [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check the exact one.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion, MovingBody, load_body};

@@ -33,8 +33,8 @@ impl Modulus {
     /// and ν is Poisson's ratio.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a Young's modulus that is not from 1e-50 to 1e50 Pa. Returns the same for a
-    /// Poisson's ratio that is not above −1 or is above 0.5.
+    /// Returns [`ContactError::Value`] if Young's modulus is not from 1e-50 to 1e50 Pa. Returns the same error if Poisson's
+    /// ratio is not above −1 and at most 0.5.
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
         check("Young's modulus", youngs_modulus, is_positive(youngs_modulus), PASCALS)?;
         let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
@@ -44,7 +44,7 @@ impl Modulus {
     }
 
     /// Computes the effective modulus E* of two elastic bodies: 1/E* = 1/E₁* + 1/E₂*, eq. (2) of Popov and Filippov (2012). E₁*
-    /// and E₂* are the effective moduli of each body against a rigid body.
+    /// and E₂* are the effective moduli of the two bodies, each against a rigid body.
     ///
     /// ```
     /// use asperity_contact::Modulus;

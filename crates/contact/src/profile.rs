@@ -9,10 +9,12 @@ use std::sync::{Arc, OnceLock};
 /// Largest number of points of a profile.
 const MOST_POINTS: usize = 1 << 28;
 
-/// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points, positive towards the half-space.
+/// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points. Heights are positive towards the
+/// half-space, so the highest point touches first.
 ///
 /// N points at a spacing Δx cover the length N Δx, and each point lies in the middle of a cell of the width Δx. Clones of a
-/// profile share their memory. All contacts of a profile share its [contact trees](ContactTree).
+/// profile share their memory. All contacts of a profile share its [contact trees](ContactTree), from which the exact solver
+/// computes where patches merge.
 ///
 /// ```
 /// use asperity_contact::Profile;
@@ -90,11 +92,13 @@ impl Profile {
         Ok(Profile { springs, spacing, length, first: 0, summit: 0.0 })
     }
 
-    /// Places the profile on a foundation of this length in m. The spring with the index `first` is the first one under the
-    /// body. A flat punch, for example, covers only a part of its foundation.
+    /// Places the profile on a foundation, a row of springs, that is longer than the profile. A flat punch, for example, covers
+    /// only a part of its foundation. The foundation has the length `length` in m, and `first` is the index of the leftmost
+    /// spring under the profile.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a length that is out of its range or too short for the profile at this place.
+    /// Returns [`ContactError::Value`] for a length that is not from 1e-50 to 1e50 m, or if the profile would extend beyond the
+    /// right end of the foundation.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -121,7 +125,7 @@ impl Profile {
         Ok(Profile { summit, ..self })
     }
 
-    /// Returns the number of points.
+    /// Returns the number of points N, one for each spring under the profile.
     pub fn points(&self) -> usize {
         self.gaps().len()
     }
@@ -131,18 +135,18 @@ impl Profile {
         self.spacing
     }
 
-    /// Returns the length of the foundation under the profile in m. The length is the number of points times their distance,
-    /// except under a punch.
+    /// Returns the length in m of the foundation, the row of springs under the profile. It is the number of points times their
+    /// distance, unless [`Profile::on_foundation`] has set another length.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Returns the gaps below the highest point in m, each at least 0.
+    /// Returns the gap of each point in m: its depth below the highest point, at least 0.
     pub fn gaps(&self) -> &[f64] {
         &self.springs.gaps
     }
 
-    /// Returns the gaps below the highest point in m, without a copy.
+    /// Returns the array of the gaps in m, to be shared without a copy.
     pub fn shared_gaps(&self) -> &Arc<Vec<f64>> {
         &self.springs.gaps
     }
@@ -167,8 +171,9 @@ impl Profile {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the contact tree for an edge model, unless the profile has it already. The new tree reuses the memory of the tree
-    /// `memory`. Without this call the first contact with adhesion builds the tree.
+    /// Builds the [contact tree](ContactTree) for contacts with this model of their [`Edges`], unless the profile has it
+    /// already. Without this call the first contact with adhesion builds the tree. `memory` is an old tree; the new tree takes
+    /// over its memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
@@ -187,8 +192,8 @@ impl Profile {
         self.springs.tree_in(memory, edges).map(|_| ())
     }
 
-    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can reuse. The tree is empty if
-    /// there is none, or if a clone or a contact still uses it.
+    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can reuse. The returned tree is
+    /// empty if the profile has no tree, or if a clone or a contact still uses the tree.
     pub fn into_tree(self) -> ContactTree {
         let trees = Arc::into_inner(self.springs).map(|springs| springs.trees);
         let trees = trees.into_iter().flatten().filter_map(OnceLock::into_inner);

@@ -52,9 +52,9 @@ pub struct Stepwise<'a> {
 }
 
 impl<'a> Stepwise<'a> {
-    /// Creates a separated body of whole springs that moves by steps of the length `step` in m. Each motion records `samples`
-    /// points of its force curve, at least 2. `stop` is called before each step; if it returns true, the motion ends with
-    /// [`ContactError::Interrupted`].
+    /// Creates a separated body that moves by steps of `step` in m. Its patches consist of whole springs, as with
+    /// [`Edges::Grid`](crate::Edges::Grid). The force curve of each motion has `samples` points, at least 2. `stop` is called
+    /// before each step. If `stop` returns true, the motion ends with [`ContactError::Interrupted`].
     pub fn new(
         contact: &'a Contact,
         step: f64,

@@ -57,15 +57,16 @@ impl Cholesky {
         right
     }
 
-    /// Returns √(M⁻¹)ᵢᵢ for i = `index`. If M is an information matrix, this is the standard error of parameter i.
+    /// Returns the square root of element (i, i) of M⁻¹ for i = `index`. If M⁻¹ is the covariance matrix of fitted
+    /// parameters, this is the standard error of parameter i.
     pub fn standard_error(&self, index: usize) -> f64 {
         let mut gradient = vec![0.0; self.size];
         gradient[index] = 1.0;
         self.variance(&gradient).sqrt()
     }
 
-    /// Returns vᵀ M⁻¹ v for v = `gradient`. If M is an information matrix, this is the variance of a quantity with this
-    /// gradient.
+    /// Returns vᵀ M⁻¹ v for v = `gradient`. If M⁻¹ is the covariance matrix of fitted parameters, this is the variance of a
+    /// quantity whose derivatives with respect to the parameters are v.
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let solved = self.solve(gradient.to_vec());
         gradient.iter().zip(solved).map(|(a, b)| a * b).sum()

@@ -2,8 +2,8 @@
 
 use crate::parallel;
 
-/// Settings of a long computation: the number of threads, when to stop, and where to report progress. The default uses all
-/// cores, never stops early and reports nothing.
+/// Settings of a long computation: the number of threads, a function that stops it, and a function that receives its
+/// progress. The default uses all cores, never stops early and reports nothing.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -42,7 +42,7 @@ impl<'a> Control<'a> {
     }
 
     /// Sets the function that receives the progress. The function is called on the calling thread. Its argument is the number
-    /// of finished profiles, records or curves, depending on the computation.
+    /// of parts that are finished; the computation states what its parts are, such as profiles or curves.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
         Control { report: Some(report), ..self }
@@ -63,7 +63,7 @@ impl<'a> Control<'a> {
         (self.stop)()
     }
 
-    /// Reports how much is done so far to the function of [`reporting_to`](Control::reporting_to), if there is one.
+    /// Passes the number of finished parts to the function set by [`reporting_to`](Control::reporting_to), if there is one.
     pub fn report(&mut self, done: u64) {
         if let Some(report) = &mut self.report {
             report(done);

@@ -13,7 +13,7 @@ pub fn hexadecimal(hasher: Sha256) -> String {
     hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns the SHA-256 of a file, as 64 hexadecimal digits.
+/// Returns the SHA-256 of the content of a file, as 64 hexadecimal digits. Two files with the same SHA-256 are copies.
 pub fn sha256_of(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let (mut hasher, mut buffer) = (Sha256::new(), vec![0; BUFFER]);

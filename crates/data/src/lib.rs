@@ -63,7 +63,8 @@ pub use text::{
 #[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
 
-/// Reading of tables of numbers in text files, as instruments and programs write them.
+/// Reads tables of numbers in text files, as instruments and programs write them: lines, separators, numbers, and names of
+/// columns.
 #[cfg(feature = "files")]
 pub mod text_table {
     pub use crate::text_cells::{Decimal, ONE_MARK, Separator, TextCell};
@@ -71,5 +72,5 @@ pub mod text_table {
     pub use crate::text_names::{HeadLines, Role, TextColumn, is_one_of};
 }
 
-/// First characters of a CSV file of results. The comments that begin in this way state the program and the scene.
+/// First characters of a CSV file of results. They begin the comments that state the program and the scene of the results.
 pub const PROVENANCE: &str = "# asperity ";

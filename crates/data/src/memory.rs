@@ -1,7 +1,7 @@
-//! Large arrays: reuse of their memory, and errors for lack of memory.
+//! Functions for large arrays: they reuse memory, and return an error if the memory is too small.
 //!
-//! Fresh memory costs about as much time as a pass over it, because the system clears each page at its first access. Memory
-//! in proportion to the input is reserved before use. A failed allocation would otherwise end the process.
+//! Fresh memory costs about as much time as a pass over it, because the system clears each page at its first access. An array
+//! whose length depends on the input reserves its memory before use. Without this, a failed allocation would end the process.
 
 use std::hint::black_box;
 use thiserror::Error;
@@ -17,7 +17,7 @@ const BESIDE: u64 = 33 << 20;
 /// Number of bytes below which the check passes at once.
 const FEW: u64 = 1 << 20;
 
-/// Error for lack of memory. The number is the number of bytes that the system cannot provide.
+/// Error of a request for more memory than the system can provide. Its message states the requested memory in MiB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("not enough memory for {} MiB", .0.div_ceil(1 << 20))]
 pub struct OutOfMemory(u64);
@@ -28,7 +28,8 @@ impl OutOfMemory {
     }
 }
 
-/// Checks that the system could provide this many more bytes now. Fewer than 1 MiB always pass. No memory stays reserved.
+/// Returns an error unless the system could provide this many more bytes now. For less than 1 MiB it never returns an error.
+/// No memory stays reserved.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());
@@ -50,8 +51,8 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
     Ok(values)
 }
 
-/// Returns a vector of `count` values: the previous ones, then copies of `fill`. The vector reuses the memory of `values` if
-/// possible.
+/// Returns a vector of `count` values: first the values of `values`, then copies of `fill`. The vector reuses the memory of
+/// `values` if possible.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());
@@ -60,21 +61,21 @@ pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Ve
     Ok(values)
 }
 
-/// Collects `count` values into a vector. Lack of memory is an error and does not end the process.
+/// Collects `count` values into a vector. Returns an error if the memory is too small.
 pub fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
     let mut gathered = emptied(Vec::new(), count)?;
     gathered.extend(values);
     Ok(gathered)
 }
 
-/// Appends a value. Lack of memory is an error.
+/// Appends a value. Returns an error if the memory is too small.
 pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
     reserve(values, 1)?;
     values.push(value);
     Ok(())
 }
 
-/// Reserves room for at least `more` further values. Lack of memory is an error.
+/// Reserves room for at least `more` further values. Returns an error if the memory is too small.
 pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     values.try_reserve(more).map_err(|_| OutOfMemory::of::<T>(values.len() + more))
 }

@@ -3,7 +3,8 @@
 use std::cell::Cell;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
-/// Sum with compensated rounding errors (Neumaier). For n terms t its error is below 2u |Σ t| + O(n u²) Σ |t|, with u = 2⁻⁵³.
+/// Sum of numbers in which rounding errors are compensated (method of Neumaier). For n terms t the error of the sum is below
+/// 2u |Σ t| + O(n u²) Σ |t|, with u = 2⁻⁵³.
 ///
 /// ```
 /// let mut sum = asperity_data::CompensatedSum::default();
@@ -103,7 +104,8 @@ pub fn gauss_nodes<const COUNT: usize>() -> [(f64, f64); COUNT] {
     std::array::from_fn(|index| gauss_node(COUNT, index))
 }
 
-/// Returns the nodes in (0, π/2) and the weights of the Gauss-Legendre quadrature with `COUNT` nodes.
+/// Returns the nodes of the Gauss-Legendre quadrature on the interval (0, π/2), each with its weight. `COUNT` is the number
+/// of nodes.
 pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT] {
     gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))
 }
@@ -130,7 +132,8 @@ thread_local! {
     static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-/// Returns the value that |t| of Student's distribution exceeds with a probability of 5 %, for at least 1 degree of freedom.
+/// Returns the value that |t| exceeds with a probability of 5 %, where t has Student's distribution with `freedom` degrees of
+/// freedom, at least 1.
 pub fn student_quantile(freedom: u32) -> f64 {
     if KNOWN.get().0 != freedom {
         KNOWN.set((freedom, student_t(freedom)));

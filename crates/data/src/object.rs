@@ -2,7 +2,8 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A JSON object made by the macro `object!`. `E` is `()`, or a pair of the first entry and the others.
+/// A JSON object made by the macro [`object!`](crate::object!). `E` is the type of its entries: `()` for no entry, otherwise
+/// a pair of the first entry and the others.
 pub struct Object<E>(pub E);
 
 /// Entries of an object: none, or the first entry and a pair of the others.
@@ -46,7 +47,8 @@ impl<E: Entries> Serialize for Object<E> {
     }
 }
 
-/// Makes a JSON object of keys and values for serialisation. An entry `"key"?: option` is omitted if the option is `None`.
+/// Makes an [`Object`], which is written as JSON, from keys and values: `object! { "key": value }`. An entry
+/// `"key"?: option` is omitted if the option is `None`.
 #[macro_export]
 macro_rules! object {
     (@entries) => { () };

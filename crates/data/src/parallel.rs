@@ -1,4 +1,4 @@
-//! Independent computations in parallel. No result depends on the number of threads.
+//! Runs independent computations on several threads. No result depends on the number of threads.
 
 use std::cell::Cell;
 use std::io;
@@ -39,11 +39,11 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the results in order. Each thread
-/// first calls `worker` and then computes its results with the function that it gets. If the system refuses some threads, the
-/// others do all the work.
+/// first calls `worker`, and then computes its results with the function that `worker` returns. If the system refuses some
+/// threads, the others do all the work.
 ///
 /// # Errors
-/// Returns the error of the smallest number that fails.
+/// Returns an error if the function returns one for a number. Of several errors it is the one of the smallest number.
 ///
 /// ```
 /// use asperity_data::on_threads;
@@ -91,7 +91,8 @@ pub fn threads() -> usize {
     if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
-/// Runs both functions and returns both results. If `worth` is true, the first one runs on a second thread where possible.
+/// Runs the functions `one` and `other`, and returns their results. If `worth` is true, `one` runs on a second thread at the
+/// same time as `other`, where a second thread is possible.
 pub fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,

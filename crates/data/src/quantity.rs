@@ -18,7 +18,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi, %"),
 ];
 
-/// Error of a typed text that is not a quantity of the expected unit. The string is the whole message.
+/// Error for a typed text that is not a number with the expected unit. The string is the whole message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(pub String);
@@ -83,8 +83,8 @@ pub fn in_unit(typed: &str, unit: &str) -> String {
     if is_number && !unit.is_empty() { format!("{} {unit}", typed.trim()) } else { typed.to_owned() }
 }
 
-/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. A number without a unit gives an empty
-/// text.
+/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. For a number without a unit the text is
+/// empty.
 pub fn unit_of(shown: &str) -> &str {
     shown.trim_start_matches(['=', ' ']).split_once(' ').map_or("", |(_, unit)| unit)
 }
@@ -170,7 +170,7 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
 /// errors are as small.
 const ROUNDING: f64 = 1e-36;
 
-/// Formats a value with its unit, to `digits` significant digits, from 1 to 4.
+/// Formats a value with its unit, rounded to `digits` significant digits. `digits` is from 1 to 4.
 pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     // The number next to zero is a state just after a jump at zero.
     let least = if unit == "1" || unit.is_empty() { f64::MIN_POSITIVE } else { ROUNDING };
@@ -179,7 +179,7 @@ pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
-/// Formats a value with its unit, down to the second digit of its uncertainty: `50.05 mJ/m²` for ± 0.13 mJ/m².
+/// Formats a value with its unit, rounded to the second significant digit of its uncertainty: `50.05 mJ/m²` for ± 0.13 mJ/m².
 ///
 /// ```
 /// assert_eq!(asperity_data::format_within(0.050_123, 0.001, "J/m²"), "50.1 mJ/m²");

@@ -46,7 +46,7 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Opens a regular file for reading, and refuses pipes, terminals and devices without waiting.
+/// Opens a regular file for reading. Returns an error at once for a pipe, a terminal or another device.
 pub fn open_regular(path: &Path) -> Result<File, ReadError> {
     // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
     // as far as its kind is known in advance.
@@ -67,7 +67,7 @@ pub fn open_regular(path: &Path) -> Result<File, ReadError> {
     Ok(file)
 }
 
-/// Reads a regular file of at most `limit` bytes.
+/// Reads a regular file. A file of more than `limit` bytes is an error.
 pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     let file = open_regular(path)?;
     // A longer file is refused before it is read; one may also grow while it is read.
@@ -78,12 +78,13 @@ pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     }
 }
 
-/// Reads a regular file of at most `limit` bytes as text in UTF-8.
+/// Reads a regular file as text in UTF-8. A file of more than `limit` bytes is an error.
 pub fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError> {
     into_text(read_regular(path, limit)?)
 }
 
-/// Reads a stream to its end, at most `limit` bytes. The caller must be able to wait for the stream, as for standard input.
+/// Reads a stream, such as standard input, to its end, and waits until it ends. A stream of more than `limit` bytes is an
+/// error.
 pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     // One more byte distinguishes a file of the limit from a longer one.

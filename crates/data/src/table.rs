@@ -11,7 +11,7 @@ use std::io;
 use std::io::Write;
 use std::rc::Rc;
 
-/// Type of the values in a column.
+/// Type of the values in a column of a [`Table`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A real number.
@@ -26,7 +26,8 @@ pub enum Kind {
 type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
-/// A table of named columns. Each row is computed when it is written.
+/// A table of results with named columns, to be written as CSV, as a NumPy array or as JSON. Each row is computed when it is
+/// written.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
     /// Counts the rows without computing their values, which may take time.
@@ -34,7 +35,7 @@ pub struct Table<'a> {
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table under construction, with its rows and the columns added so far.
+/// A table to which columns can still be added. [`Table::of`] begins it, and [`TableOf::done`] ends it.
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
@@ -42,15 +43,15 @@ pub struct TableOf<'a, T> {
 }
 
 impl<'a> Table<'a> {
-    /// Begins a table without columns. Each call of `rows` returns an iterator over all rows.
+    /// Begins a table that has no columns yet. Each call of `rows` returns an iterator over all rows.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
         TableOf { rows: Rc::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
     }
 }
 
 impl<'a, T: 'a> TableOf<'a, T> {
-    /// Adds a column; `value` computes the entry of a row. A missing entry is empty in CSV, `null` in JSON and NaN in an
-    /// array.
+    /// Adds a column whose entry in each row is computed by `value`. A missing entry is empty in CSV, `null` in JSON and NaN
+    /// in an array.
     pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -62,12 +63,12 @@ impl<'a, T: 'a> TableOf<'a, T> {
         self
     }
 
-    /// Adds a column of real numbers; `value` computes the entry of a row.
+    /// Adds a column of real numbers, whose entry in each row is computed by `value`.
     pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
         self.with(name, Kind::Real, value)
     }
 
-    /// Adds a column of integers of at least 0; `value` computes the entry of a row.
+    /// Adds a column of integers of at least 0, whose entry in each row is computed by `value`.
     pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
         self.with(name, Kind::Whole, value)
     }

@@ -28,7 +28,7 @@ pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("E", 18),
 ];
 
-/// Returns the SI prefix for a power of ten, or `None` if the power has none.
+/// Returns the SI prefix for a power of ten, such as `k` for 3; `None` if the power has no prefix.
 pub fn si_prefix(power: i32) -> Option<&'static str> {
     SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
 }
@@ -63,17 +63,18 @@ pub fn is_control(c: char) -> bool {
     c.is_control() || bidirectional || invisible
 }
 
-/// Escapes all control characters as Rust does, also line breaks: `\n`, `\u{1b}`. The result is one line.
+/// Replaces each character for which [`is_control`] is true by its code in Rust, such as `\n` or `\u{1b}`. The result is one
+/// line.
 pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
 
-/// Escapes all control characters except for line breaks.
+/// Replaces the same characters as [`printable`] by their codes, but keeps line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
 
-/// Returns a path as text on one line, with its control characters escaped.
+/// Returns a path as text on one line, in which control characters are replaced as by [`printable`].
 pub fn path_name(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
@@ -123,7 +124,8 @@ pub fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// Formats a relative error (1 is 100 %) in per cent, to one significant digit, or to two if the first digit is 1.
+/// Formats a relative error in per cent: 0.02 becomes `2 %`. The number has one significant digit, or two if the first digit
+/// is 1. Errors outside 0.001 to 100 % become `< 0.001 %` and `> 100 %`.
 pub fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {
@@ -149,7 +151,8 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
 }
 
-/// Returns true if no line may break between two words: inside a number with separated thousands, or before its unit.
+/// Returns true if a line must not break between a word and the next one. Then both are parts of a number such as `16 384`,
+/// or the next word is the unit of a number.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -168,7 +171,8 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Breaks a text into lines of at most `width` characters, between words and inside words longer than a line.
+/// Breaks a text into lines of at most `width` characters. Lines break between words, and inside a word only if the word is
+/// longer than a line.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut room = width;
@@ -197,7 +201,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 /// Number of characters after which a message cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Prepares text from a file or a user for a message: cut after 80 characters, on one line, with control characters escaped.
+/// Returns text from a file or a user as messages repeat it: on one line, cut after 80 characters, with control characters
+/// replaced as by [`printable`].
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

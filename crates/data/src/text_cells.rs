@@ -2,19 +2,20 @@
 
 use crate::text_lines::TextFault;
 
-/// Separator of the columns of a text: a semicolon, a tab, a comma, or white space. The first line of numbers determines the
-/// separator.
+/// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space. The first line of numbers
+/// determines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
 impl Separator {
-    /// Separation of columns by blanks and tabs.
+    /// White space: the columns are separated by any number of blanks and tabs.
     pub const SPACE: Separator = Separator(' ');
 
     /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else white space.
     ///
-    /// Beside semicolons or tabs, commas are decimal marks. Commas are also decimal marks if each word between blanks is a
-    /// number with a comma inside, as in `0,5 1,25`. The texts `0.5, 1.25` and `0,5` have two columns each.
+    /// If semicolons or tabs separate the columns, commas are decimal marks. Commas are also decimal marks if each word
+    /// between blanks is a number with a comma inside, as in `0,5 1,25`. In the texts `0.5, 1.25` and `0,5` the comma
+    /// separates two columns.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -22,8 +23,8 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line without blanks at its ends into columns. Separators within quotation marks do not count. Two
-    /// neighbouring separators have an empty column between them, except for blanks.
+    /// Splits a line into columns. The line must have no blanks at its ends. Separators within quotation marks do not count.
+    /// Between two neighbouring separators there is an empty column. Neighbouring blanks, however, are one separator.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -55,15 +56,15 @@ fn has_decimal_commas(line: &str) -> bool {
     line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
 }
 
-/// Content of a cell of a text.
+/// Content of a cell of a text table, as [`Decimal::read`] returns it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextCell {
     /// A number.
     Number(f64),
     /// An empty cell, or a mark of a missing point such as `NaN`.
     Missing,
-    /// A number with another decimal mark than the numbers before it, such as a comma after points. If commas separate the
-    /// columns, also a number such as `1,234`, whose comma may separate thousands.
+    /// A number whose decimal mark differs from the numbers before it, such as `0,5` after `0.5`. If commas separate the
+    /// columns, also a number in quotation marks such as `"1,234"`, whose comma may separate thousands.
     OtherMark,
     /// A text that is no number.
     NoNumber,
@@ -72,14 +73,15 @@ pub enum TextCell {
 /// Marks of missing points, besides an empty cell and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Allowed notation of numbers, for a message about a cell with [`TextCell::OtherMark`].
+/// Text that states the allowed notation of numbers, for the message about a cell with [`TextCell::OtherMark`].
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
 /// Characters that separate thousands. A comma or a point may also be a decimal mark.
 const GROUPING: [char; 8] = [',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}'];
 
-/// Decimal mark and separator of thousands in a text. The first numbers that are read determine both marks.
+/// Reader of the numbers in a text table. It takes the decimal mark and the separator of thousands from the first numbers
+/// that have them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark.
@@ -93,7 +95,7 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// Reads the content of a cell. All numbers of a text must have the decimal mark of its first number with one.
+    /// Reads the content of a cell. The first number with a decimal mark determines the mark of all numbers after it.
     pub fn read(&mut self, cell: &str, separator: Separator) -> TextCell {
         // The minus sign of spreadsheets and papers.
         if cell.contains('\u{2212}') {
@@ -134,8 +136,8 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if each comma that was read may be a decimal mark or may separate thousands. This is so if three
-    /// digits follow each comma, and if there are also numbers without a comma.
+    /// Returns an error if the commas in the numbers read so far may be decimal marks as well as separators of thousands.
+    /// This is so if three digits follow each comma, and if there are also numbers without a comma.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }

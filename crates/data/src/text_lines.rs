@@ -6,7 +6,7 @@ use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 use thiserror::Error;
 
-/// Characters that begin a comment.
+/// Characters with which a comment in a text table begins.
 pub const COMMENT: [char; 3] = ['#', '%', '!'];
 
 /// Reason why a text cannot be read as a table. Lines count from 1, the bytes of a line from 0.
@@ -36,15 +36,15 @@ pub enum TextFault {
 }
 
 impl TextFault {
-    /// Largest length of a line in bytes. A row of a large matrix is shorter.
+    /// Largest length of a line in bytes. Even the row of a large matrix is shorter.
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 
 /// Calls `take` for each line of a text, with the number of the line from 1, and the line without white space around it. The
-/// scene above a table of results is skipped, because its words may look like units.
+/// comments with the scene above a table of results are skipped, because words in them may look like units.
 ///
 /// # Errors
-/// Returns the error of `take`, or a [`TextFault`] as this type of error if the bytes are no text.
+/// Returns the error of `take`. If the bytes are no text, returns a [`TextFault`], converted to the type of this error.
 pub fn each_line<E: From<TextFault>>(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), E>,

@@ -10,7 +10,7 @@ const LONGEST_UNIT: usize = 5;
 /// Meaning of a column in a text file, which the name of the column states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// The name states no meaning.
+    /// The name of the column states no meaning that is known.
     #[default]
     Unknown,
     /// The column has positions along the first axis.
@@ -19,7 +19,7 @@ pub enum Role {
     Y,
     /// The column has heights.
     Height,
-    /// The column has the number of each point.
+    /// The column has the number of each point, counted along the file.
     Number,
     /// The column has 0 for a point that was not measured.
     Valid,
@@ -49,12 +49,12 @@ pub struct TextColumn {
 /// Number of last lines in which names of columns are searched.
 const LAST_LINES: usize = 64;
 
-/// Last lines above the numbers of a text. One of these lines may name the columns.
+/// The last lines (at most 64) of a text file before its table of numbers. One of these lines may name the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadLines(VecDeque<String>);
 
 impl HeadLines {
-    /// Adds a line. The signs of a comment at its beginning are left out.
+    /// Adds a line. The characters [`COMMENT`] at its beginning are left out.
     pub fn take(&mut self, line: &str) {
         if self.0.len() == LAST_LINES {
             self.0.pop_front();
@@ -62,9 +62,10 @@ impl HeadLines {
         self.0.push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
 
-    /// Returns names, meanings and units of `count` columns. The names are read from the last line that has a name for each
-    /// column, units also from a row of units. Separators at the end of such a line may add empty cells, up to `cells` cells.
-    /// If there is no such line, all names are empty.
+    /// Returns the name, the meaning and the unit of each of `count` columns. The names are read from the last line that has
+    /// a name for each column. The units are read from these names, and from a line of units below them. A line with
+    /// separators at its end may have up to `cells` cells; its empty cells are ignored. If no line has names, all names are
+    /// empty. `is_unit` returns true for known units.
     pub fn columns(
         &self,
         count: usize,

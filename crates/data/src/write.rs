@@ -46,12 +46,13 @@ impl WriteError {
     }
 }
 
-/// Checks before a long computation that [`write_new`] could write the file now. No file is left behind.
+/// Returns an error unless [`write_new`] could write the file now. A program calls it before a long computation. No file is
+/// left behind.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
 
-/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. Writing into a pipe waits until
+/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. For a pipe the function waits until
 /// another program reads it.
 pub fn write_new(
     path: &Path,
@@ -66,10 +67,11 @@ pub fn write_new(
 }
 
 /// Writes a regular file through a temporary file in the same folder. Other programs see the old file or the whole new one,
-/// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
+/// and a failure leaves nothing behind. An existing file is replaced only if `overwrite` is true.
 ///
 /// On Linux the temporary file has no name until it is complete, so a process that is killed while it writes leaves nothing
-/// behind. On other systems, and on file systems without such files, a killed process may leave a file `.asperity-….tmp`.
+/// behind. On other systems, and on file systems that have no files without names, a killed process may leave a file
+/// `.asperity-….tmp`.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,

@@ -96,8 +96,9 @@ pub struct CurveOptions {
     pub units: Vec<String>,
     /// Travel of the piezo for a file with one column of forces: 500nm
     ///
-    /// The forces are taken as evenly spaced over this travel, first on the approach, then
-    /// back. Default: the travel in the file.
+    /// The forces are evenly spaced over this travel, there and back.
+    ///
+    /// By default the file states the travel.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
     /// Segments that are used: 2 is the retraction without the approach
@@ -117,7 +118,7 @@ pub struct CurveOptions {
     /// Measured force taken as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
-    /// Drift over time: keep (default), remove, or the change of force over the curve
+    /// Drift over time: keep (default), remove, or a change of force such as 3nN
     #[cfg_attr(
         feature = "clap",
         arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
@@ -129,7 +130,7 @@ pub struct CurveOptions {
         arg(long, default_value = "keep", hide_default_value = true, hide_possible_values = true)
     )]
     pub tilt: Tilt,
-    /// Standard deviation of the noise of the force; default: that before contact
+    /// Standard deviation of the force; default: the one before contact
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)

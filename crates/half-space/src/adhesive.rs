@@ -24,16 +24,16 @@ const TOLERANCE: f64 = 1e-3;
 /// Energy of an edge under the stress σ over σ²Δ/E*, for a front along the grid with cells of the side Δ.
 const OF_AN_EDGE: f64 = 0.4732;
 
-/// State of an adhesive contact at one indentation.
+/// Force, contact area and elastic energy of an adhesive contact at one indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdhesiveState {
     /// Indentation in m from first touch.
     pub indentation: f64,
     /// Force in N, negative in tension.
     pub force: f64,
-    /// Area of the cells in contact in m².
+    /// Contact area in m²: the area of all cells of the square in contact.
     pub area: f64,
-    /// Elastic energy of the half-space in J.
+    /// Elastic energy stored in the half-space in J.
     pub elastic_energy: f64,
 }
 
@@ -51,15 +51,17 @@ pub struct AdhesiveSquare {
 }
 
 impl AdhesiveSquare {
-    /// Returns the number of bytes of memory for a square with this number of cells along a side.
+    /// Returns the number of bytes of memory that a square with this number of cells along a side takes.
     pub fn bytes(cells: usize) -> u64 {
         Grid::bytes(cells + 2, Boundary::Free) + (cells as u64 + 2).pow(2)
     }
 
-    /// Creates a separated square. The pair has the works of adhesion on opening and on closing in J/m².
+    /// Creates a separated square. The pair has the work of adhesion where the interface opens, and the work of adhesion
+    /// where it closes, in J/m².
     ///
     /// # Errors
-    /// The number of cells or heights, or a value, is out of its range, or the memory is too small.
+    /// Returns an error if the number of heights is not the square of an allowed number of cells along a side, if a value
+    /// is out of its range, or if the memory is too small.
     pub fn new(square: &Square<'_>, (opening, closing): (f64, f64)) -> Result<Self, HalfSpaceError> {
         let cells = square.heights.len().isqrt();
         check_cells(cells)?;
@@ -103,16 +105,17 @@ impl AdhesiveSquare {
         Ok(AdhesiveSquare { grid, cells, side: scale, effective_modulus, works, opened })
     }
 
-    /// Returns the number of convolutions computed so far.
+    /// Returns the number of convolutions over the grid computed so far, a measure of the computing work.
     pub fn convolutions(&self) -> u64 {
         self.grid.operators.convolutions
     }
 
-    /// Moves the square to an indentation in m from first touch, and lets its edges move until they rest. `stop` is called
-    /// before each step of the solver.
+    /// Moves the square to an indentation in m from first touch, and lets the edges of the contact move until they rest.
+    /// `stop` is called before each step of the solver. If `stop` returns true, the solver ends with
+    /// [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
-    /// The indentation is not finite, or `stop` returned true.
+    /// Returns an error if the indentation is not finite, or if `stop` returned true.
     pub fn move_to(
         &mut self,
         indentation: f64,

@@ -10,7 +10,7 @@ pub enum HalfSpaceError {
     /// The number of cells along a side is not allowed; the field has this number.
     #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]
     Cells(usize),
-    /// The number of heights does not fit the number of cells along a side.
+    /// The number of heights is not the number of cells of the square.
     #[error("{found} heights; allowed: {allowed}, one for each cell")]
     Heights {
         /// The given number of heights.

@@ -8,10 +8,11 @@ use asperity_data::check_room;
 /// Largest number of cells along a side.
 const FINEST: usize = 8192;
 
-/// A rigid rough square above an elastic half-space.
+/// A rigid rough square above an elastic half-space. It is divided into equal square cells, with the same number of cells along
+/// each side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Square<'a> {
-    /// Heights of the cells in m, row by row; peaks are up.
+    /// Height of each cell in m, row by row. The highest cell touches first.
     pub heights: &'a [f64],
     /// Side L of the square in m.
     pub side: f64,
@@ -19,13 +20,13 @@ pub struct Square<'a> {
     pub effective_modulus: f64,
 }
 
-/// Prescribed force or indentation.
+/// What is prescribed for a contact: its force or its indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
-    /// Force in N, positive in compression. For a periodic square it is the force of one period.
+    /// Force in N, positive in compression. With [`Boundary::Periodic`] it is the force on one of the repeated squares.
     Force(f64),
-    /// Indentation in m from first touch. Only a free square can have it, because the displacement of a periodic half-space
-    /// has no zero.
+    /// Indentation in m from first touch. It can be prescribed only with [`Boundary::Free`], because the displacement of
+    /// a periodic half-space has no zero.
     Indentation(f64),
 }
 
@@ -34,25 +35,27 @@ pub enum Load {
 pub struct Pressed {
     /// Pressure on each cell in Pa.
     pub pressure: Vec<f64>,
-    /// Gap above each cell in m. It is zero on the contact to within the residual.
+    /// Gap between the square and the half-space at each cell in m. In contact it is zero to within `residual`.
     pub gap: Vec<f64>,
-    /// Force in N.
+    /// Force on the square in N, positive in compression.
     pub force: f64,
-    /// Indentation from first touch in m. For a periodic square it is the distance of the highest point from the mean plane
-    /// of the deformed half-space.
+    /// Indentation from first touch in m. With [`Boundary::Periodic`] it is the depth of the highest point of the square
+    /// below the mean plane of the deformed half-space.
     pub indentation: f64,
-    /// Area of the cells in contact in m².
+    /// Contact area in m²: the area of all cells in contact.
     pub area: f64,
-    /// Largest violation of the conditions on the gap, over the rms height. The gap is zero on the contact and at least zero
-    /// elsewhere. The pressure is nowhere negative, and the sum over all cells is the force, both exactly.
+    /// Largest error of the gap at any cell, divided by the rms height of the square. Without error the gap is zero in
+    /// contact and at least zero elsewhere. Two other conditions hold exactly: no pressure is negative, and the pressures
+    /// sum to the force.
     pub residual: f64,
-    /// True if the residual reached the required tolerance; false if the solver used up its steps before.
+    /// True if `residual` is within the required tolerance; false if the solver used up its steps before.
     pub is_reached: bool,
-    /// Number of convolutions computed on the finest grid.
+    /// Number of convolutions computed on the finest grid, a measure of the computing work.
     pub convolutions: u64,
 }
 
-/// Solver for the contacts of squares with one number of cells, with its planned operators and memory.
+/// Solver for contacts of squares that have a fixed number of cells. It solves a contact on a coarse grid first, and then on
+/// finer and finer grids. It keeps its planned Fourier transforms and its memory for the next contact.
 pub struct HalfSpace {
     boundary: Boundary,
     /// Nested grids, the finest one last.
@@ -60,15 +63,15 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Returns the memory of a solver in bytes.
+    /// Returns the number of bytes of memory that a solver for this number of cells along a side takes.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         nested(cells).map(|cells| Grid::bytes(cells, boundary)).sum()
     }
 
-    /// Plans the contact of squares with this number of cells along a side.
+    /// Creates a solver for squares with this number of cells along a side.
     ///
     /// # Errors
-    /// The number of cells is not a power of two from 32 to 8192, or the memory is too small.
+    /// Returns an error if the number of cells is not a power of two from 32 to 8192, or if the memory is too small.
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, HalfSpaceError> {
         check_cells(cells)?;
         check_room(HalfSpace::bytes(cells, boundary))?;
@@ -76,11 +79,11 @@ impl HalfSpace {
         Ok(HalfSpace { boundary, grids })
     }
 
-    /// Presses a square on the half-space without adhesion, to a residual of at most `tolerance` rms heights. `stop` is
-    /// called before each step of the solver.
+    /// Presses a square on the half-space without adhesion, until [`Pressed::residual`] is at most `tolerance`. `stop` is
+    /// called before each step of the solver. If `stop` returns true, the solver ends with [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
-    /// A value is out of its range, or `stop` returned true.
+    /// Returns an error if a value is out of its range, or if `stop` returned true.
     pub fn press(
         &mut self,
         square: &Square<'_>,
@@ -162,7 +165,7 @@ impl HalfSpace {
 /// Checks that a number of cells along a side is allowed.
 ///
 /// # Errors
-/// The number is not a power of two from 32 to 8192.
+/// Returns an error if the number is not a power of two from 32 to 8192.
 pub fn check_cells(cells: usize) -> Result<(), HalfSpaceError> {
     let is_allowed = cells.is_power_of_two() && (COARSEST..=FINEST).contains(&cells);
     if is_allowed { Ok(()) } else { Err(HalfSpaceError::Cells(cells)) }

@@ -7,13 +7,14 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
-/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. `variance` of k is the
-/// part that a wave of k waves over the side has in the mean square height. Over all pairs (k_x, k_y) except (0, 0) the parts
-/// sum to the mean square height. Heights are in m if the parts are in m². The phase of each pair is random and does not depend
-/// on the number of cells, so that more cells refine the same surface.
+/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. The surface is a
+/// sum of waves with k_x periods along one side and k_y periods along the other. Such a wave contributes `variance`(k) to
+/// the mean square height, with k = √(k_x² + k_y²). The contributions of all pairs (k_x, k_y) except (0, 0) sum to the
+/// mean square height. Heights are in m if contributions are in m². The phase of each wave is random. It does not depend
+/// on `cells`, so more cells refine the same surface.
 ///
 /// # Errors
-/// The memory is too small.
+/// Returns an error if the memory is too small.
 pub fn random_map(
     cells: usize,
     variance: impl Fn(f64) -> f64,

@@ -8,12 +8,12 @@ use std::f64::consts::{PI, TAU};
 /// Number of sweeps by which a residual is extended beyond the contact.
 const SWEEPS: usize = 6;
 
-/// Surroundings of the square on the half-space.
+/// What surrounds the square on the half-space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// The square is alone on the half-space.
     Free,
-    /// The square is repeated without end in both directions.
+    /// Equal squares lie side by side without end, in both directions.
     Periodic,
 }
 

@@ -28,7 +28,8 @@ pub enum Error {
     Run(RunError),
 }
 
-/// Errors of values and of the contact become their own variants.
+/// An error of values becomes [`Error::Values`], an error of the contact [`Error::Contact`], and any other error
+/// [`Error::Run`].
 impl From<RunError> for Error {
     fn from(error: RunError) -> Self {
         match error {

@@ -4,16 +4,19 @@
 //!
 //! # Names by task
 //!
-//! * Scenes: [`open`] and [`presets`] return a [`Document`], the text of a [`Scene`], or [`Preset`]s. A scene has [`Material`],
-//!   [`Adhesion`] with its [`Strength`] or [`RoughnessParameter`], [`Roughness`], which may be [`Measured`], [`Numerics`] with
-//!   the [`Solver`], and [`Observer`]s.
-//! * Computing: [`run`] computes a document, [`Simulation`] many [`CheckedScene`]s. [`ProfileBuilder`] needs no scene.
-//! * Results: an [`Outcome`] with its [`Governing`] numbers and the [`Regime`]; [`estimate`] returns the [`Estimate`] of its error.
-//! * What is refused: [`SceneErrors`] with one [`SceneError`] for each value, their [`Origin`], [`RunError`], and [`Error`] of all.
+//! * Scenes: [`open`] returns a [`Document`], which is a [`Scene`] with its text. [`presets`] returns the built-in scenes as
+//!   [`Preset`]s. The fields of a scene have the types [`Material`], [`Adhesion`] ([`Strength`], [`RoughnessParameter`]),
+//!   [`Roughness`] ([`Measured`]), [`Numerics`] ([`Solver`]) and [`Observer`].
+//! * Computing: [`run`] computes one document. A [`Simulation`] computes many [`CheckedScene`]s. [`ProfileBuilder`] makes a
+//!   profile and loads it without a scene.
+//! * Results: an [`Outcome`] has all results, among them the [`Governing`] parameters and the [`Regime`]. [`estimate`]
+//!   returns the [`Estimate`] of its error.
+//! * Errors: [`SceneErrors`] has one [`SceneError`], with its [`Origin`], for each invalid value. [`RunError`] is an error of
+//!   the computation. [`Error`] includes both.
 //!
-//! The modules are for programs around a scene: [`fields`], [`text`], [`loading`] and [`library`] for editors,
-//! [`discretisation`] for the choice of the number of springs, [`instrument`] and [`theory`] for comparisons, and [`stages`]
-//! for the progress of a computation.
+//! The modules serve special programs. Editors of scenes use [`fields`], [`text`], [`loading`] and [`library`]. The number of
+//! springs is chosen with [`discretisation`]. Results are compared with [`instrument`] and [`theory`]. The progress of a
+//! computation is shown with [`stages`].
 
 mod accuracy;
 mod analysis;
@@ -41,7 +44,8 @@ pub use scene::open::open;
 pub use simulation::outcome::{Outcome, RunError};
 pub use simulation::stages::Simulation;
 
-/// Number of springs: estimated errors, the number for a tolerance, and the cost of smaller errors.
+/// Finds the number of springs that a tolerance needs ([`choose`](discretisation::choose)), and measures how much time
+/// smaller errors cost ([`measure`](discretisation::measure)).
 pub mod discretisation {
     pub use crate::accuracy::choice::{Choice, ChoiceError, choose, parse_tolerance};
     pub use crate::accuracy::estimate::Evidence;
@@ -50,7 +54,8 @@ pub mod discretisation {
     pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 }
 
-/// Table of the fields of a scene with names, units and ranges, and the values of a scene as a tree.
+/// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed range. [`Tree`](fields::Tree)
+/// has the values of one scene. Programs that edit scenes and plans of studies use both.
 pub mod fields {
     pub use crate::scene::changes::Change;
     pub use crate::scene::effects::Effect;
@@ -63,45 +68,48 @@ pub mod fields {
     pub use crate::scene::tree::Tree;
 }
 
-/// Texts of scenes and of shell commands, edits that keep comments, and suggestions for misspelt names.
+/// Reads, writes and edits the text of scenes in RON; edits keep the comments. Other functions write the shell command that
+/// opens a scene, and find the name that a misspelt name probably means.
 pub mod text {
     pub use crate::scene::command::{command_line, quoted};
-    pub use crate::scene::document::LONGEST_TEXT;
     pub use crate::scene::errors::{did_you_mean, nearest};
     pub use crate::scene::read::explain;
     pub use crate::scene::text::index::{Text, TextSpan, line_column};
     pub use crate::scene::text::{read_ron, ron_float, ron_string};
     pub use crate::scene::tree::to_ron;
+    pub use crate::scene::typed::LONGEST_TEXT;
 }
 
-/// Loading stages as text.
+/// Reads and writes loading stages as text, such as `100 µN, separation`.
 pub mod loading {
     pub use crate::scene::stages::{
         StageKind, loading_text, pressing_force, read_loading, read_stage, stage_in_ron,
     };
 }
 
-/// Scenes by name: built-in scenes, scenes of the user, and scenes in a folder.
+/// Finds scenes by name: built-in scenes, the user's own scenes, and scenes in a folder.
 pub mod library {
     pub use crate::scene::library::{DEFAULT, Entry, Source, find_scene, own_folder, scenes, typed_path};
     pub use crate::scene::open::{is_file_name, is_path, open_argument};
 }
 
-/// Numbers and closed forms of theories, for comparison with the model.
+/// Results of theories, for comparison with the model: closed forms of smooth bodies, steep waves of a sphere, and the
+/// Everett function.
 pub mod theory {
     pub use crate::analysis::governing::SteepWaves;
     pub use crate::analysis::reversal_map::ReversalMap;
     pub use crate::reference::closed_form;
 }
 
-/// Force over the displacement of an instrument with a finite stiffness.
+/// Force as a function of the displacement of an instrument of finite stiffness, which moves the body.
 pub mod instrument {
     pub use crate::analysis::instrument::{
         DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,
     };
 }
 
-/// Parts of the computation of a scene with their times and memory, and the deepest loading that the model covers.
+/// Parts of the computation of a scene, which are called stages here, with their times and memory. [`Reach`](stages::Reach)
+/// is the deepest state up to which a loading is computed.
 pub mod stages {
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};

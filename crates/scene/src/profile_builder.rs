@@ -13,8 +13,8 @@ use asperity_surface::lines::{Line, MeasuredRoughness};
 use asperity_surface::{EquivalentLine, Form};
 use std::sync::Arc;
 
-/// Builder of the equivalent profile of a form and a roughness. By default the body is nominally flat and smooth. The profile
-/// is the same to the bit as the profile of a scene with these values.
+/// Builder of the one-dimensional profile that is equivalent to a body with a form and a roughness. By default the body is
+/// nominally flat and smooth. The profile is the same to the bit as the profile of a scene with these values.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move};
@@ -53,7 +53,7 @@ macro_rules! with_member {
 }
 
 impl ProfileBuilder {
-    /// Begins a profile of this length in m with this number of points.
+    /// Begins a profile of this length in m with this number of points, one for each spring.
     #[must_use]
     pub fn new(length: f64, points: usize) -> Self {
         ProfileBuilder { length, points, form: None, roughness: None, spectrum: None }
@@ -71,9 +71,9 @@ impl ProfileBuilder {
         self.form(Form::Paraboloid { radius })
     }
 
-    /// Sets a random self-affine roughness with the Hurst exponent H: cosines with amplitudes ∝ k^(−H−1/2) and random phases.
-    /// The roughness also needs an amplitude and waves. [`Self::rms_height`] or [`Self::rms_gradient`] sets the amplitude,
-    /// [`Self::modes`] or [`Self::wavelengths`] the waves.
+    /// Sets a random self-affine roughness with the Hurst exponent H: a sum of cosines with random phases, where mode k has
+    /// an amplitude proportional to k^(−H−1/2). The roughness also needs an amplitude and waves. [`Self::rms_height`] or
+    /// [`Self::rms_gradient`] sets the amplitude, [`Self::modes`] or [`Self::wavelengths`] the waves.
     #[must_use]
     pub fn self_affine(self, hurst: f64) -> Self {
         let roughness = Roughness::SelfAffine {
@@ -88,31 +88,33 @@ impl ProfileBuilder {
         ProfileBuilder { roughness: Some(roughness), spectrum: None, ..self }
     }
 
-    /// Sets the rms height of the self-affine roughness in m.
+    /// Sets the rms height of the self-affine roughness in m. Give either the rms height or the rms gradient.
     #[must_use]
     pub fn rms_height(self, rms_height: f64) -> Self {
         with_member!(self, rms_height, Some(rms_height))
     }
 
-    /// Sets the rms gradient of the self-affine roughness, in place of its rms height.
+    /// Sets the rms gradient of the self-affine roughness. Give either the rms gradient or the rms height.
     #[must_use]
     pub fn rms_gradient(self, rms_gradient: f64) -> Self {
         with_member!(self, rms_gradient, Some(rms_gradient))
     }
 
-    /// Sets the first and the last mode of the self-affine roughness, in waves per length.
+    /// Sets the first and the last mode of the self-affine roughness, as numbers of waves on the length of the profile. Give
+    /// either modes or wavelengths.
     #[must_use]
     pub fn modes(self, first: u64, last: u64) -> Self {
         with_member!(self, modes, Some((first, last)))
     }
 
-    /// Sets the longest and the shortest wavelength of the self-affine roughness in m, in place of its modes.
+    /// Sets the longest and the shortest wavelength of the self-affine roughness in m. Give either wavelengths or modes.
     #[must_use]
     pub fn wavelengths(self, longest: f64, shortest: f64) -> Self {
         with_member!(self, wavelengths, Some((longest, shortest)))
     }
 
-    /// Sets the wavelength in m above which the spectrum of the self-affine surface is flat. By default there is none.
+    /// Sets the wavelength in m above which the spectrum of the self-affine surface is flat. By default there is no such
+    /// wavelength.
     #[must_use]
     pub fn roll_off(self, wavelength: f64) -> Self {
         with_member!(self, roll_off, Some(wavelength))
@@ -138,8 +140,8 @@ impl ProfileBuilder {
         ProfileBuilder { roughness, spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))), ..self }
     }
 
-    /// Sets the seed of the random phases, by default 1. A seed gives the same phases on any machine and for any number of
-    /// points.
+    /// Sets the seed of the random phases of a roughness that is already set. By default the seed is 1. A seed gives the same
+    /// phases on any machine and for any number of points.
     #[must_use]
     pub fn seed(mut self, wanted: u64) -> Self {
         if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
@@ -150,7 +152,7 @@ impl ProfileBuilder {
         self
     }
 
-    /// Makes the profile.
+    /// Computes the profile of the form and the roughness.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -163,8 +165,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns [`Error::Values`] for values that a scene does not allow, and [`Error::Contact`] for waves with fewer than
-    /// four points. Returns [`Error::Run`] if a surface or a form cannot be used, or for lack of memory.
+    /// Returns [`Error::Values`] for values that a scene does not allow, and [`Error::Contact`] if the shortest wave has
+    /// fewer than four points. Returns [`Error::Run`] if a surface or a form cannot be used, or if the memory is too small.
     pub fn build(&self) -> Result<Profile, Error> {
         let scene = self.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
         if let Some(last) = scene.spectrum().map(|spectrum| spectrum.last)
@@ -179,8 +181,8 @@ impl ProfileBuilder {
         Ok(self.simulation().profile(&scene)?)
     }
 
-    /// Makes the profile of the form with these heights in m as its roughness, one height for each point. Of N points, point
-    /// ⌊N/2⌋ is on the axis of the form.
+    /// Computes the profile of the form with `heights` in m as its roughness, one height for each point. Of N points, the
+    /// point of index ⌊N/2⌋ is on the axis of the form.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -192,8 +194,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::build`], and [`Error::Contact`] for a wrong number of heights or a height that is
-    /// not finite.
+    /// Returns the same errors as [`Self::build`]. Also returns [`Error::Contact`] for a wrong number of heights or a height
+    /// that is not finite.
     pub fn build_with(&self, heights: Vec<f64>) -> Result<Profile, Error> {
         let smooth = ProfileBuilder { roughness: None, spectrum: None, ..self.clone() };
         let scene = smooth.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
@@ -231,7 +233,7 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// Returns κ, e_el/γ and the amplitude of the roughness for a modulus and an adhesion.
+    /// Returns κ, e_el/γ and the amplitude of the roughness that this profile has with a modulus and an adhesion.
     ///
     /// ```
     /// use asperity_contact::Modulus;
@@ -247,13 +249,13 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::build`], but allows waves with two or three points.
+    /// Returns the same errors as [`Self::build`], except that waves may have two or three points.
     pub fn governing(&self, modulus: Modulus, adhesion: Option<Adhesion>) -> Result<Governing, Error> {
         let scene = self.scene(modulus, adhesion, &[Move::ToTouch])?;
         Ok(self.simulation().make_line(&scene)?.2)
     }
 
-    /// Loads a contact with this profile and computes all results of a scene. The results are the force curve, forces and
+    /// Loads a contact with this profile by the stages `loading`, and returns all results: the force curve, forces and
     /// energies, κ, e_el/γ, the Tabor number, F_a,max, F_a(d=0), F_a(F=0) and both regimes.
     ///
     /// ```
@@ -270,7 +272,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::governing`], and [`Error::Contact`] if the contact cannot reach the end of a stage.
+    /// Returns the same errors as [`Self::governing`]. Also returns [`Error::Contact`] if the contact cannot reach the end of
+    /// a stage.
     pub fn run(
         &self,
         modulus: Modulus,

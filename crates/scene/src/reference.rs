@@ -3,8 +3,8 @@
 use asperity_contact::ClosedForm;
 use asperity_surface::Form;
 
-/// Returns the exact solution for a form whose profile is a power law: paraboloid, cone or power. The effective modulus is in
-/// Pa, the work of adhesion in J/m². Returns `None` for punches, wavy spheres and tables.
+/// Returns the exact solution (closed form) for the adhesive contact of a form that is a power law: paraboloid, cone or
+/// power. The effective modulus is in Pa, the work of adhesion in J/m². Returns `None` for punches, wavy spheres and tables.
 ///
 /// ```
 /// use asperity_scene::theory::closed_form;

@@ -32,7 +32,7 @@ pub(super) enum AxisText {
     List { path: String, values: Vec<f64> },
 }
 
-/// Spacing of the values on an axis.
+/// How the values of an [`Axis`] are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Spacing {
@@ -40,36 +40,37 @@ pub enum Spacing {
     Linear,
     /// Equal ratios between neighbouring values.
     Logarithmic,
-    /// List of any values.
+    /// Values given one by one, at any distances.
     List,
 }
 
-/// Axis of a study: a quantity that is varied, and its values.
+/// Axis of a study: one quantity that varies from [cell](crate::Plan) to cell, and the values that it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Path of the varied field of a scene, or name of a quantity in [`Axis::DERIVED`].
+    /// Path of the field of the scene that varies, such as `roughness.hurst`, or one of the names in [`Axis::DERIVED`].
     pub path: String,
     /// Name of the quantity in words, such as `Hurst exponent`.
     pub name: String,
-    /// Symbol of the quantity with `_` before an index, such as `F_n`; empty if there is none.
+    /// Symbol of the quantity, in which `_` begins an index, as in `F_n`; empty if the quantity has no symbol.
     pub symbol: &'static str,
     /// SI unit of the values; `1` for numbers without a unit.
     pub unit: &'static str,
-    /// Spacing of the values.
+    /// Whether the values have equal differences, equal ratios, or any distances.
     pub spacing: Spacing,
-    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::maps::Grid).
+    /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) they ascend.
     pub values: Vec<f64>,
     pub(super) target: Target,
 }
 
 impl Axis {
-    /// Names of the quantities that an axis may vary although no field of a scene holds them.
+    /// Names of the quantities that an axis may vary although a scene has no field for them. They are the preload in units of
+    /// E* h L with the rms height h, the preload in N, and the number of springs per shortest wave.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
-    /// Creates an axis over a number of a scene, given by its path.
+    /// Creates an axis over the number that a scene has at `path`. The `values` are in the SI unit of this number.
     ///
     /// # Errors
-    /// The path leads to no number of the scene.
+    /// Returns an error if no scene has a number at this path. The error names the nearest path.
     ///
     /// ```
     /// use asperity_study::{Axis, Spacing};
@@ -105,7 +106,7 @@ impl Axis {
         let (spacing, values) = match *text {
             AxisText::List { ref values, .. } => (Spacing::List, values.clone()),
             AxisText::Linear { from, to, count, .. } => {
-                check_ends(from, to, count, MOST_VALUES)?;
+                check_ends(from, to, count, MOST_VALUES).map_err(|error| error.to_string())?;
                 if !(to - from).is_finite() {
                     return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
                 }
@@ -113,8 +114,8 @@ impl Axis {
                 (Spacing::Linear, self.between(from, to, count, at))
             }
             AxisText::Logarithmic { from, to, count, .. } => {
-                check_ends(from, to, count, MOST_VALUES)?;
-                check_logarithm(from)?;
+                check_ends(from, to, count, MOST_VALUES).map_err(|error| error.to_string())?;
+                check_logarithm(from).map_err(|error| error.to_string())?;
                 let (first, last) = (from.ln(), to.ln());
                 let at = |share: f64| (first * (1.0 - share) + last * share).exp();
                 (Spacing::Logarithmic, self.between(from, to, count, at))
@@ -151,22 +152,23 @@ impl Axis {
         std::iter::once(from).chain(inner).chain([to]).collect()
     }
 
-    /// Returns true if the values are whole numbers.
+    /// Returns true if the quantity takes only whole numbers, such as a number of springs.
     pub fn is_whole(&self) -> bool {
         self.target.is_whole()
     }
 
-    /// Returns true for an axis of preloads, each of which replaces the loading of the scene.
+    /// Returns true for an axis of preloads. Each of its preloads replaces the loading of the scene.
     pub fn is_of_preloads(&self) -> bool {
         matches!(self.target, Target::Preload { .. })
     }
 
-    /// Returns the number of values.
+    /// Returns the number of values on the axis.
     pub fn count(&self) -> u64 {
         self.values.len() as u64
     }
 
-    /// Returns the scale of the values in figures, linear or logarithmic.
+    /// Returns the scale on which figures show the values. It is logarithmic for values with equal ratios, and for a list of
+    /// values above zero of which the largest is at least 50 times the smallest. Otherwise it is linear.
     pub fn scale(&self) -> AxisScale {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -193,8 +195,8 @@ impl Axis {
         format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
     }
 
-    /// Returns the value that is `steps` values above `value` on an ascending axis, or below for negative `steps`. Beyond
-    /// the ends, returns the first or the last value, or `None` if `value` is already there.
+    /// Returns the value of an ascending axis that lies `steps` values above `value`, or below it if `steps` is negative. A
+    /// step beyond the end of the axis stops at its last or first value. Returns `None` if no value lies in this direction.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;
@@ -344,19 +346,23 @@ impl Target {
     }
 }
 
-pub(super) fn check_logarithm(from: f64) -> Result<(), String> {
-    if from > 0.0 { Ok(()) } else { Err(format!("from {from:?}: a logarithmic axis begins above 0")) }
+pub(super) fn check_logarithm(from: f64) -> Result<(), StudyError> {
+    let refused =
+        || StudyError::refused(None, format!("a logarithmic axis from {from:?}"), "one that begins above 0");
+    if from > 0.0 { Ok(()) } else { Err(refused()) }
 }
 
-pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), String> {
+pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), StudyError> {
+    let refused = |allowed| Err(StudyError::refused(None, format!("from {from:?} to {to:?}"), allowed));
     if !(2..=most).contains(&count) {
-        return Err(format!("count = {count}: allowed: from 2 to {most}"));
+        let allowed = format!("from 2 to {most}");
+        return Err(StudyError::refused(None, format!("count = {count}"), allowed));
     }
     if !(from.is_finite() && to.is_finite()) {
-        return Err(format!("from {from:?} to {to:?}: both ends must be finite"));
+        return refused("two finite ends");
     }
     if from >= to {
-        return Err(format!("from {from:?} to {to:?}: `from` must be less than `to`"));
+        return refused("`from` less than `to`");
     }
     Ok(())
 }
@@ -386,8 +392,8 @@ mod tests {
         for (text, said) in [
             ("Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)", "you mean roughness.hurst?"),
             ("Linear(path: \"kappa\", from: 0.1, to: 0.9, count: 3)", "did you mean adhesion.kappa?"),
-            ("Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)", "must be less than `to`"),
-            ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "both ends must be finite"),
+            ("Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)", "less than `to`"),
+            ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "two finite ends"),
             ("Linear(path: \"adhesion.kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
             ("Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 999999999)", "from 2 to 1000000"),
             ("Logarithmic(path: \"adhesion.kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),

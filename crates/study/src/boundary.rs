@@ -23,51 +23,53 @@ const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Boundary where adhesion without a preload vanishes, for one combination of values on the other axes, one turning point
-/// and one share of F_a,max.
+/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It belongs to one combination of values on the
+/// other axes, to one place where the loading turns, and to one share of F_a,max below which adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// Recorded quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max. It states where the loading turns: at first touch or at zero
-    /// force.
+    /// Recorded quantity that falls with κ: F_a(d=0)/F_a,max if the loading turns at first touch, F_a(F=0)/F_a,max if it turns
+    /// at zero force.
     pub protocol: Quantity,
     /// Share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
-    /// Position of the boundary in κ or e_el/γ.
+    /// Value of κ or e_el/γ at which adhesion vanishes, with its confidence interval.
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ at which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, falls below a share.
+/// Value of κ or e_el/γ above which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, stays below a share. The mean is
+/// taken over the random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Position of the boundary. If the boundary lies beyond the studied range, the value is the end of the range.
+    /// Value of κ or e_el/γ at the boundary. If the boundary lies beyond the studied range, it is the nearer end of the range.
     pub value: f64,
     /// Side of the studied range on which the boundary lies: `Equal` within the range, `Less` below its smallest value,
     /// `Greater` above its largest value.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval from random selections of profiles. `None` if there are too few profiles, or if
-    /// the mean of a selection does not fall below the share.
+    /// Ends of the 95 % confidence interval of the value, from repeated random selections of the profiles. `None` if there are
+    /// fewer than two profiles, or if the boundary of the study or of any selection lies beyond the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
 impl Crossing {
-    /// Returns the position and its confidence interval; `None` if the position lies beyond the studied range.
+    /// Returns the value at the boundary with its confidence interval; `None` if the boundary lies beyond the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
         self.side.is_eq().then_some((self.value, self.interval))
     }
 }
 
-/// All boundaries of a study where adhesion without a preload vanishes.
+/// All values of κ or e_el/γ in a study at which adhesion without a preload vanishes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundaries {
-    /// Parameter, κ or e_el/γ, whose values are the boundaries.
+    /// Parameter in which the boundaries are given: κ or e_el/γ.
     pub over: RoughnessParameter,
     /// Axes of the study other than κ or e_el/γ.
     pub others: Vec<Axis>,
     /// Number of random profiles for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes, then by the turning point, then by the share of F_a,max.
+    /// Boundaries, sorted by the values on the other axes. For the same values, loadings that turn at first touch come first,
+    /// and then loadings that turn at zero force. The shares of F_a,max follow in the order in which they were given.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -107,23 +109,24 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns in words where the loading turns for the quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max.
+    /// Returns where the loading turns for this boundary: `first touch` or `zero force`.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
     }
 }
 
 impl Boundaries {
-    /// Shares of F_a,max below which adhesion usually counts as vanished.
+    /// Shares of F_a,max for which boundaries are computed unless others are given.
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
-    /// Finds the boundaries where adhesion without a preload vanishes, along the axis of κ or e_el/γ of a study. The study is
-    /// in the folder `path` and was merged by [`merge`](crate::merge). `over` is the parameter of the boundaries, and `levels`
-    /// are shares of F_a,max.
+    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. The study is in the folder `path`, in
+    /// which [`merge`](crate::merge) has written its tables, and has an axis of κ or e_el/γ. `over` is the parameter in which
+    /// the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
     ///
     /// # Errors
-    /// The study has no axis of κ or e_el/γ, or recorded neither F_a(d=0)/F_a,max nor F_a(F=0)/F_a,max. On a measured surface,
-    /// the axis has another parameter than `over`. The errors of [`Results::open`] are possible too.
+    /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor
+    /// F_a(F=0)/F_a,max. For a measured surface it is also an error if `over` is not the parameter of the axis. The errors of
+    /// [`Results::open`] are possible too.
     pub fn of(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
         let study = Results::open(path)?;
         let plan = study.plan();
@@ -169,7 +172,7 @@ impl Boundaries {
         Ok(Boundaries { over, others, lines: plan.lines, found })
     }
 
-    /// Returns the symbol of the boundaries: κ* or (e_el/γ)*.
+    /// Returns the symbol of a boundary: `κ*` or `(e_el/γ)*`.
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",

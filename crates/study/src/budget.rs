@@ -13,26 +13,26 @@ const FEWEST: usize = 4;
 /// approximation of the binomial distribution for 95 of 100 cases.
 const HALF: f64 = 0.98;
 
-/// Errors of the adhesion force by their sources. Each error is a share of the force that the true error exceeds in about 5
-/// of 100 cases. The error of a source is `None` if it is unknown.
+/// Errors of the adhesion force of a scene by their sources, each divided by the adhesion force. The true error due to a source
+/// exceeds its number in about 5 of 100 cases. An error is `None` if it is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
-    /// Error due to the finite number of springs, on the profile of the scene.
+    /// Error due to the finite number of springs, for the profile with the seed of the scene.
     pub grid: Option<f64>,
-    /// Error of the median due to the finite number of random profiles.
+    /// Error of the median over random profiles, due to the finite number of these profiles.
     pub sample: Option<f64>,
-    /// Error of the median due to the uncertainty of the spectrum of a measured surface.
+    /// Error of the median over random profiles, due to the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
-    /// Error of the model, compared with the same bodies in three dimensions.
+    /// Error of the profile as a model, found by comparison with the same bodies in three dimensions.
     pub model: Option<f64>,
-    /// Name of the source with the largest known error.
+    /// Name of the source with the largest known error: `grid`, `sample`, `surface` or `model`.
     pub largest: Option<&'static str>,
 }
 
 impl Budget {
-    /// Collects the errors of a computed scene; `None` if the scene has no adhesion force above zero. `estimate` is the
-    /// error due to the number of springs, and `ensemble` has results on random profiles. `deviation` is the standard
-    /// deviation of the adhesion force in N due to the spectrum of a measured surface.
+    /// Collects the errors of a computed scene; `None` if its adhesion force is not above zero. `estimate` has the error due to
+    /// the number of springs. `ensemble` has the results on random profiles. `deviation` is the standard deviation of the
+    /// adhesion force in N due to the uncertainty of the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,
@@ -54,7 +54,7 @@ impl Budget {
         Some(Budget { grid, sample, surface, model: None, largest })
     }
 
-    /// Returns the errors with `share` as the error of the model.
+    /// Returns these errors with `share` as the error of the model, divided by the adhesion force.
     pub fn with_model(self, share: f64) -> Budget {
         let known = [self.grid, self.sample, self.surface].into_iter().flatten();
         let is_largest = known.fold(0.0, f64::max) <= share;

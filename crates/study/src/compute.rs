@@ -72,11 +72,13 @@ impl Streaks<'_> {
     }
 }
 
-/// Computes all records of a plan in memory: the recorded quantities of each cell on each profile. A record that cannot be
-/// computed keeps the reason in place of its values. The reported progress is the number of computed records.
+/// Computes a plan in memory: the recorded quantities of each [cell](Plan) on each random profile. If a cell cannot be computed
+/// on a profile, [`Results::failed`] has the reason. The progress that `control` reports is the number of computed pairs of
+/// cell and profile.
 ///
 /// # Errors
-/// A measured file cannot be read, the memory or the threads do not suffice, or the computation is stopped.
+/// Returns an error if a measured file cannot be read, if the memory does not suffice, if no thread is allowed or can be
+/// started, or if `control` stops the computation.
 ///
 /// ```
 /// use asperity_data::Control;

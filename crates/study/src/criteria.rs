@@ -20,11 +20,12 @@ const TABOR: Criterion = Criterion::new(
 const THIS_PROGRAM: Criterion =
     Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", Regime::VANISHING_SHARE);
 
-/// Returns the criteria of adhesion for a computed scene, by other theories and last by this program. The numbers are
-/// medians over the profiles of an ensemble, or the numbers of the scene's own profile if no ensemble is given.
+/// Returns the criteria by which other theories and this program judge whether the bodies of a computed scene adhere without a
+/// preload. The last criteria are those of this program. They use the medians of F_a(d=0) and F_a(F=0) over the profiles of
+/// `ensemble`, or the forces of the scene's own profile if no ensemble is given.
 ///
-/// A smooth body has no criteria of roughness, and a scene without adhesion has no criteria. Criteria of roughness do not
-/// include the form of the body.
+/// For a smooth body the criteria of roughness are left out, and a scene without adhesion has no criteria at all. The criteria
+/// of roughness do not take the form of the body into account.
 ///
 /// ```
 /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;

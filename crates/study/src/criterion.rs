@@ -3,24 +3,25 @@
 use asperity_data::{format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Criterion by which a theory decides whether bodies adhere without a preload. It compares a number with a threshold.
+/// Criterion of one theory for whether bodies adhere without a preload: a number of the scene, a threshold, and the verdict.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {
-    /// Name of the theory.
+    /// Name of the theory, or `this program`.
     pub name: &'static str,
-    /// Symbol of the number.
+    /// Symbol of the number that is compared with the threshold.
     pub symbol: &'static str,
-    /// Publication of the criterion.
+    /// Publication that states the criterion.
     pub reference: &'static str,
     /// Value of the number; `None` if the scene does not determine it.
     pub value: Option<f64>,
-    /// Threshold at which the verdict changes.
+    /// Value of the number at which the verdict changes.
     pub threshold: f64,
-    /// True if the bodies adhere without a preload; `None` if the criterion does not hold or does not decide.
+    /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory are not met, or if the
+    /// number alone decides nothing.
     pub sticks: Option<bool>,
-    /// Reason why there is no verdict. A verdict of this program has a note here on where the loading turns and which
-    /// profiles are used.
+    /// Reason why there is no verdict. If this program gives a verdict, the text states instead where the loading turns and
+    /// over how many profiles the median is taken.
     pub reason: Option<String>,
 }
 
@@ -38,7 +39,7 @@ impl Criterion {
         Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
     }
 
-    /// Returns the number, its threshold and the verdict in words.
+    /// Returns one line of text with the number, its threshold and the verdict.
     pub fn words(&self) -> String {
         let behind =
             |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));

@@ -9,22 +9,22 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::Control;
 use asperity_scene::{Document, Scene, Simulation, Solver};
 
-/// Results of a scene on several random profiles, with the seed of the scene and the seeds that follow. A scene whose
-/// profile is fixed has one profile.
+/// Results of a scene on several random profiles. The first profile has the seed of the scene, and the others have the seeds
+/// that follow. If the profile of the scene is fixed, the ensemble is this profile alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
     results: Results,
 }
 
 impl Ensemble {
-    /// Usual number of random profiles.
+    /// Number of random profiles unless another number is requested.
     pub const PROFILES: u64 = 16;
 
-    /// Sentence about a scene that has a single profile.
+    /// Sentence that is shown for a scene with a fixed profile.
     pub const FIXED: &str =
         "The profile of this scene is fixed, so there is no scatter over random profiles.";
 
-    /// Quantities whose statistics the summary of a scene gives.
+    /// Quantities that each ensemble records and whose statistics the summary of `asperity run` shows.
     pub const NUMBERS: [Quantity; 5] = [
         Quantity::AdhesionForce,
         Quantity::AdhesionShare,
@@ -33,7 +33,7 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Quantities that a table of profiles contains in addition.
+    /// Quantities that a table with one row for each profile has in addition to [`Ensemble::NUMBERS`].
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -42,23 +42,23 @@ impl Ensemble {
         Quantity::TaborNumber,
     ];
 
-    /// Returns the usual number of profiles of a scene. It is [`Ensemble::PROFILES`], or 1 for a fixed profile. It is also
-    /// 1 for the stepwise solver, which takes long.
+    /// Returns the number of profiles on which a scene is computed unless another number is requested. It is
+    /// [`Ensemble::PROFILES`], but 1 for a fixed profile and for the solver [`Solver::Stepwise`], which takes long.
     pub fn profiles_of(scene: &Scene) -> u64 {
         let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
         if several { Ensemble::PROFILES } else { 1 }
     }
 
-    /// Computes a checked scene on `profiles` profiles: the quantities [`Ensemble::NUMBERS`] and `further`, and the regimes
-    /// turned at first touch and at zero force. A profile that cannot follow the loading has no values.
+    /// Computes a checked scene on `profiles` random profiles. The recorded quantities are [`Ensemble::NUMBERS`], `further` and
+    /// both regimes, [`Quantity::REGIMES`]. A profile on which the loading cannot be followed has no values.
     ///
-    /// `workers` are the simulation of the first thread and the number of threads, which share the profiles. The results do
-    /// not depend on this number. After each profile `report` receives the number of profiles so far, and a
-    /// function that copies the ensemble so far.
+    /// `workers` is a pair: the simulation with which the first thread computes, and the number of threads that share the
+    /// profiles. The results do not depend on the number of threads. After each profile `report` receives the number of
+    /// profiles so far, and a function that returns a copy of the ensemble so far.
     ///
     /// # Errors
-    /// Several profiles are requested of a scene whose profile is fixed, the memory does not suffice, or `stop` returned
-    /// true.
+    /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the memory does not
+    /// suffice, or if `stop` returned true.
     pub fn of(
         scene: &Scene,
         further: &[Quantity],
@@ -78,7 +78,7 @@ impl Ensemble {
         Ok(Ensemble { results })
     }
 
-    /// Returns the number of profiles when all are computed.
+    /// Returns the number of profiles of the complete ensemble.
     pub fn profiles(&self) -> u64 {
         self.results.plan().lines
     }
@@ -88,18 +88,18 @@ impl Ensemble {
         (0..self.profiles()).filter(|line| self.results.has(0, *line)).count() as u64
     }
 
-    /// Returns the seeds of the profiles that cannot follow the loading, each with the reason in one line.
+    /// Returns the seeds of the profiles on which the loading cannot be followed, each with the reason in one line.
     pub fn failed(&self) -> impl Iterator<Item = (u64, &str)> {
         self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
 
-    /// Returns the values on all profiles with their seeds, as a study without axes.
+    /// Returns the values on all profiles, as results of a study whose only cell is the scene itself.
     pub fn results(&self) -> &Results {
         &self.results
     }
 
-    /// Returns median, quartiles, range and mean of a quantity over the computed profiles that have it; `None` if no
-    /// profile has it.
+    /// Returns median, quartiles, range and mean of a quantity over the computed profiles that have a value; `None` if no
+    /// profile has one.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }
@@ -109,18 +109,18 @@ impl Ensemble {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }
 
-    /// Returns the numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero
-    /// force.
+    /// Returns the numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from
+    /// F_a(d=0), the second for the regime that follows from F_a(F=0).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }
 }
 
-/// Computes a scene on this number of random profiles. Files of the scene are found relative to the scene file. The
-/// reported progress is the number of computed profiles.
+/// Computes a scene on `profiles` random profiles. Paths of files in the scene are relative to the folder of the scene file.
+/// The progress that `control` reports is the number of computed profiles.
 ///
 /// # Errors
-/// Zero profiles or zero threads are requested. The errors of [`Ensemble::of`] are possible too.
+/// Returns an error if zero profiles or zero threads are requested. The errors of [`Ensemble::of`] are possible too.
 ///
 /// ```
 /// use asperity_data::Control;

@@ -15,11 +15,11 @@ pub(super) const ONE_PROFILE: (&str, &str) = (
     "random roughness (SelfAffine, or an equivalent line)",
 );
 
-/// Error that ends the work on a study. Results that were written before are kept.
+/// Error of a function that computes, writes or reads a study. Results that were written to files before the error are kept.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// A plan has errors. Each is one line with its place, what was found and what is allowed.
+    /// A plan has errors. Each text is one line that states the place of an error, what was found and what is allowed.
     #[error("{}", .0.join("\n"))]
     Plan(Vec<String>),
     /// A folder or file of the study cannot be used.
@@ -39,12 +39,12 @@ pub enum StudyError {
     /// A scene of the study could not be computed.
     #[error("{place}{error}")]
     Run {
-        /// Values on the axes and seed of the profile, followed by a colon; empty for a single profile.
+        /// Values on the axes and seed of the profile that failed, followed by a colon; empty for a single profile.
         place: String,
         /// Reason why the computation failed.
         error: RunError,
     },
-    /// The computation in three dimensions is refused.
+    /// The solver of contacts in three dimensions returned an error.
     #[error(transparent)]
     HalfSpace(#[from] HalfSpaceError),
     /// A value or a request is not allowed.
@@ -57,7 +57,7 @@ pub enum StudyError {
         /// Values or requests that are allowed, in words.
         allowed: String,
     },
-    /// Two results for the same values on the axes and the same profile differ.
+    /// Two files have different results for the same values on the axes and the same profile.
     #[error(
         "{place}: two records differ, in {} and {}; remove the one that is wrong",
         path_name(&files[0]),
@@ -69,10 +69,10 @@ pub enum StudyError {
         /// Both files that hold the results.
         files: [PathBuf; 2],
     },
-    /// The memory does not suffice for a table with this number of rows.
+    /// The memory does not suffice for a table with this number of rows. A table has one row for each cell and profile.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
-    /// The study needs more memory on this number of threads than the system provides.
+    /// On this number of threads the study needs more memory than the system provides.
     #[error(
         "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
         memory_size(*bytes)
@@ -120,7 +120,7 @@ impl StudyError {
         if threads > 0 { Ok(()) } else { Err(StudyError::refused(None, "0 threads", "at least one")) }
     }
 
-    /// Returns true if the computation was stopped rather than failed.
+    /// Returns true if the computation ended because it was asked to stop, and false if it failed.
     pub fn is_interruption(&self) -> bool {
         match self {
             StudyError::Run { error, .. } => error.is_interruption(),

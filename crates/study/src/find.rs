@@ -15,23 +15,24 @@ use asperity_scene::{Document, Simulation};
 /// error by the number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
-/// Answers to an inverse question on all profiles.
+/// For each random profile of a scene, the value of a number at which a quantity reaches its target: the answers to a
+/// [`Question`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Question that is answered.
+    /// Question that was asked.
     pub question: Question,
     /// Answers of the profiles, in the order of their seeds.
     pub answers: Vec<Answer>,
-    /// Reason why the scene does not allow a number of the searched range; `None` if all numbers are allowed.
+    /// First reason why the scene could not be computed with a number of the searched range; `None` if there was none.
     pub refused: Option<String>,
 }
 
-/// Finds the value of a number of a scene at which a quantity has a given value. `condition` is the quantity with this
-/// value in its SI unit. `path` is the path of the number, or `preload`. Each of `profiles` random profiles is searched
-/// within the range of [`Question::new`]. The reported progress is the number of finished profiles.
+/// Finds the value of a number of a scene at which a quantity has a given value, on each of `profiles` random profiles. `path`
+/// is the path of the number, or `preload`. `condition` is the quantity with its value in its SI unit. The search begins with
+/// the range of [`Question::new`]. The progress that `control` reports is the number of finished profiles.
 ///
 /// # Errors
-/// No threads are allowed. The errors of [`Question::new`] and [`Found::of`] are possible too.
+/// Returns an error if zero threads are requested. The errors of [`Question::new`] and [`Found::of`] are possible too.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -59,12 +60,13 @@ pub fn find(
 }
 
 impl Found {
-    /// Answers a question on all profiles. `jobs` threads share the profiles, and `simulation` serves the first thread. The
-    /// results do not depend on the number of threads. After each profile `report` receives the number of finished
+    /// Answers a question on all its random profiles, which `jobs` threads share. The first thread computes with `simulation`.
+    /// The results do not depend on the number of threads. After each profile `report` receives the number of finished
     /// profiles.
     ///
     /// # Errors
-    /// The scene lacks the quantity, the number has no influence on the quantity, a profile fails, or `stop` returned true.
+    /// Returns an error if the searched range is not allowed, if the scene does not have the quantity, or if the number does
+    /// not change the quantity. It is also an error if a profile cannot be computed, or if `stop` returned true.
     pub fn of(
         question: Question,
         (simulation, jobs): (Simulation, usize),
@@ -119,13 +121,14 @@ impl Found {
         Ok(())
     }
 
-    /// Returns for each profile the number at which the quantity reaches the target: the first crossing, or the smallest
-    /// preload that reaches the target. A profile on which the quantity does not cross the target has `None`.
+    /// Returns for each profile the number at which the quantity reaches the target, in its SI unit. It is the smallest of
+    /// [`Answer::crossings`], or the smallest searched preload if the target is reached there already. `None` for a profile on
+    /// which the quantity does not cross the target.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers.iter().map(|answer| answer.value(&self.question)).collect()
     }
 
-    /// Returns the smallest and the largest value of the quantity that the search met on any profile.
+    /// Returns the smallest and the largest of [`Answer::reachable`] over all profiles; `None` if no profile has one.
     pub fn reachable(&self) -> Option<(f64, f64)> {
         let all = || self.answers.iter().filter_map(|answer| answer.reachable);
         let least = all().map(|ends| ends.0).reduce(f64::min)?;
@@ -145,8 +148,8 @@ impl Found {
         places
     }
 
-    /// Returns a quantile of the numbers over all profiles, such as the median for 0.5; `None` if it lies beyond the
-    /// searched range.
+    /// Returns a quantile of the found numbers over all profiles, such as the median for a `share` of 0.5. A profile without a
+    /// found number counts as beyond the searched range. `None` if the quantile itself lies beyond this range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let places = self.ascending();
         let place = share * places.len().checked_sub(1)? as f64;
@@ -156,7 +159,7 @@ impl Found {
         Some(value).filter(|value| value.is_finite())
     }
 
-    /// Returns the smallest and the largest number that was found on a profile.
+    /// Returns the smallest and the largest of [`Found::values`]; `None` if no profile has a value.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = || self.values().into_iter().flatten();
         values().reduce(f64::min).zip(values().reduce(f64::max))
@@ -184,7 +187,7 @@ mod tests {
         jobs: usize,
     ) -> Result<Found, String> {
         let mut simulation = Simulation::default();
-        let condition = Question::parse_condition(condition)?;
+        let condition = Question::parse_condition(condition).map_err(|error| error.to_string())?;
         let question = Question::new(scene, path, condition, profiles, &mut simulation);
         let mut question = question.map_err(|error| error.to_string())?;
         question.searched = range.unwrap_or(question.searched);
@@ -216,7 +219,7 @@ mod tests {
             ("dissipated energy = 2.5 pJ", Quantity::DissipatedEnergy, 2.5e-12),
             ("F_a/F_n=1e-2", Quantity::AdhesionCoefficient, 0.01),
         ] {
-            assert_eq!(Question::parse_condition(text), Ok((quantity, target)), "{text}");
+            assert_eq!(Question::parse_condition(text).ok(), Some((quantity, target)), "{text}");
         }
         for (text, said) in [
             ("F_a", "such as \"F_a/F_a,max = 80 %\""),
@@ -228,7 +231,7 @@ mod tests {
             ("F_a = -1 uN", "allowed: at least 0 N"),
             ("F_a = 1 s", "s is not a unit of force"),
         ] {
-            let error = Question::parse_condition(text).unwrap_err();
+            let error = Question::parse_condition(text).unwrap_err().to_string();
             assert!(error.contains(said), "{text}: {error}");
         }
     }

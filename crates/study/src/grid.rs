@@ -9,31 +9,34 @@ use asperity_scene::RoughnessParameter;
 
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// Cell of a grid: the results for one value on each axis.
+/// Results of a study for one value on each axis of a [`Grid`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridCell {
-    /// Statistics of the quantity of each layer, in the order of [`Grid::layers`]; `None` if no profile has a value.
+    /// Statistics over the random profiles for the quantity of each layer, in the order of [`Grid::layers`]; `None` if no
+    /// profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero force.
+    /// Numbers of profiles in each regime: first for the regime that follows from F_a(d=0), then for the one that follows from
+    /// F_a(F=0).
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime. The loading turns at zero force if `quantity` is the regime turned
-    /// at zero force, otherwise at first touch.
+    /// Returns the numbers of profiles in each regime. The regime follows from F_a(F=0) if `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other quantity.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
 }
 
-/// Quantity of a grid with the scale on which it is shown.
+/// Quantity that a [`Grid`] shows, and the scale on which it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridLayer {
     /// Quantity that the layer shows.
     pub quantity: Quantity,
     /// Scale of the quantity, linear or logarithmic.
     pub scale: AxisScale,
-    /// Smallest and largest mean that the scale can show, over all grids with this scale; `None` if there is none.
+    /// Smallest and largest mean in a cell, over all grids that share this scale. Means that the scale cannot show, such as
+    /// zero on a logarithmic scale, do not count. `None` if no mean remains.
     pub range: Option<(f64, f64)>,
 }
 
@@ -56,10 +59,10 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
-/// Value on the horizontal axis of a grid, and on its vertical axis if it has one.
+/// Place on a grid: value on the horizontal axis, and value on the vertical axis if the grid has one.
 pub type GridPlace = (f64, Option<f64>);
 
-/// Cells over one axis or two axes.
+/// Results of a study over one or two of its axes, with a cell for each combination of their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Horizontal axis, with an ascending value for each column.
@@ -68,9 +71,9 @@ pub struct Grid {
     pub up: Option<Axis>,
     /// Values of the other axes of the study in words, such as `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities of the grid other than the regimes.
+    /// Quantities that the grid shows, except regimes, which are counted in [`GridCell::regimes`].
     pub layers: Vec<GridLayer>,
-    /// Cells row by row from the lowest row. `None` is a cell that is not computed yet, and an error is the reason why a
+    /// Cells row by row, beginning with the lowest row. A cell is `None` until it is computed. An error is the reason why the
     /// cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
     /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a coarser grid.
@@ -78,7 +81,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid in which no cell is shown in place of another.
+    /// Creates a grid. A cell that is not computed yet is shown as missing, and not by the results of a cell nearby.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -90,31 +93,32 @@ impl Grid {
         Grid { across, up, fixed, layers, cells, stand_ins }
     }
 
-    /// Returns the numbers of columns and rows.
+    /// Returns the number of columns and the number of rows.
     pub fn size(&self) -> (usize, usize) {
         (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
     }
 
-    /// Returns the layer that shows a quantity.
+    /// Returns the layer that shows a quantity; `None` if the grid has no such layer.
     pub fn layer(&self, quantity: Quantity) -> Option<&GridLayer> {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// Returns the quantities of the grid. If regimes are known, the regime turned at first touch comes first and the
-    /// regime turned at zero force last.
+    /// Returns the quantities that the grid shows. If regimes are known, the regime that follows from F_a(d=0) comes first and
+    /// the regime that follows from F_a(F=0) last.
     pub fn quantities(&self) -> Vec<Quantity> {
         let [touch, zero_force] = Quantity::REGIMES
             .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));
         touch.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).chain(zero_force).collect()
     }
 
-    /// Returns true if in some cell too few profiles agree on one regime.
+    /// Returns true if there is a cell in which less than three quarters of the profiles agree on one regime. `regime` is one
+    /// of [`Quantity::REGIMES`].
     pub fn is_split(&self, regime: Quantity) -> bool {
         self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// Returns the cell that is shown at a column and a row, with its own column and row. Until the cell itself is
-    /// computed, a cell of a coarser grid is shown.
+    /// Returns the cell that is shown in a column and a row, with the column and the row to which its results belong. Until a
+    /// cell of a [`LiveMap`](crate::maps::LiveMap) is computed, a computed cell nearby is shown. `None` if there is none.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
@@ -127,9 +131,10 @@ impl Grid {
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
 
-    /// Returns the statistics of a quantity in all cells, row by row. With `whole`, a cell that is not computed yet has the
-    /// statistics of the cell shown in its place. A regime counts as 0 (non-adhesive), ½ or 1 (pressure-insensitive). If
-    /// profiles disagree, the cell has the mean of the two most frequent regimes.
+    /// Returns the statistics of a quantity in all cells, row by row. If `whole` is true, a cell that is not computed yet has
+    /// the statistics of the cell that [`Grid::shown`] returns for it. A regime counts as 0 (non-adhesive), ½ or 1
+    /// (pressure-insensitive). Where less than three quarters of the profiles agree, it is the mean of the two most frequent
+    /// regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
@@ -146,16 +151,16 @@ impl Grid {
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
-    /// Returns the regime of most profiles of each cell, row by row; empty if no regime is known. The loading turns as in
-    /// [`GridCell::regimes_of`]. With `whole`, a cell that is not computed yet has the regime of the cell shown in its
-    /// place.
+    /// Returns the most frequent regime of each cell, row by row; empty if no regime is known. The regime follows from F_a(d=0)
+    /// or F_a(F=0), as in [`GridCell::regimes_of`]. If `whole` is true, a cell that is not computed yet has the regime of the
+    /// cell that [`Grid::shown`] returns for it.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 
-    /// Returns true if values lie on the grid, which extends half a cell beyond its outermost values.
+    /// Returns true if a place lies on the grid. The grid extends half a cell beyond the first and the last value of an axis.
     pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
@@ -172,8 +177,8 @@ impl Grid {
         )
     }
 
-    /// Returns the cell that is shown at values on the axes, with its column and row. Beyond the grid, returns the cell at
-    /// the edge.
+    /// Returns what [`Grid::shown`] returns for the cell nearest to a place. For a place beyond the grid it is a cell at the
+    /// edge.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;

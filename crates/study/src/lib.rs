@@ -5,15 +5,15 @@
 //! # Names by task
 //!
 //! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record; [`Changes`] to a plan.
-//! * Computing: [`compute`](compute()) in memory; [`run_study`] with [`StudyProgress`] in a [`Folder`], of which each process computes a
-//!   [`Shard`]; [`merge`] afterwards. [`Stop`] ends a computation.
-//! * Results: [`Results`] with [`Statistics`], [`Spread`] and [`RegimeCounts`].
-//! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`], [`find`](find()) answers a [`Question`] by [`Found`] with an
-//!   [`Answer`] for each profile; [`PreloadCurve`] and [`Staircase`] over the preload; [`Sensitivity`] with the [`Influence`]
-//!   of each number and what [`Changed`].
-//! * What is refused: [`StudyError`].
+//! * Computing: [`compute`](compute()) in memory, or [`run_study`] in a [`Folder`]. There each process computes a [`Shard`],
+//!   reports its [`StudyProgress`], and [`merge`] makes the tables afterwards. A [`Stop`] ends a computation.
+//! * Results: [`Results`] with [`Statistics`], their [`Spread`], and [`RegimeCounts`].
+//! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`]. [`find`](find()) answers a [`Question`] by
+//!   [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force over the
+//!   preload. [`Sensitivity`] has an [`Influence`] for each number of the scene, with the [`Changed`] results.
+//! * Errors: [`StudyError`].
 //!
-//! The modules are for programs: [`folders`], [`maps`], [`checks`], [`half_space`] and [`trust`].
+//! These modules serve programs with figures and tables: [`folders`], [`maps`], [`checks`], [`half_space`] and [`trust`].
 
 mod axis;
 mod boundary;
@@ -78,14 +78,15 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Files in the folder of a study, for programs that show the progress of shards or read results.
+/// Files in the folder of a study, for programs that show how far its processes are or what they wrote.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Maps of results over two axes, from a stored study or computed for display, and boundaries of adhesion.
+/// Maps of results over two axes, read from a study or computed for display, and the values of κ or e_el/γ at which
+/// adhesion without a preload vanishes.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
@@ -94,13 +95,14 @@ pub mod maps {
     pub use crate::study_map::StudyMap;
 }
 
-/// Cases with known results, which `asperity check` computes.
+/// Statements with known results, which `asperity check` computes and compares.
 pub mod checks {
     pub use crate::check::case::Case;
     pub use crate::check::{Check, Verdict};
 }
 
-/// Comparisons of a scene with its contact in three dimensions, which show the error of the model.
+/// Comparison of the contact of a scene on profiles with the same contact in three dimensions. It shows the error of the
+/// profile as a model.
 pub mod half_space {
     pub use crate::reference::{
         Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,
@@ -108,7 +110,7 @@ pub mod half_space {
     pub use crate::square_loops::SquareLoops;
 }
 
-/// Errors of a result by their sources, and criteria of other theories, which show how far to trust the result.
+/// How far to trust a result: its errors by their sources, and criteria of adhesion of other theories.
 pub mod trust {
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;

@@ -15,16 +15,16 @@ use std::collections::BTreeMap;
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// Resolution of a map. Each level contains the cells of the level before it.
+/// How many cells of a [`LiveMap`] are computed, from few to all. Each level contains the cells of the level before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// 5 × 5 cells.
+    /// 5 values of κ or e_el/γ and 5 values of H.
     Coarse,
-    /// 9 × 9 cells.
+    /// 9 values of κ or e_el/γ and 9 values of H.
     Medium,
-    /// 17 values of κ or e_el/γ, with all values of H.
+    /// 17 values of κ or e_el/γ and all values of H.
     Fine,
-    /// All cells.
+    /// All values of κ or e_el/γ and all values of H.
     Whole,
 }
 
@@ -50,7 +50,8 @@ impl Level {
     }
 }
 
-/// Map over κ or e_el/γ and H with the cells that are computed so far.
+/// Map of a scene over κ or e_el/γ and the Hurst exponent H, with a cell for each combination of their values. It is computed
+/// from coarse to fine, and can be shown meanwhile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -58,21 +59,21 @@ pub struct LiveMap {
 }
 
 impl LiveMap {
-    /// Creates a map without computed cells, for a plan made by [`Plan::of_map`].
+    /// Creates a map without results for a plan that [`Plan::of_map`] made.
     ///
     /// # Errors
-    /// The map is too large for the memory.
+    /// Returns an error if the memory does not suffice for the map.
     pub fn new(plan: Plan) -> Result<Self, StudyError> {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
 
-    /// Returns the plan of all cells.
+    /// Returns the plan whose cells are the cells of the map.
     pub fn plan(&self) -> &Plan {
         self.results.plan()
     }
 
-    /// Returns the numbers of the cells on a level in groups. Each group has one H and all values of κ or e_el/γ of the
-    /// level.
+    /// Returns the numbers that the cells of a level have in the plan. The cells are in groups: each group has one value of H
+    /// and all values of κ or e_el/γ on this level.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
@@ -86,7 +87,8 @@ impl LiveMap {
         self.failed.contains_key(&cell) || self.results.is_whole(cell)
     }
 
-    /// Sets the values of a cell on the profile with the index `line`, in the order of the recorded quantities of the plan.
+    /// Sets the results of one cell on the random profile with the index `line`. The values are in the order of
+    /// [`Plan::record`].
     pub fn set(&mut self, cell: u64, line: u64, values: &[f64]) {
         self.results.set(cell * self.plan().lines + line, values);
     }
@@ -100,19 +102,20 @@ impl LiveMap {
         self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
     }
 
-    /// Returns the finest complete level; `None` if no level is complete.
+    /// Returns the finest level of which all cells are computed or cannot be computed; `None` if there is no such level.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true if each cell is computed or cannot be computed.
+    /// Returns true if no cell is left to compute. On a map with many springs, only a coarser level than [`Level::Whole`] is
+    /// computed.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing cells from coarse to fine, with all κ of one H on the same profiles. `report` receives the map
-    /// after each H. The computation ends as soon as `stop` returns true, and keeps its results. A cell that cannot be
-    /// computed keeps the reason.
+    /// Computes the missing cells from coarse to fine, first all cells of a level with one H, then those with the next H.
+    /// `report` receives the map after each H. If `stop` returns true, the computation ends and the map keeps its results. For
+    /// a cell that cannot be computed the map keeps the reason.
     pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
@@ -138,8 +141,8 @@ impl LiveMap {
         }
     }
 
-    /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis, as in the paper.
-    /// Cells show the range of their profiles, because few profiles give no confidence interval.
+    /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis, as in the paper. The
+    /// statistics of its cells have no confidence interval, because the profiles are too few.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =

@@ -1,6 +1,7 @@
 //! The plan of the live map of a scene.
 
 use super::axis::{Axis, Spacing};
+use super::error::StudyError;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use asperity_contact::Edges;
@@ -35,29 +36,32 @@ fn kappas() -> Vec<f64> {
 }
 
 impl Plan {
-    /// Number of random profiles in each cell of a map.
+    /// Number of random profiles in each cell of a map of self-affine roughness. The map of a measured surface has one profile.
     pub const PROFILES_OF_MAP: u64 = 4;
 
-    /// Returns the plan of the map of a checked scene, over κ, and over the Hurst exponent H if the roughness has one. Scenes
-    /// that differ only in these numbers or in the number of curve points have the same map.
+    /// Returns the plan of the map of a checked scene, for a [`LiveMap`](crate::maps::LiveMap). One axis is κ, and a second
+    /// axis is the Hurst exponent H if the roughness has one. Scenes that differ only in κ, H or the number of curve points
+    /// have the same map.
     ///
     /// # Errors
-    /// The scene has no map, for the returned reason.
+    /// Returns the reason in words if the scene has no map, for example because it is smooth.
     ///
     /// ```
     /// use asperity_study::Plan;
     ///
     /// let plan = Plan::of_map(asperity_scene::open("pressure-sensitive")?.scene())?;
     /// assert_eq!((plan.axes[0].path.as_str(), plan.lines), ("adhesion.kappa", Plan::PROFILES_OF_MAP));
-    /// assert!(Plan::of_map(asperity_scene::open("jkr-sphere")?.scene()).unwrap_err().contains("smooth"));
+    /// assert!(Plan::of_map(asperity_scene::open("jkr-sphere")?.scene()).unwrap_err().to_string().contains("smooth"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn of_map(scene: &Scene) -> Result<Plan, &'static str> {
-        let adhesion = scene
-            .adhesion
-            .ok_or("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")?;
+    pub fn of_map(scene: &Scene) -> Result<Plan, StudyError> {
+        let refused = |found, allowed| StudyError::refused(Some("no map"), found, allowed);
+        let adhesion = scene.adhesion.ok_or_else(|| {
+            refused("the scene has no adhesion, so no κ", "adhesion, which t in its row switches on")
+        })?;
         if adhesion.closing_work().is_some() {
-            return Err("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out");
+            let found = "two works of adhesion, of which none defines κ";
+            return Err(refused(found, "no adhesion.closing_work"));
         }
         // The range of the attraction changes no map.
         let adhesion = Adhesion { range: None, ..adhesion.with_parameter(Kappa, ANY.0) };
@@ -65,9 +69,8 @@ impl Plan {
         let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);
         let (points, has_hurst) = match &mut scene.roughness {
             None => {
-                return Err(
-                    "no map: a smooth body has neither κ nor H; switch roughness on with t in its row",
-                );
+                let found = "a smooth body has neither κ nor H";
+                return Err(refused(found, "roughness, which t in its row switches on"));
             }
             Some(Roughness::SelfAffine { hurst, .. }) => {
                 *hurst = ANY.1;
@@ -136,8 +139,10 @@ mod tests {
         let short = short.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let short = of(&document.set_all(&short).unwrap()).unwrap();
         assert!(short.scene.numerics.points > plan.scene.numerics.points);
-        assert!(of(&document.set("adhesion", "None").unwrap()).unwrap_err().contains("no adhesion"));
-        assert!(of(&open("jkr-sphere").unwrap()).unwrap_err().contains("a smooth body"));
+        assert!(
+            of(&document.set("adhesion", "None").unwrap()).unwrap_err().to_string().contains("no adhesion")
+        );
+        assert!(of(&open("jkr-sphere").unwrap()).unwrap_err().to_string().contains("a smooth body"));
     }
 
     #[test]

@@ -22,25 +22,26 @@ use std::sync::Arc;
 /// waves are nearly unknown, and a whole step of their logarithms could be several powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
-/// Adhesion of one random profile of a measured surface.
+/// Adhesion of one random profile with the spectrum of a measured surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ProfileAdhesion {
     /// Seed of the random phases of the profile.
     pub seed: u64,
-    /// Adhesion force F_a with the fitted spectrum, N; `None` if the body never pulls.
+    /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the body never pulls.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N, to first order, for a change of the spectrum drawn from the uncertainty of the fit.
+    /// Change of F_a in N if the spectrum changes at random within the uncertainty of its fit. F_a is computed for a small part
+    /// of this change and extrapolated in proportion.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion with the fitted spectrum, if the loading turns at first touch.
+    /// Regime that follows from F_a(d=0), for the fitted spectrum.
     pub regime: Option<Regime>,
-    /// Regime of adhesion with the fitted spectrum, if the loading turns at zero force.
+    /// Regime that follows from F_a(F=0), for the fitted spectrum.
     pub regime_after_zero_force: Option<Regime>,
 }
 
 impl ProfileAdhesion {
-    /// Computes the adhesion of a scene on the random profile of this seed. `line` has the spectrum of the measured
-    /// surface.
+    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the spectrum of the measured surface
+    /// and the uncertainty of this spectrum.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -70,7 +71,7 @@ impl ProfileAdhesion {
     }
 }
 
-/// Adhesion of several random profiles of one measured surface.
+/// Adhesion of several random profiles with the spectrum of one measured surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredAdhesion {
     /// Results on the profiles, in the order of their seeds.
@@ -78,13 +79,14 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface, beginning
-    /// with the seed of the scene. The files are read with the options of the scene, relative to the folder of the scene
-    /// file. `jobs` threads share the profiles. The results do not depend on the number of threads.
+    /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface. The first profile
+    /// has the seed of the scene, and the others have the seeds that follow. The measured files are read with the options of
+    /// the scene, and their paths are relative to the folder of the scene file. `jobs` threads share the profiles. The results
+    /// do not depend on the number of threads.
     ///
     /// # Errors
-    /// The scene makes no random profiles from a measured surface, a file cannot be read, or a profile fails. Of several
-    /// errors the first is returned.
+    /// Returns an error if the scene does not make random profiles from a measured surface, if a file cannot be read, or if a
+    /// profile cannot be computed. If several profiles fail, the error is that of the first one.
     ///
     /// ```
     /// let folder = tempfile::tempdir()?;
@@ -110,22 +112,25 @@ impl MeasuredAdhesion {
         }
         let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;
-        MeasuredAdhesion::solve(scene, &line, count, jobs)
+        MeasuredAdhesion::of_line(scene, &line, count, jobs)
     }
 
-    /// Largest number of springs for which the adhesion force is computed without a request, in some seconds.
+    /// Largest number of springs for which [`MeasuredAdhesion::quick_deviation`] computes forces. They then take some seconds.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
-    /// Deviation [`MeasuredAdhesion::fit_deviation`] of a scene, N; `None` for more springs than
-    /// [`MeasuredAdhesion::MOST_SPRINGS`], and without an equivalent line of a measured surface.
+    /// Returns [`MeasuredAdhesion::fit_deviation`] of a scene in N. `None` if the scene has more than
+    /// [`MeasuredAdhesion::MOST_SPRINGS`] springs, or does not make random profiles from a measured surface.
     pub fn quick_deviation(document: &Document, count: u64, jobs: usize) -> Option<f64> {
         let is_quick = document.scene().numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Does the same as [`MeasuredAdhesion::of`] for a checked scene. `line` has the spectrum of its measured surface,
-    /// analysed with the options of the scene.
-    pub fn solve(
+    /// Computes a scene on `count` profiles of this equivalent line, as [`MeasuredAdhesion::of`] does. The line replaces the
+    /// measured surface of the scene, whose options of reading and analysis are not used.
+    ///
+    /// # Errors
+    /// A profile fails: the first one.
+    pub fn of_line(
         scene: &CheckedScene,
         line: &EquivalentLine,
         count: u32,
@@ -141,22 +146,22 @@ impl MeasuredAdhesion {
         Ok(MeasuredAdhesion { profiles })
     }
 
-    /// Returns the statistics of the adhesion force in N over the profiles with the fitted spectrum; `None` if no profile
-    /// has one.
+    /// Returns the statistics of the adhesion force in N over the profiles, for the fitted spectrum; `None` if no profile has
+    /// an adhesion force.
     pub fn adhesion_force(&self) -> Option<Statistics> {
         let forces = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
         Statistics::of(forces, Quantity::AdhesionForce.bounds())
     }
 
-    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the spectrum; `None` for fewer
-    /// than two profiles. It is the root mean square of the changes on all profiles.
+    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the spectrum. It is the root mean
+    /// square of [`ProfileAdhesion::fit_change`] over the profiles; `None` for fewer than two profiles.
     pub fn fit_deviation(&self) -> Option<f64> {
         rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
     }
 
-    /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for
-    /// fewer than two profiles. Its ends are the median divided by a factor and multiplied by this factor, which follows
-    /// from the relative changes of the forces.
+    /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for fewer
+    /// than two profiles. Its ends are the median divided by a factor and the median times this factor. The logarithm of the
+    /// factor is the root mean square of the relative changes of the adhesion force.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
@@ -166,8 +171,8 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Returns the numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero
-    /// force.
+    /// Returns the numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from
+    /// F_a(d=0), the second for the regime that follows from F_a(F=0).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))
@@ -202,8 +207,8 @@ mod tests {
     #[test]
     fn both_spreads_are_those_of_separate_runs() {
         let (scene, line) = scene_and_line("(work: 0.05)");
-        let found = MeasuredAdhesion::solve(&scene, &line, 6, 1).unwrap();
-        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 6, 3).unwrap(), found);
+        let found = MeasuredAdhesion::of_line(&scene, &line, 6, 1).unwrap();
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 6, 3).unwrap(), found);
         let force = |line: EquivalentLine, seed: u64| {
             let scene = scene.with_seed(seed);
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
@@ -253,13 +258,13 @@ mod tests {
     #[test]
     fn a_given_kappa_is_that_of_the_fitted_spectrum() {
         let (scene, line) = scene_and_line("(kappa: 1.5)");
-        let by_kappa = MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap();
+        let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap();
         let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
         let mut simulation = Simulation::default().with_measured(measured);
         let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let work = outcome.governing.work_of_adhesion.unwrap();
         let with_work = |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
         let scene = scene.with(with_work).unwrap();
-        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap(), by_kappa);
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap(), by_kappa);
     }
 }

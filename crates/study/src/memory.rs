@@ -14,11 +14,11 @@ const LONGEST_KEPT: u64 = 1 << 22;
 const REVERSED: u64 = 192;
 
 impl Plan {
-    /// Returns the largest memory in bytes that the study needs on `jobs` threads, if each thread computes the largest
-    /// scene of the plan.
+    /// Returns the largest memory in bytes that a study of this plan needs on `jobs` threads, if each thread computes the scene
+    /// of the plan that needs the most.
     ///
     /// # Errors
-    /// The study needs more memory than the system provides now.
+    /// Returns an error if the study needs more memory than the system provides now.
     pub fn memory(&self, jobs: u64) -> Result<u64, StudyError> {
         let of_cell = |cell| {
             let scene = self.scene_of(cell).ok()?;

@@ -7,8 +7,8 @@ use asperity_scene::fields::{FIELDS, Field, Range, Tree};
 use asperity_scene::{Adhesion, Document, RoughnessParameter, Scene, SceneError, SceneErrors};
 
 impl Axis {
-    /// Returns the value of the quantity in a scene; `None` if the scene has none. `computed` has parameters such as κ,
-    /// which for a measured surface follow only from its file.
+    /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no such value. `computed` has
+    /// numbers of the computed scene, such as κ. They are only needed for a measured surface, where they follow from its file.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -121,11 +121,12 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
 }
 
 impl Axis {
-    /// Returns the scene file with other values on axes. A scene that states a work of adhesion gets the work that belongs to
-    /// another κ or e_el/γ. A preload replaces the loading of the scene.
+    /// Returns a copy of a scene file with these values on the axes. If the scene has a work of adhesion and an axis has κ or
+    /// e_el/γ, the copy has the work of adhesion that belongs to the new κ or e_el/γ. A preload replaces the loading of the
+    /// scene by a loading to this force and to separation.
     ///
     /// # Errors
-    /// A value is not allowed.
+    /// Returns an error if the scene lacks the number of an axis, or if a value is not allowed.
     ///
     /// ```
     /// use asperity_study::{Axis, Spacing};

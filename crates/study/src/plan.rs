@@ -30,32 +30,36 @@ const SAME: [&[&str]; 3] = [
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
 
-/// Checked plan of a study. A *cell* is a combination of one value on each axis. A *record* has the recorded quantities of
-/// a cell on one random profile.
+/// Checked plan of a study: a scene, axes along which its numbers vary, random profiles, and quantities to record. A *cell* is
+/// one combination of values on the axes. A *record* has the recorded quantities of one cell on one random profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Title of the study in one line.
     pub title: String,
-    /// Notice for readers of the results; may be empty.
+    /// Text that readers of the results should see, such as a limit of the study; may be empty.
     pub notice: String,
-    /// Scene whose numbers vary. Its files have absolute paths.
+    /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
-    /// Axes of the study; cells are counted with the last axis fastest. An axis of preloads is the last one, and replaces
-    /// the loading of the scene. Its unit is E* h L with the rms height h.
+    /// Axes of the study. From one cell to the next, the value on the last axis changes first. An axis of preloads is the last
+    /// axis, and each of its preloads replaces the loading of the scene. The preloads are in N or in units of E* h L, with the
+    /// rms height h and the length L.
     pub axes: Vec<Axis>,
     /// Number of random profiles on which each cell is computed.
     pub lines: u64,
-    /// Seed of the first profile. The seeds of the other profiles follow, and are the same in all cells.
+    /// Seed of the first profile. The other profiles have the seeds that follow. All cells have the same seeds.
     pub seed: u64,
     /// Quantities that are recorded for each cell and profile.
     pub record: Vec<Quantity>,
-    /// Range of forces over which the exponents of force and stiffness without adhesion are fitted.
+    /// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
+    /// [`Quantity::ForceExponent`].
     pub stiffness: StiffnessRange,
-    /// SHA-256 of the content of the measured file as 64 hexadecimal digits; `None` outside the folder of a study.
+    /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene without such files, and for a
+    /// plan that is not in the [`Folder`](crate::Folder) of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Range of forces over which the exponents of force and stiffness without adhesion are fitted, in units of E* h L.
+/// Forces at which the contact without adhesion is computed, to fit the exponents of force and stiffness. The forces are in
+/// units of E* h L, with the rms height h and the length L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -63,7 +67,7 @@ pub struct StiffnessRange {
     pub from: f64,
     /// Largest force of the range.
     pub to: f64,
-    /// Number of forces, at least 2, with equal ratios between them.
+    /// Number of forces in the range, at least 2. The ratio of neighbouring forces is constant.
     pub count: u64,
 }
 
@@ -94,22 +98,22 @@ impl Plan {
         }
     }
 
-    /// Returns the axis of preloads, if the plan has one.
+    /// Returns the axis of preloads; `None` if the plan has none.
     pub fn preloads(&self) -> Option<&Axis> {
         self.axes.last().filter(|axis| axis.is_of_preloads())
     }
 
-    /// Returns the axes of numbers of the scene, without the axis of preloads.
+    /// Returns the axes of the plan other than the axis of preloads.
     pub fn scene_axes(&self) -> &[Axis] {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Returns the number of cells.
+    /// Returns the number of cells, which is the product of the numbers of values on all axes.
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }
 
-    /// Returns the number of records, which is cells times profiles.
+    /// Returns the number of records of the complete study, which is cells times profiles.
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }
@@ -139,32 +143,32 @@ impl Plan {
         self.axes[axis].values[(cell / faster % self.axes[axis].count()) as usize]
     }
 
-    /// Returns the values of the axes in a cell, in the order of the axes.
+    /// Returns the values on all axes in cell number `cell`, in the order of the axes.
     pub fn values(&self, cell: u64) -> Vec<f64> {
         (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
     }
 
-    /// Returns the values of the axes in a cell as text.
+    /// Returns the values on all axes in cell number `cell` as text, such as `adhesion.kappa = 6.0`.
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// Returns the scene of a cell. Its loading is the one in the plan, without the preload of the cell.
+    /// Returns the scene of cell number `cell`. It keeps the loading of the plan's scene, even if the cell has a preload.
     ///
     /// # Errors
-    /// The scene lacks the number of an axis, or values are out of their ranges.
+    /// Returns an error if the scene lacks the number of an axis, or if a value is out of its range.
     pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
         scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()
     }
 
-    /// Returns the seed of the profile with this index.
+    /// Returns the seed of the random profile with the index `line`, which begins at 0.
     pub fn seed_of(&self, line: u64) -> u64 {
         self.seed.wrapping_add(line)
     }
 
-    /// Returns the index of a quantity among the recorded quantities.
+    /// Returns the index of a quantity in [`Plan::record`]; `None` if the quantity is not recorded.
     pub fn column(&self, quantity: Quantity) -> Option<usize> {
         self.record.iter().position(|one| *one == quantity)
     }

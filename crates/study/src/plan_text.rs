@@ -17,12 +17,12 @@ use std::path::Path;
 /// Version of the plan file. No other version is supported.
 pub const PLAN_VERSION: u32 = 1;
 
-/// Changes to a plan for one study, in addition to the text of the plan.
+/// Changes to a plan for one study, which leave the file of the plan as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Fields of the scene that are replaced, as paths and values.
+    /// Fields of the scene that get another value, each as path and value in the form of a scene file.
     pub set: Vec<(String, String)>,
-    /// Number of random profiles; `None` for the number in the plan.
+    /// Number of random profiles of each cell; `None` keeps the number in the plan.
     pub lines: Option<u64>,
 }
 
@@ -67,11 +67,13 @@ impl Plan {
         "self-averaging"
     );
 
-    /// Opens and checks a plan. `name_or_path` means a file if the file exists or if the text looks like a path. Otherwise
-    /// the text is the name of a built-in plan. The path of a scene is relative to the file of the plan.
+    /// Reads and checks a plan. `name_or_path` is the path of a file if this file exists or the text looks like a path.
+    /// Otherwise it is the name of a built-in plan, such as `figure-6`. If the plan names a file of a scene, the path of this
+    /// file is relative to the folder of the plan. `changes` are made before the plan is checked.
     ///
     /// # Errors
-    /// The plan cannot be read, or has errors, possibly in the scenes of its cells. All errors are returned.
+    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a cell has an error. All errors of
+    /// the plan are listed, or the errors of the first cells.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};
@@ -92,11 +94,12 @@ impl Plan {
         Plan::parse(plan.text, plan.name, changes)
     }
 
-    /// Makes a plan of a scene whose numbers vary. Each axis is a path with values in SI units. Each cell has `profiles`
-    /// random profiles.
+    /// Makes a plan in which numbers of a scene vary. Each of the `axes` is the path of a number with its values in SI units.
+    /// Each cell has `profiles` random profiles, on which the quantities in `record` are recorded.
     ///
     /// # Errors
-    /// The plan has errors, possibly in the scenes of its cells. All errors are returned.
+    /// Returns an error if the plan or the scene of a cell has an error. All errors of the plan are listed, or the errors of
+    /// the first cells.
     ///
     /// ```
     /// use asperity_study::{Plan, Quantity};
@@ -128,10 +131,10 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Returns the built-in plan with this name.
+    /// Returns the text of the built-in plan with this name.
     ///
     /// # Errors
-    /// There is no plan of this name. The error lists all names.
+    /// Returns an error if there is no plan of this name. The error lists all names.
     pub fn built_in(name: &str) -> Result<&'static Preset, StudyError> {
         Plan::BUILT_IN.iter().find(|plan| plan.name == name).ok_or_else(|| {
             let names: Vec<_> = Plan::BUILT_IN.iter().map(|plan| plan.name).collect();
@@ -141,10 +144,11 @@ impl Plan {
         })
     }
 
-    /// Reads and checks the text of a plan. Errors name the plan by `name`, which is usually its file.
+    /// Reads and checks the text of a plan. `name` is usually its file: errors name it, and the path of a scene is relative to
+    /// it.
     ///
     /// # Errors
-    /// The same as the errors of [`Plan::open`].
+    /// The errors are the same as those of [`Plan::open`].
     pub fn parse(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let plan = Plan::read(text, name, changes)?;
         plan.check_cells().map_err(|wrong| in_plan(wrong, name))?;
@@ -210,7 +214,7 @@ impl Plan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
-    /// Writes the plan as canonical text with its scene. Reading the text gives the same plan.
+    /// Returns the plan with its scene as text in RON. [`Plan::parse`] makes the same plan from this text.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};

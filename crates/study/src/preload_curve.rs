@@ -2,6 +2,7 @@
 //! random profiles.
 
 use crate::axis::Axis;
+use crate::error::StudyError;
 use crate::preloads::Staircase;
 use crate::profiles::Stop;
 use crate::results::Results;
@@ -9,7 +10,7 @@ use crate::statistics::Statistics;
 use asperity_contact::Figures;
 use asperity_contact::Move;
 use asperity_data::AxisScale;
-use asperity_scene::{CheckedScene, Outcome, Simulation, Solver};
+use asperity_scene::{CheckedScene, Outcome, RunError, Simulation, Solver};
 
 /// Number of preloads, and index of the preload of the scene among them. A linear axis extends from the force at first
 /// touch to twice this preload. A logarithmic axis extends over six decades, two of them above this preload.
@@ -19,27 +20,35 @@ const DECADES: f64 = 6.0;
 /// Relative difference up to which preloads count as equal.
 const SAME: f64 = 1e-9;
 
-/// Adhesion forces of a scene for many preloads, as far as they are computed.
+/// Returns the error of a single profile.
+fn failed(error: RunError) -> StudyError {
+    StudyError::Run { place: String::new(), error }
+}
+
+/// Adhesion force of a scene as a function of the preload: on the scene's own profile with all steps, and on random profiles.
+/// The own profile is the one with the seed of the scene. A curve may be incomplete.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    /// Axis of the preloads, N.
+    /// Preloads of the random profiles in N, as an axis.
     pub axis: Axis,
-    /// Adhesion force of the scene's own profile against the preload, with each step.
+    /// Adhesion force of the scene's own profile as a function of the preload, with each step located.
     pub staircase: Staircase,
-    /// Results on random profiles at these preloads, beginning with the scene's own profile. A scene without random phases
-    /// has only this profile.
+    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own. If the profile of the scene
+    /// is fixed, it is the only one.
     pub results: Results,
 }
 
 impl PreloadCurve {
-    /// Number of random profiles of a curve.
+    /// Number of random profiles of a complete curve, with the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a computed scene, or the missing part of a curve that was begun. After each addition `report`
-    /// receives the curve.
+    /// Computes the curve of a scene from the scene and its outcome, over preloads on a linear or logarithmic scale. A curve
+    /// that was begun on the same scale is continued. Each time that a part is computed, `report` receives the curve so far.
     ///
     /// # Errors
-    /// The scene has no adhesion force over the preload, a profile or contact fails, or `stop` returned true.
+    /// Returns the reason in words if the scene has no adhesion or no stage that presses the bodies together, or if its solver
+    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned
+    /// true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
@@ -47,7 +56,7 @@ impl PreloadCurve {
         simulation: &mut Simulation,
         stop: &Stop<'_>,
         report: &mut dyn FnMut(&PreloadCurve),
-    ) -> Result<PreloadCurve, String> {
+    ) -> Result<PreloadCurve, StudyError> {
         let begun = begun.filter(|begun| begun.axis.scale() == scale && begun.staircase.is_whole());
         let mut curve = begun.map_or_else(|| Self::begin((scene, outcome), scale, simulation, stop), Ok)?;
         if !curve.staircase.is_whole() {
@@ -56,13 +65,13 @@ impl PreloadCurve {
                 curve.staircase = part.clone();
                 report(&curve);
             });
-            found.map_err(|error| error.to_string())?;
+            found.map_err(failed)?;
         }
         let mut results = curve.results.clone();
         let done = results.extend((std::mem::take(simulation), 1), stop, &mut |part| {
             report(&PreloadCurve { results: part.clone(), ..curve.clone() });
         });
-        done.map_err(|error| error.to_string())?;
+        done?;
         Ok(PreloadCurve { results, ..curve })
     }
 
@@ -72,22 +81,27 @@ impl PreloadCurve {
         scale: AxisScale,
         simulation: &mut Simulation,
         stop: &Stop<'_>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, StudyError> {
         if scene.numerics.solver != Solver::Exact {
-            return Err("many preloads at once need the exact solver".into());
+            let found = "many preloads at once with the stepwise solver";
+            return Err(StudyError::refused(Some("numerics.solver"), found, "the exact solver"));
         }
         if scene.adhesion.is_none() {
-            return Err("without adhesion nothing holds the bodies together".into());
+            let found = "without adhesion nothing holds the bodies together";
+            return Err(StudyError::refused(Some("adhesion"), found, "a scene with adhesion"));
         }
         let Figures { preload, adhesion_force, .. } = outcome.figures;
         let preload = preload.filter(|&force| force > 0.0).or(adhesion_force).filter(|&force| force > 0.0);
-        let preload = preload.ok_or("no stage presses the bodies together")?;
+        let preload = preload.ok_or_else(|| {
+            let found = "no stage presses the bodies together";
+            StudyError::refused(Some("loading"), found, "a stage with a force above 0 N")
+        })?;
         let mut touch = 0.0;
         let touched = simulation.reverse(scene, (&[Move::ToTouch], &[]), stop, &mut |_, reversal| {
             touch = reversal.turn.force;
             Ok(())
         });
-        touched.map_err(|error| error.to_string())?;
+        touched.map_err(failed)?;
         let last = (PRELOADS - 1) as f64;
         let (low, high) = match scale {
             AxisScale::Linear => (touch, touch + (preload - touch) * last / PLACES.0),
@@ -99,22 +113,21 @@ impl PreloadCurve {
         let axis = Axis::of_preloads((scale.number(low), scale.number(high)), PRELOADS, scale)?;
         let lines = scene.seed().map_or(1, |_| Self::PROFILES as u64);
         let results = Results::begin(scene, &Results::OF_PRELOADS, lines, Some(&axis));
-        let results = results.map_err(|_| "there is not enough memory for the curve")?;
-        Ok(PreloadCurve { axis, staircase: Staircase::default(), results })
+        Ok(PreloadCurve { axis, staircase: Staircase::default(), results: results? })
     }
 
-    /// Returns true if the curve is complete.
+    /// Returns true if the curve has all steps of the scene's own profile, and all random profiles.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
 
-    /// Returns the number of the computed profiles.
+    /// Returns the number of random profiles that are computed so far.
     pub fn profiles(&self) -> usize {
         self.results.records_of(0).count()
     }
 
-    /// Returns statistics of the adhesion force in N over the computed profiles; `None` for fewer than two profiles.
-    /// `preload` is a preload of the axis in N.
+    /// Returns the statistics of the adhesion force in N over the computed profiles after a preload in N. `None` if the preload
+    /// is not on the axis, or for fewer than two profiles.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         let spread = self.results.spread_of_adhesion().into_iter();
         let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();
@@ -141,7 +154,10 @@ mod tests {
         Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap()
     }
 
-    fn curve((scene, outcome): &(CheckedScene, Outcome), scale: AxisScale) -> Result<PreloadCurve, String> {
+    fn curve(
+        (scene, outcome): &(CheckedScene, Outcome),
+        scale: AxisScale,
+    ) -> Result<PreloadCurve, StudyError> {
         let simulation = &mut Simulation::default();
         PreloadCurve::compute((scene, outcome), scale, None, simulation, &|| false, &mut |_| ())
     }
@@ -178,7 +194,7 @@ mod tests {
         );
         let whole = whole.unwrap();
         assert_eq!((first, whole.profiles(), whole.is_whole()), (Some(4), PreloadCurve::PROFILES, true));
-        assert_eq!(curve(&computed, LINEAR), Ok(whole.clone()));
+        assert_eq!(curve(&computed, LINEAR).unwrap(), whole);
         // The preload of the scene is among those of the axis, and its adhesion force on the staircase.
         let figures = computed.1.figures;
         let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
@@ -201,11 +217,11 @@ mod tests {
             (scene.numerics.solver, scene.numerics.edges) = (Solver::Stepwise { step: 1e-9 }, Edges::Grid);
         });
         one.0 = steps.unwrap();
-        assert!(curve(&one, LINEAR).unwrap_err().contains("exact solver"));
+        assert!(curve(&one, LINEAR).unwrap_err().to_string().contains("exact solver"));
         let scene = scene.with(|scene| scene.loading = vec![Move::ToIndentation(-1e-9)]).unwrap();
         one = (scene.clone(), outcome(&scene));
-        assert!(curve(&one, LINEAR).unwrap_err().contains("presses"));
+        assert!(curve(&one, LINEAR).unwrap_err().to_string().contains("presses"));
         one.0 = scene.with(|scene| scene.adhesion = None).unwrap();
-        assert!(curve(&one, LINEAR).unwrap_err().contains("adhesion"));
+        assert!(curve(&one, LINEAR).unwrap_err().to_string().contains("adhesion"));
     }
 }

@@ -2,6 +2,7 @@
 //! staircase of one profile.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
+use super::error::StudyError;
 use super::plan::PRELOAD;
 use super::quantity::Quantity;
 use super::results::Results;
@@ -16,7 +17,8 @@ use std::ops::RangeInclusive;
 
 /// Usual number of preloads, and what a text of preloads may be.
 const USUAL: usize = 64;
-const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
+const ALLOWED: &str =
+    "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
 /// Share of the axis of preloads within which each step of a staircase is located, which is less than the width of a line
 /// in a figure.
@@ -25,61 +27,66 @@ const FINEST: f64 = 1.0 / 2048.0;
 const SAME: f64 = 1e-9;
 
 impl Axis {
-    /// Allowed numbers of preloads.
+    /// Smallest and largest number of preloads on an axis that is made from two forces.
     pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
-    /// Reads preloads from text such as `1nN..20uN:64:log`: two forces, the number of preloads, and `log` for equal ratios. The
-    /// number and `log` may be omitted.
+    /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the number of preloads, and `log`
+    /// for equal ratios between neighbours. The number and `log` may be omitted.
     ///
     /// # Errors
-    /// The text is wrong; the error says what is allowed.
+    /// Returns an error if the text has another form or if a number is not allowed. The error says what is allowed.
     ///
     /// ```
     /// use asperity_study::Axis;
     ///
     /// let axis = Axis::parse_preloads("1nN..1uN:4:log").expect("two forces");
     /// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
-    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().contains("`from` must be less than `to`"));
+    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().to_string().contains("`from` less than `to`"));
     /// ```
-    pub fn parse_preloads(text: &str) -> Result<Axis, String> {
+    pub fn parse_preloads(text: &str) -> Result<Axis, StudyError> {
         let mut parts = text.split(':').map(str::trim);
         let ends = Axis::parse_range(parts.next().unwrap_or_default(), "N");
-        let ends = ends.map_err(|error| format!("{error}; {ALLOWED}"))?;
+        let ends = ends.map_err(|error| match error {
+            StudyError::Refused { found, .. } => StudyError::refused(None, found, ALLOWED),
+            other => other,
+        })?;
         let (mut count, mut scale) = (USUAL, AxisScale::Linear);
         for part in parts {
             match part.parse() {
                 Ok(number) => count = number,
                 Err(_) if part == "log" => scale = AxisScale::Logarithmic,
-                Err(_) => return Err(ALLOWED.into()),
+                Err(_) => return Err(StudyError::refused(None, format!("{part:?}"), ALLOWED)),
             }
         }
         Axis::of_preloads(ends, count, scale)
     }
 
-    /// Reads a range of two numbers with this SI unit, such as `1uN..20uN`.
+    /// Reads two numbers with the SI unit `unit`, the smaller one first, from text such as `1uN..20uN`.
     ///
     /// # Errors
-    /// The text is wrong; the error says what is allowed.
+    /// Returns an error if the text has another form or another unit. The error says what is allowed.
     ///
     /// ```
-    /// assert_eq!(asperity_study::Axis::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
+    /// assert_eq!(asperity_study::Axis::parse_range("1nm..2um", "m").ok(), Some((1e-9, 2e-6)));
     /// ```
-    pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
-        let (from, to) =
-            text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;
-        let number = |text: &str| parse_quantity(text, unit).map_err(|error| error.to_string());
+    pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), StudyError> {
+        let refused = |found| StudyError::refused(None, found, "two numbers, such as 1..20");
+        let (from, to) = text.split_once("..").ok_or_else(|| refused(format!("{text:?}")))?;
+        let number = |text: &str| parse_quantity(text, unit).map_err(|error| refused(error.to_string()));
         Ok((number(from)?, number(to)?))
     }
 
-    /// Creates an axis of `count` preloads between two forces in N, with equal differences or equal ratios.
+    /// Creates an axis of `count` preloads from the first to the second force in N. Neighbours have equal differences on a
+    /// linear scale and equal ratios on a logarithmic scale.
     ///
     /// # Errors
-    /// The forces or their number are not allowed; the error says what is allowed.
-    pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, String> {
+    /// Returns an error if a force or the number of preloads is not allowed. The error says what is allowed.
+    pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, StudyError> {
         check_ends(from, to, count as u64, *Axis::PRELOADS.end() as u64)?;
         let range = LEG_FORCE.range;
         if !(range.contains(from) && range.contains(to)) {
-            return Err(format!("from {from:?} to {to:?}: allowed: {range} N"));
+            let found = format!("from {from:?} to {to:?}");
+            return Err(StudyError::refused(None, found, format!("{range} N")));
         }
         let is_logarithmic = scale == AxisScale::Logarithmic;
         if is_logarithmic {
@@ -109,28 +116,28 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile as a function of the preload. The force rises in steps, where the loading closes a patch
-/// that decides the pull-off. If closing has a smaller work of adhesion than opening, the force also rises between the
-/// steps.
+/// Adhesion force of one profile as a function of the preload. The force rises in steps. At a step, the loading closes a patch
+/// on which the pull-off force depends. If closing has a smaller work of adhesion than opening, the force also rises between
+/// the steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
     /// Scale of the preloads, linear or logarithmic.
     pub scale: AxisScale,
-    /// Force at first touch, and adhesion force if the loading turns there, both in N.
+    /// Force at first touch, and F_a(d=0), the adhesion force if the loading turns there. Both are in N.
     pub touch: (f64, f64),
-    /// Adhesion force in N if the loading turns where the force is back at zero.
+    /// F_a(F=0) in N, the adhesion force if the loading turns where the force is back at zero.
     pub zero_force: f64,
-    /// Ascending preloads in N, each with the adhesion force in N after it, which is 0 if the body never pulls.
+    /// Ascending preloads in N, each with the adhesion force in N after it. This force is 0 if the body never pulls.
     pub forces: Vec<(f64, f64)>,
 }
 
 impl Staircase {
-    /// Computes the staircase of a checked scene over an axis of preloads. Each step is located within 1/2048 of the axis.
-    /// `report` receives the staircase at the preloads of the axis, and again each time the intervals with a step are
-    /// halved.
+    /// Computes the staircase of a checked scene over an axis of preloads in N. Intervals between preloads that contain a step
+    /// are halved until they are at most 1/2048 of the axis. `report` receives the staircase at the preloads of the axis, and
+    /// again after each halving.
     ///
     /// # Errors
-    /// A preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.
+    /// Returns an error if a preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -179,7 +186,7 @@ impl Staircase {
         Ok(all)
     }
 
-    /// Returns true if each step is located within 1/2048 of the axis.
+    /// Returns true if each step is located within 1/2048 of the axis of preloads.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }
@@ -198,7 +205,8 @@ impl Staircase {
         self.forces.windows(2).filter_map(middle).collect()
     }
 
-    /// Returns the points of the staircase as a line, which is horizontal up to the next preload and then vertical.
+    /// Returns the corners of the staircase as pairs of preload and adhesion force in N, to draw it as a line. Up to the next
+    /// preload the line is horizontal, and there it is vertical.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
         self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()
@@ -206,7 +214,7 @@ impl Staircase {
 }
 
 impl Results {
-    /// Quantities that a study of adhesion against preload records.
+    /// Quantities that a study of the adhesion force over the preload records.
     pub const OF_PRELOADS: [Quantity; 4] = [
         Quantity::PreloadIndentation,
         Quantity::AdhesionForce,
@@ -214,8 +222,8 @@ impl Results {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Returns statistics of the adhesion force in N at each preload in N that at least two profiles have. A profile that
-    /// never pulls counts as 0 N, so that the mean includes all profiles.
+    /// For a study whose axis has preloads in N, returns each preload with the statistics of the adhesion force in N over the
+    /// profiles. A preload with fewer than two profiles is left out. A profile that never pulls counts as 0 N.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let spread = |cell| {
             let (preload, forces) = self.forces_in(cell);
@@ -225,8 +233,8 @@ impl Results {
         (0..self.plan.cells()).filter_map(spread).collect()
     }
 
-    /// Returns the preload of the study nearest to `preload` in N, and the adhesion forces in N of the computed profiles at
-    /// this preload.
+    /// For a study whose axis has preloads in N, returns the one nearest to `preload`, and the adhesion force in N of each
+    /// computed profile after it.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));
@@ -377,15 +385,15 @@ mod tests {
             ("0..1:-5", "two forces"),
             ("0..1m/s", "two forces"),
             ("0..inf", "two forces"),
-            ("2..1", "`from` must be less than `to`"),
-            ("1..1", "`from` must be less than `to`"),
+            ("2..1", "`from` less than `to`"),
+            ("1..1", "`from` less than `to`"),
             ("0..1:1", "allowed: from 2 to 512"),
             ("0..1:513", "allowed: from 2 to 512"),
             ("0..1:log", "begins above 0"),
             ("-1..1:log", "begins above 0"),
             ("0..1e31", "allowed: from -1e30 to 1e30 N"),
         ] {
-            let error = Axis::parse_preloads(wrong).unwrap_err();
+            let error = Axis::parse_preloads(wrong).unwrap_err().to_string();
             assert!(error.contains(allowed), "{wrong}: {error}");
         }
     }

@@ -51,7 +51,8 @@ const SHARE: (f64, f64) = (0.0, 1.0);
 /// Makes the enum of the quantities and the table of their rows.
 macro_rules! quantities {
     ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
-        /// Quantity that a study records for each cell and profile.
+        /// Quantity that a study records for each [cell](crate::Plan) on each random profile. The text of each variant
+        /// begins with its name in plans and tables.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Quantity {
             $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
@@ -60,7 +61,7 @@ macro_rules! quantities {
         const ROWS: &[Row] = &[$(Row { name: $name, meaning: $meaning, $($field: $value,)* ..ROW },)*];
 
         impl Quantity {
-            /// All quantities, in the order of the table.
+            /// All quantities, in the order of the variants.
             pub const ALL: [Quantity; ROWS.len()] = [$(Quantity::$variant,)*];
         }
     };
@@ -68,7 +69,7 @@ macro_rules! quantities {
 
 quantities! {
     Kappa {
-        name: "kappa", meaning: "roughness-adhesion parameter, eq. (11)",
+        name: "kappa", meaning: "roughness-adhesion parameter √(h⟨∇z⟩E*/γ)",
         symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
     }
     ElasticEnergy {
@@ -76,15 +77,16 @@ quantities! {
         symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
     }
     ElasticEnergyRatio {
-        name: "elastic_energy_ratio", meaning: "elastic energy that flattens the roughness over the work of adhesion",
+        name: "elastic_energy_ratio",
+        meaning: "elastic energy per area that flattens the roughness, divided by the work of adhesion",
         symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
     }
     WorkOfAdhesion {
-        name: "work_of_adhesion", meaning: "work of adhesion",
+        name: "work_of_adhesion", meaning: "work of adhesion, the energy per area that opens the interface",
         symbol: "γ", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.work_of_adhesion,
     }
     IdealAdhesionForce {
-        name: "ideal_adhesion_force", meaning: "adhesion force of a flat face, eq. (14)",
+        name: "ideal_adhesion_force", meaning: "adhesion force √(πγE*L³) of a flat face of length L",
         symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
     }
     FirstTouchAdhesionForce {
@@ -93,7 +95,7 @@ quantities! {
     }
     FirstTouchAdhesionShare {
         name: "first_touch_adhesion_share",
-        meaning: "F_a(d=0) over the ideal adhesion force",
+        meaning: "F_a(d=0) divided by the ideal adhesion force",
         symbol: "F_a(d=0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
         of: |case| case.share(case.first_touch),
     }
@@ -104,12 +106,12 @@ quantities! {
     }
     ZeroForceAdhesionShare {
         name: "zero_force_adhesion_share",
-        meaning: "F_a(F=0) over the ideal adhesion force",
+        meaning: "F_a(F=0) divided by the ideal adhesion force",
         symbol: "F_a(F=0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
         of: |case| case.share(case.zero_force),
     }
     PreloadForce {
-        name: "preload_force", meaning: "preload",
+        name: "preload_force", meaning: "preload, the largest force before the last unloading",
         symbol: "F_n", unit: "N", of: |case| case.loading.figures.preload,
     }
     PreloadIndentation {
@@ -121,27 +123,29 @@ quantities! {
         symbol: "F_a", unit: "N", of: |case| case.loading.figures.adhesion_force,
     }
     AdhesionShare {
-        name: "adhesion_share", meaning: "adhesion force over the ideal adhesion force",
+        name: "adhesion_share", meaning: "adhesion force divided by the ideal adhesion force",
         symbol: "F_a/F_a,max", bounds: SHARE, of: |case| case.share(case.loading.figures.adhesion_force),
     }
     AdhesionCoefficient {
-        name: "adhesion_coefficient", meaning: "adhesion force over preload",
+        name: "adhesion_coefficient", meaning: "adhesion force divided by the preload",
         symbol: "F_a/F_n", of: |case| case.loading.figures.adhesion_coefficient,
     }
     PullOffIndentation {
-        name: "pull_off_indentation", meaning: "indentation at the pull-off",
+        name: "pull_off_indentation",
+        meaning: "indentation at the pull-off, the smallest force of the last unloading",
         symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.pull_off_indentation,
     }
     DissipatedEnergy {
-        name: "dissipated_energy", meaning: "energy lost over the loop",
+        name: "dissipated_energy", meaning: "energy lost in the contact over the whole loop",
         symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {
-        name: "tabor_number", meaning: "Tabor number",
+        name: "tabor_number", meaning: "Tabor number, which is small if the attraction is long-ranged",
         symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
-        name: "contact_fraction", meaning: "largest contact length over the length L of the profile",
+        name: "contact_fraction",
+        meaning: "total length in contact, largest value on the loading, divided by the length L of the profile",
         bounds: SHARE, of: |case| case.contact_fraction(),
     }
     Fragments {
@@ -149,11 +153,11 @@ quantities! {
         of: |case| case.loading.preload.map(|point| point.fragments as f64),
     }
     Regime {
-        name: "regime", meaning: "regime of adhesion turned at first touch",
+        name: "regime", meaning: "regime of adhesion that follows from F_a(d=0)",
         unit: "", of: |case| case.regime(case.first_touch),
     }
     RegimeAfterZeroForce {
-        name: "regime_after_zero_force", meaning: "regime of adhesion turned at zero force",
+        name: "regime_after_zero_force", meaning: "regime of adhesion that follows from F_a(F=0)",
         unit: "", of: |case| case.regime(case.zero_force),
     }
     StiffnessExponent {
@@ -167,43 +171,44 @@ quantities! {
         symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.1),
     }
     RmsHeight {
-        name: "rms_height", meaning: "rms height of the profile",
+        name: "rms_height", meaning: "rms height of the profile without the form",
         symbol: "h", unit: "m", needs: Needs::Heights, of: |case| case.profile.rms_height,
     }
     Skewness {
-        name: "skewness", meaning: "skewness of the heights",
+        name: "skewness", meaning: "skewness of the heights of the profile without the form",
         bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.0),
     }
     ExcessKurtosis {
-        name: "excess_kurtosis", meaning: "excess kurtosis of the heights",
+        name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the profile without the form",
         bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.1),
     }
     SummitHeight {
-        name: "summit_height", meaning: "height of the summit over the rms height",
+        name: "summit_height",
+        meaning: "height of the highest point above the mean height, divided by the rms height",
         needs: Needs::Heights, of: |case| case.profile.summit,
     }
 }
 
 impl Quantity {
-    /// Ratios F_a(d=0)/F_a,max and F_a(F=0)/F_a,max of the adhesion force without a preload to the ideal adhesion force.
+    /// F_a(d=0)/F_a,max and F_a(F=0)/F_a,max: both adhesion forces without a preload, divided by the ideal adhesion force.
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
-    /// Regimes of adhesion if the loading turns at first touch, and if it turns at zero force.
+    /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns where the loading turns for the regime in a map of this quantity: `turned at zero force` or
-    /// `turned at first touch`.
+    /// Returns in words which regimes a map of this quantity shows: `turned at zero force` for
+    /// [`Quantity::RegimeAfterZeroForce`], `turned at first touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }
     }
 
-    /// Returns [`Quantity::protocol`] in short, `F=0` or `d=0`, for a title or a legend.
+    /// Returns the same as [`Quantity::protocol`] in short, for a title or a legend: `F=0` or `d=0`.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "d=0" }
     }
 
-    /// Returns true for a regime, which is not a number.
+    /// Returns true if the quantity is a regime of adhesion, which is not a number.
     pub fn is_regime(self) -> bool {
         Quantity::REGIMES.contains(&self)
     }
@@ -212,30 +217,31 @@ impl Quantity {
         &ROWS[self as usize]
     }
 
-    /// Returns the name in plans and in columns of tables.
+    /// Returns the name of the quantity in plans and in columns of tables, such as `adhesion_force`.
     pub const fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Returns the symbol; empty if the quantity has none.
+    /// Returns the symbol of the quantity, such as `F_a`; empty if it has none.
     pub const fn symbol(self) -> &'static str {
         self.row().symbol
     }
 
-    /// Returns the SI unit; `1` for a number without a unit, empty for a regime, which is not a number.
+    /// Returns the SI unit of the quantity; `1` for a number without a unit, empty for a regime.
     pub const fn unit(self) -> &'static str {
         self.row().unit
     }
 
-    /// Returns the symbol, or the name if the quantity has no symbol.
+    /// Returns the symbol of the quantity, or its name if it has no symbol.
     pub const fn symbol_or_name(self) -> &'static str {
         if self.symbol().is_empty() { self.name() } else { self.symbol() }
     }
 
-    /// Returns the quantity with this symbol or name. Words of a name may be separated by blanks.
+    /// Returns the quantity with this symbol or name. The words of a name may be separated by blanks, hyphens or `_`.
     ///
     /// # Errors
-    /// No quantity or several quantities have this name. The error names the possible ones.
+    /// Returns an error if no quantity has this symbol or name, or if several quantities have this symbol. The error names
+    /// quantities that may be meant.
     ///
     /// ```
     /// use asperity_study::Quantity;
@@ -266,12 +272,12 @@ impl Quantity {
         }
     }
 
-    /// Returns the meaning in one line.
+    /// Returns what the quantity is, in one line.
     pub const fn meaning(self) -> &'static str {
         self.row().meaning
     }
 
-    /// Returns the smallest and the largest possible value.
+    /// Returns the smallest and the largest value that the quantity can have, in its SI unit. Both may be infinite.
     pub const fn bounds(self) -> (f64, f64) {
         self.row().bounds
     }

@@ -28,17 +28,18 @@ const MARGIN: f64 = 0.01;
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
 
-/// Inverse question: at which value of one number of a scene does a quantity reach a target?
+/// Question at which value of one number of a scene a quantity reaches a target, on each of several random profiles.
+/// [`find`](crate::find()) asks and answers it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Number that is sought, as an axis without values; a `preload` is in N.
+    /// Number whose value is sought, as an axis without values. A preload is sought in N.
     pub axis: Axis,
     /// Quantity that must reach the target.
     pub quantity: Quantity,
     /// Target value of the quantity in its SI unit.
     pub target: f64,
-    /// Smallest and largest searched number in SI units. Both are NaN for a number below zero, for which the user must give
-    /// a range.
+    /// Smallest and largest value of the number that are tried, in SI units. Both are NaN if the number is not above zero in
+    /// the scene. Then the range must be set before the question is answered.
     pub searched: (f64, f64),
     /// Scale of the searched number.
     scale: AxisScale,
@@ -46,63 +47,68 @@ pub struct Question {
     pub(super) plan: Plan,
 }
 
-/// Answer on one profile.
+/// Answer to a [`Question`] on one random profile.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {
-    /// Seed of the profile; `None` for a fixed profile.
+    /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// All numbers at which the quantity crosses the target, ascending. A crossing is known as two close numbers. The list
-    /// has the one at which the quantity is at least the target.
+    /// All found values of the number at which the quantity crosses the target, ascending. Each is found between two values
+    /// that differ by at most 1e-9 of their size, or by 1 for whole numbers. The list has the one of both at which the quantity
+    /// is at least the target.
     pub crossings: Vec<f64>,
-    /// Whether the quantity is at least the target, at the smallest and at the largest searched number.
+    /// Whether the quantity is at least the target: first at the smallest searched number, then at the largest.
     pub reached: [bool; 2],
-    /// True if the adhesion force turned at first touch, without any preload, is at least the target.
+    /// True if the preload for an adhesion force is sought, and a loading that turns at first touch reaches the target already.
     pub at_touch: bool,
-    /// Smallest and largest value of the quantity that the search met; `None` if it met none.
+    /// Smallest and largest value of the quantity at the numbers with which the search began; `None` if it has no value there.
     pub reachable: Option<(f64, f64)>,
 }
 
 impl Question {
     /// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side is the symbol of a quantity
-    /// or its name in tables of studies. The right side is a value with prefix and unit.
+    /// or its name in tables of studies. The right side is a value with its unit, which may have a prefix.
     ///
     /// # Errors
-    /// The condition is wrong; the error says what is allowed.
+    /// Returns an error if the text is no condition, or if the quantity cannot have this value. The error says what is allowed.
     ///
     /// ```
     /// use asperity_study::Quantity;
     /// use asperity_study::Question;
     ///
-    /// assert_eq!(Question::parse_condition("F_a/F_a,max = 80 %"), Ok((Quantity::AdhesionShare, 0.8)));
-    /// assert!(Question::parse_condition("F_a/F_a,max = 120 %").unwrap_err().contains("allowed: from 0 to 1"));
+    /// assert_eq!(Question::parse_condition("F_a/F_a,max = 80 %").ok(), Some((Quantity::AdhesionShare, 0.8)));
+    /// assert!(Question::parse_condition("F_a/F_a,max = 120 %").unwrap_err().to_string().contains("allowed: from 0 to 1"));
     /// ```
-    pub fn parse_condition(text: &str) -> Result<(Quantity, f64), String> {
+    pub fn parse_condition(text: &str) -> Result<(Quantity, f64), StudyError> {
         // The symbol F_a(F=0) has the sign itself.
         let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
-        let (name, value) = text.rsplit_once('=').ok_or_else(|| format!("{text:?}: allowed: {example}"))?;
-        let quantity = Quantity::named(name)?;
+        let refused = |found: String| StudyError::refused(None, found, example);
+        let (name, value) = text.rsplit_once('=').ok_or_else(|| refused(format!("{text:?}")))?;
+        let quantity = Quantity::named(name).map_err(refused)?;
         if quantity.is_regime() {
-            return Err(format!("{} is not a number; allowed: {example}", quantity.name()));
+            return Err(refused(format!("{} is not a number", quantity.name())));
         }
         let target = parse_quantity(value, quantity.unit())
-            .map_err(|error| format!("value of {}: {error}", quantity.symbol_or_name()))?;
+            .map_err(|error| refused(format!("value of {}: {error}", quantity.symbol_or_name())))?;
         let (least, most) = quantity.bounds();
         if target < least || target > most {
             let [found, least, end] = [target, least, most].map(|one| format_quantity(one, quantity.unit()));
             let allowed =
                 if most.is_finite() { format!("from {least} to {end}") } else { format!("at least {least}") };
-            return Err(format!("{} = {found}; allowed: {allowed}", quantity.symbol_or_name()));
+            let found = format!("{} = {found}", quantity.symbol_or_name());
+            return Err(StudyError::refused(None, found, allowed));
         }
         Ok((quantity, target))
     }
 
-    /// Asks for the number at a path of a checked scene, or for the `preload`, on this number of profiles. The searched
-    /// range extends from a hundredth to a hundred times the present number. A narrow allowed range is searched as a whole.
-    /// Preloads are searched from 0 N to a hundred times the largest force of the loading.
+    /// Asks at which value of the number at `path` a quantity has a given value, on `profiles` random profiles of a checked
+    /// scene. If `path` is `preload`, asks for the preload. The search goes from a hundredth to a hundred times the value in
+    /// the scene. For a number whose allowed range is at most 2 wide, such as the Hurst exponent, nearly this whole range is
+    /// searched. Preloads are searched from 0 N to a hundred times the largest force of the loading.
     ///
     /// # Errors
-    /// The scene lacks the number, or several profiles are requested of a scene with a fixed profile.
+    /// Returns an error if the scene lacks the number, or if several profiles are requested and the profile of the scene is
+    /// fixed. It is also an error to ask for a preload if the solver of the scene is not [`Solver::Exact`].
     pub fn new(
         scene: &CheckedScene,
         path: &str,
@@ -167,12 +173,12 @@ impl Question {
         if self.searched.0 > 0.0 && !self.axis.is_whole() { self.scale } else { AxisScale::Linear }
     }
 
-    /// Returns the number of profiles.
+    /// Returns the number of random profiles on which the question is answered.
     pub fn profiles(&self) -> u64 {
         self.plan.lines
     }
 
-    /// Returns true if a preload is sought.
+    /// Returns true if the question asks for a preload.
     pub fn is_of_preload(&self) -> bool {
         self.axis.is_of_preloads()
     }

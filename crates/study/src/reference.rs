@@ -30,10 +30,11 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 const LONGEST: f64 = 86_400.0;
 
-/// Options of a comparison of profiles with random squares in three dimensions.
+/// Options of a [`Reference`]: numbers of random profiles and of random squares, and number of cells along the side of a
+/// square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
-    /// Number of cells along the side of a square, which is a power of two.
+    /// Number of cells along the side of a square, a power of two.
     pub cells: usize,
     /// Number of random squares.
     pub maps: u64,
@@ -45,108 +46,115 @@ pub struct ReferenceOptions {
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
-    /// Returns the options of a comparison with `maps` random squares. By default there are 24 squares without adhesion,
-    /// and 12 squares with adhesion, which take ten times as long.
+    /// Returns the usual options for a scene: 64 cells along the side of a square, and 16 random profiles for each square.
+    /// `maps` is the number of squares. Without it there are 24 squares for a scene without adhesion, and 12 squares for a
+    /// scene with adhesion, where each takes about ten times as long.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
     }
 }
 
-/// Quantity in both models: on random profiles and on random squares in three dimensions.
+/// One quantity, computed on random profiles and on random squares in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Compared {
-    /// Statistics over the profiles.
+    /// Statistics of the quantity over the profiles.
     pub line: Statistics,
-    /// Statistics over the squares.
+    /// Statistics of the quantity over the squares.
     pub half_space: Statistics,
     /// Mean over the profiles divided by the mean over the squares.
     pub ratio: f64,
-    /// Half the width of the 95 % interval of the ratio, from the standard errors of both means. It is `None` for fewer
+    /// Half the width of the 95 % confidence interval of the ratio, from the standard errors of both means; `None` for fewer
     /// than two profiles or squares.
     pub error: Option<f64>,
 }
 
-/// Contact without adhesion in both models at one force.
+/// Contacts of the profiles and of the squares without adhesion, at one force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
     /// Force, N.
     pub force: f64,
     /// Indentation from first touch, m.
     pub indentation: Compared,
-    /// Stiffness dF/dd, N/m.
+    /// Stiffness dF/dd of the contact, N/m.
     pub stiffness: Compared,
     /// Mean area of contact in three dimensions, m².
     pub area: f64,
 }
 
-/// Comparison of a scene as a profile and as squares in three dimensions.
+/// Comparison of the contact of a scene on random profiles with its contact on random squares in three dimensions. A square is
+/// a rigid rough body of the side L on an elastic half-space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Options of the comparison.
     #[serde(flatten)]
     pub options: ReferenceOptions,
-    /// Numbers of periods over the length L for the longest and the shortest wave in both models; `None` for a smooth body.
+    /// Longest and shortest wave of profiles and squares, as numbers of periods over the length L; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Number of periods of the scene's shortest wave, if squares do not resolve it; otherwise `None`. Both models then
-    /// omit the waves beyond `waves`.
+    /// Shortest wave of the scene as a number of periods over L, if the squares are too coarse for it. Profiles and squares
+    /// then both leave out the waves that are shorter than those in `waves`. Otherwise `None`.
     pub omitted: Option<u64>,
-    /// Preload of both models, N.
+    /// Preload of the scene on its own profile, N. The squares are pressed to this force.
     pub preload: f64,
-    /// Both models at several forces up to the preload, without adhesion.
+    /// Contacts without adhesion at several forces, from a hundredth of the preload to the preload.
     pub loading: Vec<Loaded>,
-    /// Adhesion force after the preload, N; `None` without adhesion.
+    /// Adhesion force F_a after the preload, N; `None` for a scene without adhesion.
     pub adhesion_force: Option<Compared>,
-    /// Adhesion force turned at first touch, N; `None` without adhesion.
+    /// Adhesion force F_a(d=0), turned at first touch, N; `None` for a scene without adhesion.
     pub first_touch_adhesion_force: Option<Compared>,
-    /// Dissipated energy, J; `None` without adhesion.
+    /// Dissipated energy of the loop, J; `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// Errors of the profile as a model of three dimensions, by their sources.
+    /// Errors of the comparison by their sources.
     pub budget: ReferenceBudget,
-    /// Number of convolutions on the squares, the costly operation of the solver.
+    /// Number of convolutions computed on the squares. They take most of the time of the squares.
     pub convolutions: u64,
-    /// Computing times of all profiles and of all squares, s.
+    /// Computing time of all profiles, and computing time of all squares, s.
     pub seconds: [f64; 2],
     /// Mean computing time of one square, s.
     pub seconds_of_square: f64,
 }
 
-/// Errors by their sources, as shares of the adhesion force, or of the indentation without adhesion.
+/// Errors of a [`Reference`] by their sources. The errors `grid`, `sample` and `model` are relative errors of the adhesion
+/// force, or of the indentation at the preload if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest residual of the solver in contacts without adhesion, in units of the rms height.
+    /// Largest violation of the conditions on the gap in contacts of squares without adhesion, in units of the rms height.
     pub solver: f64,
-    /// Difference from squares with half as many cells along the side; `None` if the coarser squares have too few cells.
+    /// Relative difference between the mean over the squares and the mean over the same squares with half as many cells along
+    /// the side; `None` if the latter have too few cells.
     pub grid: Option<f64>,
-    /// Half the width of the 95 % interval of the ratio, due to the finite numbers of squares and profiles.
+    /// Half the width of the 95 % interval of [`Compared::ratio`] over this ratio, due to the finite numbers of squares and
+    /// profiles.
     pub sample: Option<f64>,
-    /// Difference between 1 and the ratio of both models.
+    /// Difference between 1 and [`Compared::ratio`], without sign.
     pub model: f64,
-    /// Name of the source with the largest error.
+    /// Name of the source with the largest error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,
 }
 
-/// Event during a comparison, which a caller can report.
+/// Event that [`Reference::of`] reports during a comparison.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
-    /// The computation of the squares begins.
+    /// All profiles are computed, and the computation of the squares begins.
     Begins {
         /// Number of squares, which is one for a body without random roughness.
         maps: u64,
-        /// Number of threads that share the squares. It is smaller than requested if the memory does not suffice.
+        /// Number of threads that share the squares. It is smaller than the requested number if the memory does not suffice.
         threads: usize,
-        /// Memory of all threads, in bytes.
+        /// Memory that all threads need together, in bytes.
         bytes: u64,
         /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
-        /// Adhesion force of each profile in N, or its indentation in m under the preload if the scene has no adhesion.
+        /// Adhesion force of each profile in N. If the scene has no adhesion, it is the indentation of each profile at the
+        /// preload in m.
         lines: Vec<f64>,
     },
     /// The computation of a square is finished.
     Square {
-        /// Indentations in m and forces in N of the square.
+        /// Points of the force curve of the square, each with indentation in m and force in N.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N, or its indentation in m under the preload if the scene has no adhesion.
+        /// Adhesion force of the square in N. If the scene has no adhesion, it is the indentation of the square at the preload
+        /// in m.
         headline: f64,
     },
 }
@@ -160,18 +168,20 @@ struct OfSquare {
 }
 
 impl Reference {
-    /// Returns the most important quantity in both models: the adhesion force, or the indentation at the preload without
+    /// Returns the main quantity of the comparison: the adhesion force, or the indentation at the preload if the scene has no
     /// adhesion.
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
     }
 
-    /// Compares a checked scene with random squares. `simulation` has the files of the scene. `jobs` threads share the
-    /// profiles and the squares. Only the computing times depend on the number of threads. `report` receives each event.
+    /// Compares the contact of a checked scene on random profiles with its contact on random squares in three dimensions.
+    /// `simulation` finds the measured files of the scene. `jobs` threads share the profiles and then the squares. Only the
+    /// computing times depend on the number of threads. `report` receives each event.
     ///
     /// # Errors
-    /// The scene has no body in three dimensions, or no preload above zero. The number of cells is not allowed, the memory
-    /// does not suffice, the comparison takes more than a day, or `stop` returned true.
+    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of cells is not
+    /// allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, or if `stop`
+    /// returned true.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
@@ -497,7 +507,9 @@ mod tests {
             "1024 cells: 24 squares take about 3 days, longer than one day; allowed: a grid of at most 512 cells \
              along the side, or at most 8 squares"
         );
-        assert!(refused(50.0 * LONGEST, 0.4).ends_with("allowed: a grid of at most 64 cells along the side"));
+        assert!(
+            refused(50.0 * LONGEST, 0.4).ends_with("allowed: a grid of at most 128 cells along the side")
+        );
         let never = check_time(&options(8192, 1), 1e300, 0.0, true).unwrap_err().to_string();
         assert!(never.contains("at most 32 cells"), "{never}");
     }

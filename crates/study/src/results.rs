@@ -19,7 +19,7 @@ use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
-/// Values of a study: the recorded quantities of each cell on each random profile.
+/// Results of a study: the recorded quantities of each [cell](Plan) on each random profile, as far as they are computed.
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
@@ -30,28 +30,28 @@ pub struct Results {
     failed: BTreeMap<u64, String>,
 }
 
-/// What a merge found in the shard files of a study, each written by one process. A record has the values of one cell on
-/// one profile.
+/// What [`merge`](crate::merge) found in the files of a study, each of which one process has written. A record has the values
+/// of one [cell](Plan) on one random profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of different records in the files.
+    /// Number of records in the files, without repetitions.
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
-    /// First records without values, as cell, seed and reason.
+    /// First records without values, each with the number of the cell, the seed of the profile and the reason.
     pub first_failed: Vec<(u64, u64, String)>,
-    /// Number of records in the complete study.
+    /// Number of records of the complete study.
     pub total: u64,
-    /// Number of records that repeat another one with the same bits.
+    /// Number of records that occur again with exactly the same values.
     pub duplicates: u64,
-    /// Number of incomplete or damaged lines of shard files. These lines are left out.
+    /// Number of incomplete or damaged lines in the files. These lines are left out.
     pub damaged: u64,
-    /// Number of cells with missing profiles.
+    /// Number of cells that lack the records of some profiles.
     pub missing_cells: u64,
-    /// Numbers of the first cells with missing profiles.
+    /// Numbers of the first cells that lack the records of some profiles.
     pub first_missing: Vec<u64>,
-    /// Number of shard files with records.
+    /// Number of files that have at least one record.
     pub files: usize,
     /// Versions of the program that wrote the records.
     pub programs: Vec<String>,
@@ -96,12 +96,12 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// Makes a study in memory without values so far: a checked scene on `lines` random profiles. Each of the `preloads` in
-    /// N, if any, replaces the loading.
+    /// Makes a study in memory that has no values yet. Its only cell is a checked scene on `lines` random profiles, with the
+    /// quantities `record`. With an axis of `preloads` in N it has a cell for each preload, which replaces the loading.
     ///
     /// # Errors
-    /// Several profiles are requested of a scene with a fixed profile, or preloads without the exact solver. The study is
-    /// too large for the memory.
+    /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an error if `preloads` are
+    /// given and the solver of the scene is not [`Solver::Exact`], or if the memory does not suffice for the study.
     pub fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -116,11 +116,11 @@ impl Results {
         Results::empty(Plan { axes, ..Plan::of_scene(scene, lines, record) })
     }
 
-    /// Makes a study as [`Results::begin`] does, and computes it. Files of the scene are relative to `folder`. `jobs`
-    /// threads share the profiles. The results do not depend on the number of threads.
+    /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the scene are relative to `folder`.
+    /// `jobs` threads share the profiles. The results do not depend on the number of threads.
     ///
     /// # Errors
-    /// A profile fails. The errors of [`Results::begin`] are possible too.
+    /// Returns an error if a profile cannot be computed. The errors of [`Results::begin`] are possible too.
     pub fn of_scene(
         scene: &Scene,
         folder: &Path,
@@ -136,11 +136,12 @@ impl Results {
         Ok(results)
     }
 
-    /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` are the simulation of the first
-    /// thread and the number of threads. After each profile `report` receives the results on this thread.
+    /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` is a pair: the simulation with which
+    /// the first thread computes, and the number of threads. After each profile `report` is called on this thread, with the
+    /// results so far.
     ///
     /// # Errors
-    /// A profile or its contact fails, or `stop` returned true.
+    /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
     pub fn extend(
         &mut self,
         workers: (Simulation, usize),
@@ -268,7 +269,7 @@ impl Results {
         }
     }
 
-    /// Returns the records that cannot be computed, as cell, index of the profile and reason.
+    /// Returns what cannot be computed: number of the cell, index of the profile, and reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
         self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
@@ -291,8 +292,9 @@ impl Results {
         &self.plan
     }
 
-    /// Returns the values of a cell on a profile, in the order of the recorded quantities; `None` if they are missing. A
-    /// quantity without a value is NaN. A regime is an index into [`asperity_scene::Regime::ALL`].
+    /// Returns the values of a cell on the profile with the index `line`, in the order of [`Plan::record`]. `None` if the
+    /// profile is not computed or cannot be computed. A quantity without a value is NaN. A regime is an index into
+    /// [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -303,19 +305,20 @@ impl Results {
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
-    /// Returns the value of a recorded quantity for a cell and a profile, in its SI unit; `None` without a value.
+    /// Returns the value of a quantity in a cell on the profile with the index `line`, in its SI unit. `None` if the quantity
+    /// is not recorded or has no value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
         self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
     }
 
-    /// Returns the recorded regime of a cell on a profile; `None` if there is none. `regime` is one of
-    /// [`Quantity::REGIMES`].
+    /// Returns the regime of adhesion of a cell on the profile with the index `line`; `None` if it is not recorded or not
+    /// known. `regime` is one of [`Quantity::REGIMES`].
     pub fn regime(&self, cell: u64, line: u64, regime: Quantity) -> Option<Regime> {
         regime_of(self.value(cell, line, regime)?)
     }
 
-    /// Returns the existing records of a cell, as index of the profile and values.
+    /// Returns the values of a cell on all profiles that have values, each with the index of the profile.
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
@@ -324,18 +327,18 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true if the cell is computed on all profiles.
+    /// Returns true if the cell is computed, or cannot be computed, on each profile.
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// Returns the values of a recorded quantity in a cell, on all profiles that have one.
+    /// Returns the values of a quantity in a cell in its SI unit, on all profiles that have one.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else { return Vec::new() };
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
     }
 
-    /// Returns the statistics of a recorded quantity over the profiles of a cell; `None` without values.
+    /// Returns the statistics of a quantity over the profiles of a cell; `None` if no profile has a value.
     ///
     /// ```
     /// use asperity_data::Control;
@@ -353,8 +356,8 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a cell in each regime. The first numbers are for loadings that turn at first
-    /// touch, the second for loadings that turn at zero force.
+    /// Returns the numbers of profiles of a cell in each regime of adhesion. The first numbers are for the regime that follows
+    /// from F_a(d=0), the second for the regime that follows from F_a(F=0).
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))

@@ -26,43 +26,45 @@ const SYNC: Duration = Duration::from_millis(50);
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Progress of a run, counted in records of its shard. A shard is the part of a plan that one process computes, and a
-/// record has the values of one cell on one profile.
+/// Progress of [`run_study`], counted in records of the [`Shard`] that it computes. A record has the values of one
+/// [cell](crate::Plan) on one random profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudyProgress {
-    /// Number of records that exist now.
+    /// Number of records of the shard that exist now.
     pub done: u64,
-    /// Number of records that existed before this run.
+    /// Number of records of the shard that existed before this run.
     pub before: u64,
-    /// Number of records of the complete shard.
+    /// Number of records of the shard once it is complete.
     pub total: u64,
-    /// Time from the creation of the run's file to the last records in it.
+    /// Time from the moment at which the run created its file to the last records in the file.
     pub elapsed: Duration,
 }
 
 impl StudyProgress {
-    /// Returns true if every record exists.
+    /// Returns true if every record of the shard exists.
     pub fn is_complete(&self) -> bool {
         self.done == self.total
     }
 
-    /// Returns the number of records per second in this run; `None` before the first record.
+    /// Returns how many records this run computes per second; `None` before the first record.
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
-    /// Returns the estimated time left at the rate so far; `None` before the first record.
+    /// Returns the estimated time for the missing records of the shard at the rate so far; `None` before the first record.
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
 }
 
-/// Computes the missing records of a shard of a study in a folder, on this number of threads. `stop` is asked after each
-/// loading. `report` is called several times a second and at the end.
+/// Computes the missing records of a shard of the study in a folder, on `threads` threads, and writes them to a new file in the
+/// folder. `stop` is asked after each loading. If it returns true, the run ends without an error. `report` receives the
+/// progress several times a second and at the end.
 ///
 /// # Errors
-/// The memory does not suffice for a record, or a record cannot be written. Earlier records are kept.
+/// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file cannot be read or written.
+/// Earlier records are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,

@@ -1,6 +1,7 @@
 //! The selection of a figure from a merged study: quantities, axes, and values of the fixed axes.
 
 use super::axis::Axis;
+use super::error::StudyError;
 use super::grid::{Grid, GridLayer, across_and_up, scale_of};
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -45,16 +46,16 @@ fn axis_and_value(text: &str) -> Result<(String, String), String> {
     owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
 }
 
-/// Selected part of a study.
+/// Part of a study that a [`Selection`] has chosen for a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selected {
-    /// Cells of the selected part.
+    /// Cells of the chosen part, over one or two axes.
     pub grid: Grid,
-    /// Quantities of the figure.
+    /// Quantities of the figure, one for each panel.
     pub quantities: Vec<Quantity>,
-    /// True if each row of the grid is a curve over the horizontal axis; false for a map.
+    /// True if the figure has several curves over the horizontal axis, one for each row of the grid; false for a map.
     pub curves: bool,
-    /// Sentence that says which preload is shown, if the user selected none of several; otherwise `None`.
+    /// Sentence that names the preload of the figure, if the study has several and the user chose none; otherwise `None`.
     pub note: Option<String>,
 }
 
@@ -63,12 +64,12 @@ pub struct Selected {
 type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
 
 impl Selection {
-    /// Selects a part of a study.
+    /// Chooses the part of a study that these options describe.
     ///
     /// # Errors
-    /// The study lacks a quantity, an axis or a value; the error lists what it has. More than two axes are left without a
-    /// fixed value.
-    pub fn of(&self, study: &Results) -> Result<Selected, String> {
+    /// Returns an error if the study lacks a chosen quantity, axis or value. The error lists those that the study has. It is
+    /// also an error if more than two axes have no fixed value.
+    pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
         let (named, mut at) = self.axes(&plan.axes)?;
@@ -91,14 +92,15 @@ impl Selection {
         Ok(Selected { grid, quantities, curves, note })
     }
 
-    fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, String> {
+    fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, StudyError> {
         let drawn = plan.record.iter().copied().filter(|one| !one.is_regime());
         let drawn: Vec<Quantity> = drawn.collect();
         let named = |name: &str| {
             drawn.iter().copied().find(|one| [one.name(), one.symbol()].contains(&name)).ok_or_else(|| {
                 let allowed = drawn.iter().map(|one| one.name()).collect::<Vec<_>>().join(", ");
                 let allowed = if drawn.is_empty() { "none, only regimes were recorded" } else { &allowed };
-                format!("--quantity {name}: this study has no such quantity; allowed: {allowed}")
+                let place = format!("--quantity {name}");
+                StudyError::refused(Some(&place), "this study has no such quantity", allowed)
             })
         };
         if !self.quantities.is_empty() {
@@ -113,12 +115,13 @@ impl Selection {
     }
 
     /// Returns the named axes, which must exist and be named once. An axis with one value is fixed.
-    fn axes(&self, axes: &[Axis]) -> Result<Chosen, String> {
+    fn axes(&self, axes: &[Axis]) -> Result<Chosen, StudyError> {
         let mut named: Vec<(usize, &str)> = Vec::new();
         let mut name = |path: &str, option| {
             let index = find(axes, path, option)?;
             if let Some((_, other)) = named.iter().find(|(known, _)| *known == index) {
-                return Err(format!("{path}: named by {other} and by {option}; allowed: one of them"));
+                let found = format!("named by {other} and by {option}");
+                return Err(StudyError::refused(Some(path), found, "one of them"));
             }
             named.push((index, option));
             Ok(index)
@@ -134,8 +137,8 @@ impl Selection {
             let off = |there: &f64| wanted.map_or(f64::NAN, |wanted| (there - wanted).abs());
             let same = |there: &f64| off(there) <= 5e-4 * there.abs();
             let none = || {
-                let allowed = values_of(axis);
-                format!("--at {path}={value}: the study has no such value; allowed: {allowed}")
+                let place = format!("--at {path}={value}");
+                StudyError::refused(Some(&place), "the study has no such value", values_of(axis))
             };
             let close = (0..axis.values.len()).filter(|place| same(&axis.values[*place]));
             let nearest = close.min_by(|a, b| off(&axis.values[*a]).total_cmp(&off(&axis.values[*b])));
@@ -151,7 +154,11 @@ impl Selection {
         axes: &[Axis],
         named: [Option<usize>; 2],
         fixed: &[Option<usize>],
-    ) -> Result<(usize, Option<usize>), String> {
+    ) -> Result<(usize, Option<usize>), StudyError> {
+        let none_left = || {
+            let found = "no axis is left to go across";
+            StudyError::refused(None, found, "an axis with two values at least")
+        };
         let is_named = |index: &usize| named.contains(&Some(*index));
         let rest: Vec<usize> =
             (0..axes.len()).filter(|index| fixed[*index].is_none() && !is_named(index)).collect();
@@ -160,26 +167,24 @@ impl Selection {
             ([Some(across), None], [second]) => Ok((across, Some(*second))),
             ([None, Some(up)], [across]) => Ok((*across, Some(up))),
             ([None, None], [_] | [_, _]) => {
-                let (across, up) = across_and_up(axes, &rest).ok_or("no axis is free")?;
+                let (across, up) = across_and_up(axes, &rest).ok_or_else(none_left)?;
                 let longer = up.filter(|up| is_few(axes, across, *up));
                 Ok(longer.map_or((across, up), |longer| (longer, Some(across))))
             }
-            (_, []) => {
-                Err("no axis is left to go across; a curve needs an axis with two values at least".into())
-            }
+            (_, []) => Err(none_left()),
             _ => {
                 let all: Vec<String> = rest
                     .iter()
                     .map(|index| format!("{} ({})", axes[*index].path, values_of(&axes[*index])))
                     .collect();
                 let example = &axes[rest[0]];
-                Err(format!(
-                    "too many axes are free for a figure: {}; allowed: two, named by --x and --y, and the others fixed, such as \
-                     --at {}={}",
-                    all.join(", "),
-                    example.path,
-                    format_quantity(example.values[0], example.unit).replace(' ', "")
-                ))
+                let found = format!("too many axes are free for a figure: {}", all.join(", "));
+                let value = format_quantity(example.values[0], example.unit).replace(' ', "");
+                let allowed = format!(
+                    "two, named by --x and --y, and the others fixed, such as --at {}={value}",
+                    example.path
+                );
+                Err(StudyError::refused(None, found, allowed))
             }
         }
     }
@@ -216,11 +221,12 @@ fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> G
     GridLayer { quantity, scale: scale.unwrap_or_else(usual), range: None }
 }
 
-fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, String> {
+fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, StudyError> {
     axes.iter().position(|axis| axis.path == path).ok_or_else(|| {
         let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
         let allowed = if all.is_empty() { "none, it has one cell".into() } else { all.join(", ") };
-        format!("{option} {path}: this study has no such axis; allowed: {allowed}")
+        let place = format!("{option} {path}");
+        StudyError::refused(Some(&place), "this study has no such axis", allowed)
     })
 }
 

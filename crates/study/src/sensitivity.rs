@@ -18,36 +18,37 @@ use std::cmp::Reverse;
 /// have.
 type Values = [Option<f64>; 3];
 
-/// Results of a scene with one changed number.
+/// Results of a scene in which one number is changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed {
-    /// Medians of the results over the profiles.
+    /// Medians over the profiles in SI units, in the order of [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// Smallest and largest relative change of each result on single profiles; `None` for a fixed profile.
+    /// Smallest and largest relative change that a result has on a single profile, for each result; `None` for a fixed profile.
     pub range: [Option<(f64, f64)>; 3],
 }
 
-/// Results for a smaller and a larger value of one number of a scene.
+/// Results of a scene for a smaller and for a larger value of one of its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
     /// Path, name and unit of the number, as an axis without values.
     pub axis: Axis,
     /// Value of the number in the scene.
     pub value: f64,
-    /// Smaller and larger value of the number, each with its results; `None` for a value that the scene does not allow.
+    /// First the smaller, then the larger value of the number, each with its results; `None` if the scene does not allow the
+    /// value.
     pub sides: [(f64, Option<Changed>); 2],
 }
 
-/// Results of a scene, and of the same scene with one number changed at a time.
+/// How much the results of a scene change if each of its numbers is changed by a tenth, one at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Number of profiles computed so far. Their seeds begin with the seed of the scene.
+    /// Number of random profiles computed so far. The first profile has the seed of the scene.
     pub profiles: u64,
-    /// Medians of the results of the unchanged scene.
+    /// Medians over the profiles for the unchanged scene in SI units, in the order of [`Sensitivity::RESULTS`].
     pub present: Values,
-    /// Smallest and largest result over the profiles, for each result; `None` for a fixed profile.
+    /// Smallest, then largest results over the profiles for the unchanged scene, in the same order; `None` for a fixed profile.
     pub range: Option<[Values; 2]>,
-    /// Results for changes of each number of the scene, except numbers that count something.
+    /// Results for changes of each number of the scene. Numbers that are zero or count something are left out.
     pub influences: Vec<Influence>,
 }
 
@@ -55,21 +56,22 @@ pub struct Sensitivity {
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
-    /// Share by which each number is decreased and increased.
+    /// Relative change by which each number is made smaller and larger. A whole number changes by at least 1.
     pub const STEP: f64 = 0.1;
 
-    /// Results whose changes are computed.
+    /// Quantities whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
-    /// Computes a checked scene, and scenes with one number changed, on the profiles of an ensemble. All other numbers of
-    /// the scene stay. If κ is given, the work of adhesion follows from κ.
+    /// Computes a checked scene, and scenes with one number changed, on the same random profiles. There are as many profiles as
+    /// [`Ensemble::profiles_of`] returns. All other numbers of the scene stay. If the scene has κ instead of a work of
+    /// adhesion, the work of adhesion follows from κ again after each change.
     ///
-    /// `jobs` threads share the profiles, and `simulation` serves the first thread. The results do not depend on the number
-    /// of threads. After each profile `report` receives the sensitivity over the profiles so far.
+    /// `jobs` threads share the profiles, and the first thread computes with `simulation`. The results do not depend on the
+    /// number of threads. After each profile `report` receives the sensitivity over the profiles so far.
     ///
     /// # Errors
-    /// A profile or its contact fails, or `stop` returned true.
+    /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
     ///
     /// ```
     /// use asperity_scene::{Simulation, open};
@@ -155,21 +157,21 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative changes from the medians of the scene to these values. A change is `None` if a value is missing
-    /// or the median of the scene is zero.
+    /// Returns the relative changes of results from the medians of the unchanged scene to `values`. A change is `None` if a
+    /// value is missing, or if the median is missing or zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// Returns the reason in words why no change of the adhesion force is known; `None` if there is an adhesion force.
+    /// Returns a sentence that says why no change of the adhesion force is known; `None` if the scene has an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known)
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// Returns the influences, beginning with the largest change of a result. `result` is an index into
-    /// [`Sensitivity::RESULTS`].
+    /// Returns the influences in the order of their largest relative change of one result, the largest first. `result` is the
+    /// index of this result in [`Sensitivity::RESULTS`].
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 const MOST: u32 = 1_000_000;
 
-/// Shard of a plan: part `number` of `count` equal parts, each for one process.
+/// Part of a plan that one process computes: part `number` of `count` parts of about the same size.
 ///
 /// ```
 /// use asperity_study::Shard;
@@ -17,14 +17,14 @@ const MOST: u32 = 1_000_000;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Shard {
-    /// Number of the shard, from 1.
+    /// Number of the part, counted from 1.
     pub number: u32,
-    /// Number of shards of the plan.
+    /// Number of parts into which the plan is divided.
     pub count: u32,
 }
 
 impl Shard {
-    /// Whole plan as a single shard.
+    /// The whole plan as its only part.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
     /// Creates a part of a plan.

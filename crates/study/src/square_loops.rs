@@ -7,26 +7,29 @@ use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Loops of loading and unloading for random squares in three dimensions, as far as they are computed.
+/// Force curves of the random squares of a [`Reference`], as far as they are computed. A figure shows them beside the force
+/// curve of the profile.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of squares when all are computed.
     pub maps: u64,
-    /// Indentation in m and force in N of each computed square, from first touch on.
+    /// Force curve of each computed square from first touch on: points with indentation in m and force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force of each random profile in N, or its indentation in m under the preload if the scene has no adhesion.
+    /// Adhesion force of each random profile in N. If the scene has no adhesion, it is the indentation at the preload in m.
     pub lines: Vec<f64>,
-    /// Adhesion force or indentation, in the same way, of each computed square.
+    /// Adhesion force of each computed square in N. If the scene has no adhesion, it is the indentation at the preload in m.
     pub squares: Vec<f64>,
-    /// Comparison with random profiles; `None` until all squares are computed.
+    /// Comparison of all squares with the random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
 }
 
 impl SquareLoops {
-    /// Computes the loops of a scene. After each loop `report` receives the loops so far.
+    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` is a pair: the
+    /// simulation that finds the measured files of the scene, and the number of threads. `report` receives the curves so far at
+    /// the beginning and after each square.
     ///
     /// # Errors
-    /// The same as the errors of [`Reference::of`].
+    /// The errors are the same as those of [`Reference::of`].
     pub fn of(
         scene: &CheckedScene,
         simulation: (Simulation, usize),
@@ -49,15 +52,15 @@ impl SquareLoops {
         Ok(SquareLoops { reference: Some(reference), ..loops })
     }
 
-    /// Returns the adhesion force of the profiles and of the squares so far, or their indentation under the preload if the
-    /// scene has no adhesion; `None` before the first square.
+    /// Compares the adhesion force of the profiles with that of the squares so far, or their indentation at the preload if the
+    /// scene has no adhesion. `None` before the first square.
     pub fn headline(&self) -> Option<Compared> {
         compared(self.lines.iter().copied(), self.squares.iter().copied())
     }
 
-    /// Returns curves of the mean force of the squares so far, with the mean minus and plus the standard deviation as
-    /// (lower, mean, upper). The first curve is the loading, and with adhesion the second one is the unloading. Both end at
-    /// the indentation that all squares reach.
+    /// Returns the mean force of the squares so far over the indentation, as a band for loading and, with adhesion, a band for
+    /// unloading. A band is three curves: mean force minus standard deviation, mean force, and mean force plus standard
+    /// deviation. Each band ends at the indentation that all squares reach.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let stages = |curve: &Vec<(f64, f64)>| {
             let deepest = (0..curve.len()).max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0)).unwrap_or(0);

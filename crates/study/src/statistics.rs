@@ -17,28 +17,28 @@ const MOST_OF_ONE: f64 = 0.5;
 /// Statistics of a quantity over random profiles, in its SI unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
-    /// Number of values. Profiles without a value are left out.
+    /// Number of profiles with a value. Profiles without a value are left out.
     pub count: usize,
     /// Mean of the values.
     pub mean: f64,
-    /// Lower quartile, median and upper quartile, interpolated between neighbours.
+    /// Lower quartile, median and upper quartile, interpolated between neighbouring values.
     pub quartiles: [f64; 3],
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// Spread of the values and confidence of the mean; `None` for one value, or if no confidence interval can be computed.
+    /// Spread of the values and confidence interval of their mean; `None` for a single value.
     #[serde(flatten)]
     pub spread: Option<Spread>,
 }
 
-/// Spread of several values, and confidence of their mean.
+/// Spread of several values, and confidence interval of their mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Sample standard deviation of the values, with the divisor n − 1.
     pub standard_deviation: f64,
-    /// Standard error of the mean.
+    /// Standard error of the mean: the standard deviation over the root of the number of values.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. The interval never reaches a bound
-    /// of the quantity, such as 0 for a force.
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. If the quantity has a bound, such as 0
+    /// for a force, the interval does not reach it.
     pub confidence_interval: (f64, f64),
 }
 
@@ -46,8 +46,8 @@ pub struct Spread {
 type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
-    /// Computes the statistics of values of a quantity; `None` without values. `bounds` are the smallest and the largest
-    /// possible value, (−∞, ∞) without bounds. Values that are not finite are left out.
+    /// Computes the statistics of values of a quantity; `None` if there are none. `bounds` are the smallest and the largest
+    /// value that the quantity can have, −∞ and ∞ if it has no bounds. Values that are not finite are left out.
     ///
     /// ```
     /// use asperity_study::{Quantity, Statistics};
@@ -80,7 +80,7 @@ impl Statistics {
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
     }
 
-    /// Columns of a table with statistics: ending of the name, and function that returns the value.
+    /// Columns of a table with statistics: end of the name of each column, and function that returns its value.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -93,7 +93,7 @@ impl Statistics {
         ("max", |all| Some(all.range.1)),
     ];
 
-    /// Returns median, quartiles and range of several values in words, or the only value.
+    /// Returns median, quartiles and range as text with two digits, or the value itself if there is only one.
     ///
     /// ```
     /// let all = asperity_study::Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
@@ -109,26 +109,26 @@ impl Statistics {
         format!("median {median} (quartiles {quartiles}, range {range})")
     }
 
-    /// Returns a warning if one of at least three profiles makes up more than half of the mean; otherwise `None`. `what`
-    /// names the quantity.
+    /// Returns a sentence of warning if there are at least three values and the largest is more than half of their sum;
+    /// otherwise `None`. `what` is the name of the quantity in the sentence.
     pub fn warning(&self, what: &str) -> Option<String> {
         let share = self.share_of_largest().filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
         let percent = format_rounded(100.0 * share, 2, "1");
         Some(format!("One profile makes {percent} % of the mean of {what}: the median is the better guide."))
     }
 
-    /// Returns the share of the largest value in the sum of the values; `None` if a value is negative.
+    /// Returns the largest value divided by the sum of all values; `None` if a value is negative or the sum is zero.
     pub fn share_of_largest(&self) -> Option<f64> {
         let share = self.range.1 / (self.mean * self.count as f64);
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Returns both ends of the confidence interval of the mean, or twice the mean if there is none.
+    /// Returns the ends of the 95 % confidence interval of the mean. Without an interval both ends are the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
 
-    /// Returns the confidence interval of the mean; `None` if it is unknown.
+    /// Returns the 95 % confidence interval of the mean; `None` for a single value.
     pub fn confidence_interval(&self) -> Option<(f64, f64)> {
         self.spread.map(|spread| spread.confidence_interval)
     }
@@ -154,7 +154,7 @@ fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     (end(-half), end(half))
 }
 
-/// Number of random profiles in each regime of adhesion.
+/// Numbers of random profiles in each [regime](Regime) of adhesion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RegimeCounts {
     /// Number of profiles with pressure-insensitive adhesion.
@@ -168,7 +168,7 @@ pub struct RegimeCounts {
 }
 
 impl RegimeCounts {
-    /// Counts the regimes of profiles.
+    /// Counts profiles by their regimes. A profile without a regime is counted in `none`.
     pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
         let mut counts = [0; 4];
         regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
@@ -181,13 +181,13 @@ impl RegimeCounts {
         [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
     }
 
-    /// Returns the number of all profiles.
+    /// Returns the number of all profiles, with those of unknown regime.
     pub fn profiles(self) -> usize {
         self.known().iter().sum::<usize>() + self.none
     }
 
-    /// Returns the regime of most profiles, with their number. Of two regimes with equal numbers it is the one with more
-    /// adhesion.
+    /// Returns the most frequent regime, with its number of profiles. If two regimes are equally frequent, it is the one with
+    /// more adhesion. `None` if no regime is known.
     ///
     /// ```
     /// use asperity_scene::Regime;
@@ -201,8 +201,8 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Returns the regime with the second largest number of profiles, if less than three quarters of the profiles agree on
-    /// the first; otherwise `None`.
+    /// Returns the second most frequent regime if less than three quarters of the profiles of known regime have the most
+    /// frequent one; otherwise `None`.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
@@ -217,7 +217,7 @@ impl RegimeCounts {
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
 
-    /// Returns the names of the regimes that occur, with their numbers of profiles. Profiles without a known regime are
+    /// Returns the names of the regimes that occur, each with its number of profiles. Profiles of unknown regime have the name
     /// `not known`.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);
@@ -225,8 +225,8 @@ impl RegimeCounts {
         names.zip(counts).filter(|(_, count)| *count > 0)
     }
 
-    /// Returns the share of each regime among the profiles of known regime, in the order of [`Regime::ALL`]; `None` if none
-    /// is known.
+    /// Returns the share of each regime in the order of [`Regime::ALL`]. Profiles of unknown regime do not count; `None` if
+    /// there are no others.
     pub fn shares(self) -> Option<[f64; 3]> {
         let all: usize = self.known().iter().sum();
         (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))

@@ -9,37 +9,38 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Progress of a study. A record has the values of one cell on one profile.
+/// Progress of the study in a [`Folder`], counted in records. A record has the values of one [cell](crate::Plan) on one random
+/// profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Number of records that exist.
+    /// Number of records that exist, without repetitions.
     pub done: u64,
-    /// Number of records in the complete study.
+    /// Number of records of the complete study.
     pub total: u64,
     /// Number of missing records.
     pub missing: u64,
     /// Number of existing records that have no values because they cannot be computed.
     pub failed: u64,
-    /// Number of incomplete or damaged lines of shard files.
+    /// Number of incomplete or damaged lines in the files. These lines do not count as records.
     pub damaged: u64,
-    /// Progress of the shards, which are the parts of the plan that processes compute.
+    /// Progress of each [`Shard`] on which a process has worked. A shard is the part of the plan that one process computes.
     pub shards: Vec<ShardStatus>,
 }
 
-/// Progress of one shard.
+/// Progress of one [`Shard`] of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShardStatus {
     /// Name of the shard, such as `3/8`.
     pub shard: String,
-    /// Number of records of the complete shard.
+    /// Number of records of the shard once it is complete.
     pub total: u64,
-    /// Number of existing records of the shard, from any process.
+    /// Number of records of the shard that exist, whichever process computed them.
     pub done: u64,
-    /// Processes that worked on the shard.
+    /// Processes that have worked on the shard.
     pub attempts: Vec<Attempt>,
 }
 
-/// Process that worked on a shard, with its file.
+/// One process that has worked on a [`Shard`], as the file shows that it wrote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
     /// Name of the file that the process wrote.
@@ -54,15 +55,15 @@ pub struct Attempt {
     pub written: f64,
     /// Number of records that the process wrote.
     pub records: u64,
-    /// Records per second from the beginning to the last write; `None` if no time passed.
+    /// Records that the process wrote per second, from its beginning to its last write; `None` if no time passed.
     pub rate: Option<f64>,
 }
 
 impl Status {
-    /// Reads the status of a study from the present content of its folder.
+    /// Counts the records that the folder of a study has now.
     ///
     /// # Errors
-    /// A file of the folder cannot be read, or belongs to another plan.
+    /// Returns an error if a file of the folder cannot be read or belongs to another plan.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let total = folder.plan().records_in_all();
         let (mut done, mut damaged, mut failed) = (vec![false; total as usize], 0, 0);

@@ -37,21 +37,21 @@ const FAILED: &str = ",:";
 /// Number of characters of the checksum and the comma after it.
 const CHECKSUM: usize = 9;
 
-/// Folder of a study, with its plan and the values that are computed.
+/// Folder of a study on disk. It has the plan, and a file with the results of each process that has worked on the study.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
     plan: Plan,
 }
 
-/// Header of a shard file, which is the first line of the file.
+/// First line of a [`ShardFile`]. It states which process computes which part of which plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
     /// Version of the format of shard files.
     pub format: u32,
-    /// Checksum of the plan as text.
+    /// Checksum of the text of the plan.
     pub plan: String,
-    /// Shard, which is the part of the plan that the process computes.
+    /// Part of the plan that the process computes.
     pub shard: Shard,
     /// Name of the machine on which the process ran.
     pub host: String,
@@ -63,7 +63,7 @@ pub struct ShardHeader {
     pub program: String,
 }
 
-/// Shard file: the values that one process has computed.
+/// File in the folder of a study with the results of one process.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShardFile {
     /// Path of the file.
@@ -79,10 +79,11 @@ pub struct ShardFile {
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
-    /// Creates the folder of a plan, or opens the folder if it has the same plan.
+    /// Creates the folder of a study with this plan. If the folder has the same plan already, the folder is opened.
     ///
     /// # Errors
-    /// The folder contains another plan or cannot be written. A measured file has changed or cannot be read.
+    /// Returns an error if the folder has another plan or cannot be written, or if a measured file has changed or cannot be
+    /// read.
     ///
     /// ```
     /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, merge, run_study};
@@ -128,15 +129,15 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan })
     }
 
-    /// Returns true for the folder of a study, valid or not.
+    /// Returns true if `path` is the folder of a study, even if its plan has errors.
     pub fn is_at(path: &Path) -> bool {
         path.join(PLAN_FILE).is_file()
     }
 
-    /// Opens the folder of a study. Its plan is not checked again.
+    /// Opens the folder of a study that exists. The scenes of its cells are not checked again.
     ///
     /// # Errors
-    /// The folder contains no study, or its plan cannot be read.
+    /// Returns an error if the folder contains no study, or if its plan cannot be read.
     pub fn open(path: &Path) -> Result<Folder, StudyError> {
         let file = path.join(PLAN_FILE);
         if !file.is_file() {
@@ -192,11 +193,11 @@ impl Folder {
         Ok((path, file))
     }
 
-    /// Returns all shard files that have a header, sorted by name. A process that ended before it wrote a header has no
-    /// records.
+    /// Returns the files with the results of all processes, sorted by name. The file of a process that ended before it wrote
+    /// the header is left out, because it has no results.
     ///
     /// # Errors
-    /// A file cannot be read, or belongs to another plan or version.
+    /// Returns an error if a file cannot be read, or if it belongs to another plan or has another version of the format.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let listed =

@@ -10,7 +10,8 @@ use super::results::Results;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
-/// Maps of a finished study over two axes, or curves over one axis.
+/// Results of a study as maps over two of its axes, or as curves if it has only one. There is a map for each combination of
+/// values on the other axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
@@ -24,18 +25,19 @@ pub struct StudyMap {
 }
 
 impl StudyMap {
-    /// Reads the maps from the folder of a merged study.
+    /// Reads the maps of a study from its folder.
     ///
     /// # Errors
-    /// The folder contains no merged study, or a study of one cell.
+    /// Returns an error if the shards in the folder are not merged yet (`asperity sweep merge`). It is also an error if the
+    /// study has one cell, so that no axis has two values.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyError> {
         StudyMap::of(Results::open(folder)?, folder)
     }
 
-    /// Makes the maps of a study that was read from `folder`.
+    /// Makes the maps of a study. `folder` is the folder from which `study` was read.
     ///
     /// # Errors
-    /// The study has one cell.
+    /// Returns an error if the study has one cell, so that no axis has two values.
     pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyError> {
         let axes = &study.plan().axes;
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
@@ -54,7 +56,7 @@ impl StudyMap {
         &self.folder
     }
 
-    /// Returns the name of the folder without its parents.
+    /// Returns the last part of the path of the folder, which names the study.
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()
@@ -65,7 +67,7 @@ impl StudyMap {
         self.study.plan()
     }
 
-    /// Returns the number of maps.
+    /// Returns the number of maps: the number of combinations of values on the axes that the maps do not have.
     pub fn slices(&self) -> u64 {
         self.others.iter().map(|&other| self.plan().axes[other].count()).product()
     }
@@ -81,7 +83,7 @@ impl StudyMap {
         self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
     }
 
-    /// Returns the map of this number, counted from 0.
+    /// Returns map number `slice`, counted from 0.
     pub fn grid(&self, slice: u64) -> Grid {
         self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
     }
@@ -116,17 +118,17 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// Returns the scene of the study for the explorer, named by the folder of the study.
+    /// Returns the scene of the first map as a scene file for the explorer, named by the folder of the study.
     ///
     /// # Errors
-    /// The scene is invalid.
+    /// Returns an error if the scene is invalid.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As typed, so that this name in a command opens the study again.
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` is the scene of a map. Values on the axes of the map and the number of curve points may
-    /// differ.
+    /// Returns true if `scene` is the scene of map number `slice`. It may have other values on the axes of the map, and another
+    /// number of points of the force curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
@@ -142,10 +144,10 @@ impl StudyMap {
         }
     }
 
-    /// Returns the document with the values that a map has on the other axes of the study.
+    /// Returns a copy of a scene file with the values of map number `slice` on the axes that the maps do not have.
     ///
     /// # Errors
-    /// The scene does not allow these values.
+    /// Returns an error if the scene does not allow these values.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
         let values: Vec<_> = self.at(slice).map(|(axis, place)| (axis, axis.values[place])).collect();
         Axis::set_all(document, &values)

@@ -26,19 +26,20 @@ const REASON: &str = "reason";
 const LONGEST_SIDECAR: usize = 1 << 26;
 
 impl Merged {
-    /// Name of the table with one row for each cell and profile.
+    /// Name of the file with the table of all results, which has one row for each cell and profile.
     pub const RESULTS: &str = "results.csv";
-    /// Name of the table with one row for each cell.
+    /// Name of the file with the table of statistics over the profiles, which has one row for each cell.
     pub const SUMMARY: &str = "summary.csv";
-    /// Name of the file that describes the columns of the tables.
+    /// Name of the file that describes the columns of both tables.
     pub const SIDECAR: &str = "results.json";
 }
 
-/// Merges the shard files of a study and writes its tables, each completely or not at all. If the study is not complete,
-/// the tables contain the existing values, and [`Merged`] counts the missing cells.
+/// Merges the results of all processes in the folder of a study, and writes the tables [`Merged::RESULTS`] and
+/// [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. Each file is written completely or not at all. If some
+/// results are missing, the tables have the existing ones, and the returned [`Merged`] counts the cells that lack results.
 ///
 /// # Errors
-/// Two results for the same cell and profile differ, or a file cannot be read or written.
+/// Returns an error if two results for the same cell and profile differ, or if a file cannot be read or written.
 pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     let plan = results.plan();
@@ -114,8 +115,8 @@ fn recorded_hash(folder: &Path) -> Option<String> {
 }
 
 impl Results {
-    /// Returns a table with a row for each cell and profile: values of the axes, seed of the profile, and recorded
-    /// quantities.
+    /// Returns a table with a row for each computed cell and profile. Its columns are the values on the axes, the seed of the
+    /// profile, and the recorded quantities.
     pub fn table(&self) -> Table<'_> {
         let rows = || {
             let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
@@ -180,10 +181,10 @@ impl Results {
         self.with_reasons(table, |row| row.2)
     }
 
-    /// Reads the values of a study from its folder, in which [`merge`] wrote the tables.
+    /// Reads the results of a study from its folder, in which [`merge`] has written the tables.
     ///
     /// # Errors
-    /// The folder contains no study, or a table is missing, was changed or belongs to another plan.
+    /// Returns an error if the folder contains no study, or if its table is missing, was changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(Merged::RESULTS);

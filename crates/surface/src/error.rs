@@ -14,7 +14,7 @@ const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, Ne
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
-    /// The file, or the argument, as a whole.
+    /// The whole file, or the whole argument of the function.
     #[default]
     File,
     /// Line of a text, by its number.
@@ -23,16 +23,16 @@ pub enum Place {
     Point(usize),
     /// Byte of a file, by its offset.
     Byte(usize),
-    /// Named part of a container, such as a file of an archive, an element or a channel.
+    /// Named part of a file: a file in an archive, an element of XML, or a channel.
     Part(String),
-    /// Field of the scene, by its path.
+    /// Field of a scene, by its path in the scene, such as `roughness.file`.
     Field(&'static str),
-    /// Place in the file of the measurement with this name.
+    /// Place in one of several measurements in a file: the name of the measurement, and the place in it.
     Measurement(String, Box<Place>),
     /// Place in one of several surfaces, with the index of the surface from 0.
     Surface(usize, Box<Place>),
-    /// Place in a file that a field of the scene names. It has the path of the field, the path of the file, and the place in the
-    /// file.
+    /// Place in a file that a field of the scene names. The values are the path of the field, the path of the file, and the
+    /// place in the file.
     FileOf(&'static str, String, Box<Place>),
 }
 
@@ -64,8 +64,8 @@ impl Place {
     }
 }
 
-/// Reason why a surface, a form or a profile cannot be read, made or analysed. The caller prepends the name of the file, unless
-/// the place has it.
+/// Reason why a surface, a form or a profile cannot be read, made or analysed. The message has no name of a file, unless the
+/// place is a [`Place::FileOf`], so callers write the name before it.
 ///
 /// ```
 /// let options = asperity_surface::ReadOptions { unit: Some("m".parse()?), ..Default::default() };
@@ -100,7 +100,7 @@ pub enum SurfaceError {
     /// An array does not fit into memory.
     #[error("{place}{error}")]
     OutOfMemory {
-        /// Surface or field of the scene that takes the memory.
+        /// Surface, or field of a scene, for which the array is needed.
         place: Place,
         /// Number of bytes that the system cannot provide.
         error: OutOfMemory,
@@ -122,7 +122,7 @@ impl SurfaceError {
         self.place().all().find_map(of)
     }
 
-    /// Returns the number of the line of the fault, from 1; `None` for a fault elsewhere.
+    /// Returns the number of the line with the fault, from 1; `None` if the place is not a line of a text.
     pub fn line(&self) -> Option<usize> {
         self.find(|place| if let Place::Line(number) = place { Some(*number) } else { None })
     }
@@ -145,7 +145,8 @@ impl SurfaceError {
         self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
     }
 
-    /// Returns the error with its place inside an outer place, such as a file.
+    /// Returns the error with its place inside an outer place, such as a file. `outer` makes the new place from the present
+    /// one.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
@@ -156,7 +157,8 @@ impl SurfaceError {
         self
     }
 
-    /// Returns the error with the path of a measured surface, which the field `roughness.file` of a scene names.
+    /// Returns the error with the path of the file of a measured surface. The place of the error then also has the field
+    /// `roughness.file`.
     pub fn in_measured(self, file: &Path) -> Self {
         self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
     }
@@ -200,7 +202,7 @@ impl From<TextFault> for SurfaceError {
     }
 }
 
-/// Creates the error [`SurfaceError::Refused`] of a place, with what was found there and what is allowed, in words.
+/// Creates a [`SurfaceError::Refused`] from the place of a fault, what was found there, and what is allowed there.
 pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> SurfaceError {
     SurfaceError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
 }

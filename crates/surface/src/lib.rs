@@ -4,16 +4,16 @@
 //!
 //! # Names by task
 //!
-//! * Reading: [`read`] and [`parse`] with [`ReadOptions`] return a [`Topography`]; [`Unit`], [`Cut`] and [`Detrend`] are
-//!   options, and [`Cropped`] says what was left out.
-//! * Analysis: [`analyse`] with [`AnalysisOptions`] returns an [`Analysis`]: [`PointStatistics`], [`LineMoments`] of one
-//!   [`Moment`] each, a [`SelfAffineFit`], each a [`ValueWithError`].
-//! * Profiles for the model: [`EquivalentLine`] of a measured surface, [`SelfAffine`] with its [`Amplitude`], [`Form`] and
-//!   [`FormTable`].
-//! * What is refused: [`SurfaceError`] at a [`Place`].
+//! * To read a surface: [`read`] takes a file, [`parse`] takes its content, and both return a [`Topography`]. They have
+//!   [`ReadOptions`], such as a [`Unit`] or a [`Cut`]. [`Cropped`] counts empty rows and columns that are left out.
+//! * To analyse surfaces: [`analyse`] takes [`AnalysisOptions`], such as a [`Detrend`], and returns an [`Analysis`]. It has
+//!   [`PointStatistics`], [`LineMoments`] with one [`Moment`] each, and a [`SelfAffineFit`] of [`ValueWithError`]s.
+//! * To make rigid profiles: [`EquivalentLine`] has the spectrum of a measured surface, [`SelfAffine`] has a given spectrum
+//!   with its [`Amplitude`], and [`Form`] is the shape without roughness, which may be a [`FormTable`].
+//! * Errors: [`SurfaceError`] names what is refused, and its [`Place`].
 //!
-//! The modules are for programs: [`lines`] on which a scene is computed, [`spectra`] for figures, and [`files`] for readers
-//! of other formats.
+//! The modules are for programs that need more: [`lines`] makes the profiles of whole scenes, [`spectra`] has spectra for
+//! figures, and [`files`] helps to read other formats.
 
 mod error;
 mod line;
@@ -34,14 +34,14 @@ pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Reading of bytes, gzip and columns of NumPy arrays, for readers of other files such as force curves.
+/// Functions for readers of other files, such as force curves: they read bytes, gzip and columns of NumPy arrays.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;
     pub use crate::topography::open::{content, unpacked};
 }
 
-/// Rigid profiles with random or measured roughness, for the computation of scenes.
+/// Rigid profiles with random or measured roughness. Programs that compute whole scenes need them.
 pub mod lines {
     pub use crate::line::equivalent::MeasuredRoughness;
     pub use crate::line::form::{power_law_factor, struve_0};

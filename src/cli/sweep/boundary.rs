@@ -15,8 +15,8 @@ Examples:
   asperity sweep boundary edge --where 0.05 --format csv
   asperity sweep boundary edge --x elastic_energy_ratio
 
-F_a(d=0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
-profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
+F_a(d=0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over
+the profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
 the profiles.
 --x gives the boundary in e_el/γ: elastic energy to flatten the roughness over work of adhesion.";
 

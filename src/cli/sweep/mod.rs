@@ -4,7 +4,7 @@ mod boundary;
 mod merge;
 mod plans;
 mod plot;
-pub(super) mod run;
+mod run;
 mod status;
 mod submit;
 

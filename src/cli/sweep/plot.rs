@@ -43,7 +43,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     let usual = if arguments.output.output.is_none() { Format::Text } else { Format::Svg };
     let format = arguments.output.format(FORMATS, usual)?;
     let study = Results::open(&arguments.folder)?;
-    let selected = arguments.selection.of(&study).map_err(CliError::message)?;
+    let selected = arguments.selection.of(&study).map_err(|error| CliError::message(error.to_string()))?;
     let Selected { grid, quantities, curves, note } = selected;
     // The figure is drawn even if standard error is closed.
     let _ = note.map(|note| writeln!(io::stderr(), "{note}"));

@@ -2,7 +2,7 @@
 
 use super::merge::write_merged;
 use crate::cli::error::CliError;
-use crate::cli::progress::ProgressLine;
+use crate::cli::progress::{ProgressLine, stop_by_signal};
 use crate::cli::scene::{Overrides, threads};
 use asperity_data::memory_size;
 use asperity_report::progress_text;
@@ -12,8 +12,7 @@ use clap::Args;
 use std::io;
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// Time between two lines of progress if standard error is no terminal.
@@ -96,19 +95,4 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         }
     }
     write_merged(&folder, &merge(&folder)?, stdout)
-}
-
-/// Returns the number of the first signal that asks the process to end, 0 until then; a second signal ends it at once.
-pub(in crate::cli) fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
-    let first = Arc::new(AtomicUsize::new(0));
-    #[cfg(unix)]
-    {
-        let stop = Arc::new(AtomicBool::new(false));
-        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-            signal_hook::flag::register_conditional_default(signal, Arc::clone(&stop))?;
-            signal_hook::flag::register(signal, Arc::clone(&stop))?;
-            signal_hook::flag::register_usize(signal, Arc::clone(&first), signal as usize)?;
-        }
-    }
-    Ok(first)
 }

@@ -64,7 +64,7 @@ pub fn step(app: &mut App, key: &KeyEvent) {
     let [columns, rows] = [columns, rows].map(|steps| steps * if is_coarse { LARGE_STEP } else { 1 });
     let Some((at_across, at_up)) = app.place() else {
         let why = match Plan::of_map(app.edit.document.scene()) {
-            Err(why) => why.to_owned(),
+            Err(why) => why.to_string(),
             Ok(_) if app.map.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "the scene is still being computed: its κ follows from its profile".to_owned(),
         };

@@ -157,7 +157,7 @@ static TABLE: &[Entry] = &[
     row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
     row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).words("minor loop target load").shown_if(is_manual),
     row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
-    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the path as the loading of the scene", MANUAL).words("minor loop history").shown_if(is_manual),
+    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the manual loading as the loading of the scene", MANUAL).words("minor loop history").shown_if(is_manual),
 
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
@@ -172,7 +172,7 @@ static TABLE: &[Entry] = &[
     row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, if the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by name, symbol or meaning", PARAMETERS),
     row("f", LIST, "find-value", Do(target::ask), "for target", "find the value of the row, or the preload, for a target such as F_a/F_a,max = 80 %", PARAMETERS).words("inverse question goal reach required which"),
-    row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
+    row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch form, roughness, adhesion or unloading on or off", PARAMETERS),
     row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS).words("seed realisation realization random"),
     row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance of F_a, such as 0.1 %, from which the number of springs follows", PARAMETERS).words("accuracy precision error convergence springs"),
     row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),

@@ -88,7 +88,7 @@ fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
     Some(match (Question::parse_condition(typed), found(app, typed)) {
-        (Err(why), _) => why,
+        (Err(why), _) => why.to_string(),
         (Ok(_), None) => "finding the value on all profiles…".to_owned(),
         (Ok(_), Some(Ok(found))) => {
             let any =
@@ -111,7 +111,7 @@ fn value(found: &Found) -> Option<f64> {
 
 /// Gives the selected row the found value; a preload goes to the stage that presses most.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
-    Question::parse_condition(typed)?;
+    Question::parse_condition(typed).map_err(|error| error.to_string())?;
     let found = found(app, typed).ok_or("the value is still being found")?.as_ref().map_err(Clone::clone)?;
     let (value, is_preload) =
         (value(found).ok_or_else(|| found_in_words(found))?, found.question.is_of_preload());

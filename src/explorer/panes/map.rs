@@ -141,7 +141,7 @@ fn title(app: &App) -> String {
 
 fn nothing_yet(app: &App) -> String {
     if let Err(why) = Plan::of_map(app.edit.document.scene()) {
-        return why.to_owned();
+        return why.to_string();
     }
     match app.studies.failure::<Live>() {
         Some(why) => format!("no map: {why}"),

@@ -36,11 +36,12 @@ pub static ROW: PaneRow = PaneRow {
                 stop,
                 report,
             )
+            .map_err(|error| error.to_string())
         })]
     },
     help: &[(
         "Preloads",
-        "key i: adhesion force over preload: the staircase of this profile, and mean, median, quartiles and range over \
+        "key i: adhesion force against preload: the staircase of this profile, and mean, median, quartiles and range over \
          random profiles; ◇ turned at first touch, ○ at zero force, ◆ the present preload. On the right the share of \
          profiles up to each force",
     )],

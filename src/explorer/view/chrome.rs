@@ -164,7 +164,7 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         let (stage, stages) = (app.progress.unwrap_or(0) + 1, app.edit.document.scene().loading.len());
         facts.push((format!("computing, stage {stage} of {stages}"), Meaning::Quiet));
     }
-    facts.extend(app.view.squares.then(|| squares(app)));
+    facts.extend(app.view.squares.then(|| squares(app, width)));
     if let Some(adhesion) = figures.adhesion_force.filter(|force| *force != 0.0) {
         let is_fixed = Ensemble::profiles_of(app.edit.document.scene()) == 1;
         let profiles = profiles(app, is_wide);
@@ -205,9 +205,10 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
 }
 
 /// What is known of the loops of random squares in three dimensions, and their difference from the line.
-fn squares(app: &App) -> (String, Meaning) {
+fn squares(app: &App, width: usize) -> (String, Meaning) {
     match app.studies.failure::<SquareLoops>() {
-        Some(why) => (format!("three dimensions: {why}"), Meaning::Error),
+        // The reason is whole where there is room, and its beginning elsewhere.
+        Some(why) => (format!("three dimensions: {why}").chars().take(width).collect(), Meaning::Error),
         None => {
             let (loops, is_adhesive) = (app.studies.value(), app.edit.scene.adhesion.is_some());
             (square_loops_words(loops.unwrap_or(&SquareLoops::default()), is_adhesive), Meaning::Title)

@@ -5,7 +5,7 @@ use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Model of the edges of a contact patch: at springs, or between springs.
+/// Where the edges of a contact patch may lie: only in the middle between two springs, or anywhere between them.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -22,10 +22,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
-    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx.
+    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie in the middle between two
+    /// springs. The error of forces and energies by the spacing Δx falls with Δx.
     Grid,
-    /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. The error
-    /// falls with Δx².
+    /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. The error of
+    /// forces and energies by the spacing Δx of the springs falls with Δx², under a punch with Δx.
     SubCell,
 }
 

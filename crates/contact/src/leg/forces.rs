@@ -37,7 +37,7 @@ impl Leg {
         Ok(sampled.iter().map(|state| state.point(self.contact.foundation)).collect())
     }
 
-    /// Returns the energy in J that springs release at indentations above `low` and up to `high` in m; see
+    /// Returns the energy in J that springs release where this leg has indentations above `low` and up to `high` in m; see
     /// [`LegRecord::released_energy`](crate::history::LegRecord::released_energy).
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))

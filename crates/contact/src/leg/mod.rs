@@ -13,7 +13,7 @@ use super::history::{Direction, Patch, Work};
 use super::totals::ContactTotals;
 use std::sync::Arc;
 
-/// The contact at all indentations of a motion in one direction.
+/// A motion of a contact in one direction: the springs in contact, the force and the energy at each indentation.
 ///
 /// A leg remains valid after the body has moved on, and its clones share their memory.
 ///
@@ -79,7 +79,8 @@ pub struct PatchState {
     pub force: f64,
     /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and Filippov (2012).
     pub largest_stretch: f64,
-    /// Largest stretch in the patch in m: at its edges, or with whole springs at its most stretched spring.
+    /// Largest stretch in the patch in m. With [`Edges::SubCell`] this is the stretch at its edges, and with [`Edges::Grid`]
+    /// the stretch of its most stretched spring.
     pub most_stretched: f64,
 }
 
@@ -117,7 +118,7 @@ impl Leg {
         }
     }
 
-    /// Creates the leg of a separated body, which touches nothing.
+    /// Creates the leg of a body that moves without touching anything.
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
         Leg {
             contact: contact.clone(),
@@ -147,7 +148,7 @@ impl Leg {
         Leg { patches, end, ..Leg::apart(contact, direction) }
     }
 
-    /// Creates the leg of a loading that begins in separation.
+    /// Computes the leg of a loading that begins in separation.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if contact.hess.is_none() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
@@ -156,10 +157,12 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Creates the leg of the motion in the opposite direction, which begins at the indentation `at` of this leg in m.
+    /// Computes the leg of a body that turns back at the indentation `at` of this leg, in m, and moves in the opposite
+    /// direction.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise). May also return
+    /// [`ContactError::OutOfMemory`].
     pub fn turn(&self, at: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
@@ -214,13 +217,14 @@ impl Leg {
         self.direction
     }
 
-    /// Returns an indentation in m. On loading it is the smallest one with full contact, on unloading the smallest one with any
-    /// contact. For the stepwise solver it is the indentation reached so far.
+    /// Returns the indentation in m at which the leg ends. On loading it is the smallest indentation with all springs in
+    /// contact. On unloading it is the smallest indentation with any spring in contact. A leg of the stepwise solver ends at
+    /// the indentation reached so far.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Returns the memory of this leg in bytes, without the memory of its contact.
+    /// Returns the number of bytes of memory that this leg takes, without the memory of its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => size_of::<f64>() * thresholds.capacity(),
@@ -261,8 +265,8 @@ impl Leg {
         together.filter(|events| jump(events) >= least).map(|events| events[0].0).collect()
     }
 
-    /// Returns for each spring of the profile the smallest indentation in m at which the spring is in contact: −∞ for always,
-    /// +∞ for never.
+    /// Returns for each spring of the profile the smallest indentation in m at which the spring is in contact. It is −∞ for a
+    /// spring that is always in contact, and +∞ for one that never is.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {

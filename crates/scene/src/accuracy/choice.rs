@@ -18,7 +18,8 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// Largest number of springs that is tried, or four times the number that the modes of the scene need, if that is larger.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance, a relative error: `1e-3` or `0.1 %`. The error states the allowed range, above 0 and below 1.
+/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1 %`. A tolerance is above 0
+/// and below 1. For any other text the returned message states this range.
 ///
 /// ```
 /// use asperity_scene::discretisation::parse_tolerance;
@@ -32,43 +33,43 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
 }
 
-/// Number of springs and edge model that reach a tolerance.
+/// Number of springs and edge model ([`Edges`]) with which a scene keeps a tolerance, as found by [`choose`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
-    /// Largest allowed relative error.
+    /// Largest allowed relative error of the quantity `target`.
     pub tolerance: f64,
-    /// Quantity whose error is bounded.
+    /// Quantity whose error the tolerance limits: adhesion force or force curve.
     pub target: Target,
-    /// Number of springs N.
+    /// Chosen number of springs N.
     pub points: u64,
-    /// Edge model: edges between springs, or whole springs.
+    /// Chosen edge model: the edge of a patch may lie between two springs, or a patch consists of whole springs.
     pub edges: Edges,
-    /// Relative error of the quantity. The error is exact if there is a closed form. Otherwise it is an estimate, which
-    /// includes the estimated error of the finest solution.
+    /// Relative error of `target` with the chosen settings. If a closed form exists, it is the true error. Otherwise it is an
+    /// estimate: the relative difference from the finest solution plus the estimated error of the finest solution.
     pub error: f64,
-    /// True if the error is relative to an exact formula.
+    /// True if `error` is counted from a closed form, an exact formula of the adhesion force.
     pub closed_form: bool,
     /// Number of springs of the finest solution that was tried.
     pub finest: u64,
 }
 
 impl Choice {
-    /// Returns the scene with this number of springs and this edge model.
+    /// Returns `scene` with the chosen number of springs, the chosen edge model and the exact solver.
     ///
     /// # Errors
-    /// Returns an error if another scene is given that does not allow these values.
+    /// Returns an error if `scene` does not allow these values. The scene for which they were chosen allows them.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
 
-    /// Returns the estimated error of the scene with this number of springs and this edge model.
+    /// Returns `error` and the way in which it was found, as an [`Estimate`] of the scene with the chosen settings.
     pub fn estimate(&self) -> Estimate {
         let evidence =
             if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
         Estimate { target: self.target, error: self.error, near_step: false, evidence }
     }
 
-    /// Returns the choice and its reason as a sentence.
+    /// Returns a sentence that states the chosen settings, their error and how the error was found.
     pub fn sentence(&self) -> String {
         let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
         let (points, target, edges) = (grouped(points), target.name(), edges.name());
@@ -81,7 +82,7 @@ impl Choice {
     }
 }
 
-/// Reason why no number of springs was chosen.
+/// Reason why [`choose`] returned no number of springs.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChoiceError {
@@ -91,7 +92,7 @@ pub enum ChoiceError {
     /// The tolerance is out of its range.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The scene has the stepwise solver, whose error also depends on its step.
+    /// The scene has the stepwise [`Solver`], whose error depends on its step as well as on the number of springs.
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
@@ -104,7 +105,7 @@ pub enum ChoiceError {
     Unreached {
         /// Requested tolerance, a relative error.
         tolerance: f64,
-        /// Best number of springs that was found, with its error; `None` if no error is known.
+        /// Settings with the smallest error that was found; `None` if no error is known.
         best: Option<Box<Choice>>,
     },
 }
@@ -122,18 +123,19 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     )
 }
 
-/// Finds the number of springs and the edge model with which a checked scene has a relative error of at most `tolerance`. The
-/// error concerns the adhesion force, or the force curve if there is no tensile force. The measured files of the scene are in
-/// `folder`.
+/// Finds the smallest number of springs, among powers of two, with which the relative error of a scene is at most
+/// `tolerance`, and the edge model ([`Edges`]) for it. The error is the error of the adhesion force. If the scene has no
+/// tensile force, it is the error of the force curve ([`Target::Curve`]). Names of measured files are relative to `folder`.
 ///
-/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Unless
-/// there is a closed form, the error is the largest under three loads: the loads of the scene, half of these loads, and twice
-/// these loads. The error includes the estimated error of the finest solution. At the same number of springs edges between
-/// springs are preferred, because their error falls faster. The choice does not depend on the speed of the machine. `stop` is
-/// asked between solutions; true ends the search. `trying` receives the next number of springs.
+/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Without a
+/// closed form the error of the adhesion force is the largest of three: with the target forces and indentations of the scene,
+/// with half of these targets, and with twice these targets. It includes the estimated error of the finest solution. If both
+/// edge models need the same number of springs, [`Edges::SubCell`] is chosen. The choice does not depend on the speed of the
+/// machine. The search ends when `stop` returns true. `trying` receives each number of springs before it is tried.
 ///
 /// # Errors
-/// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, or if the scene cannot be computed.
+/// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene has the stepwise solver,
+/// if `stop` returned true, or if the scene cannot be computed.
 ///
 /// ```
 /// use asperity_scene::discretisation::choose;

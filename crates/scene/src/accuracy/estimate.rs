@@ -29,34 +29,38 @@ const STEP: f64 = 0.05;
 /// Factors between the loads of a scene and loads near them.
 const NEAR: [f64; 2] = [0.95, 1.05];
 
-/// Estimated relative error of an outcome that results from its finite number of springs.
+/// Estimated relative error of the adhesion force or the force curve of an [`Outcome`]. It is the error that the finite
+/// number of springs causes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Quantity whose error is estimated.
+    /// Quantity whose error is estimated: adhesion force or force curve.
     pub target: Target,
-    /// Relative error of this quantity.
+    /// Estimated relative error of `target`.
     pub error: f64,
-    /// True if the preload F_n lies near a step of the adhesion force F_a(F_n). Another number of springs then moves the step
-    /// and gives another adhesion force. The error includes the step.
+    /// True if the preload F_n lies near a step of the adhesion force as a function of the preload, as where two patches
+    /// merge. Another number of springs moves this step to another preload, so F_a may change by its height. `error` includes
+    /// this change.
     pub near_step: bool,
-    /// Basis of the estimate: a formula or further solutions.
+    /// How the error was found: by an exact formula, or by solutions with other numbers of springs.
     pub evidence: Evidence,
 }
 
 impl Estimate {
-    /// Returns the absolute error of the adhesion force of an outcome in N; `None` if the estimate is for the force curve.
+    /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the estimate is for the force
+    /// curve.
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// Returns the error of the force curve divided by the largest force; `None` if the estimate is for the adhesion force.
+    /// Returns the mean error of the forces of the curve divided by the largest force; `None` if the estimate is for the
+    /// adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }
 
-    /// Returns the error as text to follow the adhesion force, such as `grid ± 0.1 %`. The error has one significant digit,
-    /// or two if the first digit is 1.
+    /// Returns the text that summaries print after the adhesion force, such as `grid ± 0.1 %`. The error has one significant
+    /// digit, or two if the first digit is 1. Near a step the text says so and states no number.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -66,25 +70,27 @@ impl Estimate {
     }
 }
 
-/// Basis of an estimated error.
+/// How the error of an [`Estimate`] was found.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
-    /// An exact formula: the estimate is the error itself.
+    /// By an exact formula of the adhesion force. The estimate is the true error.
     ClosedForm,
-    /// Solutions of the same profile with these numbers of springs, with edges between springs.
+    /// By comparison with solutions of the same scene that have these numbers of springs and [`Edges::SubCell`].
     Solutions(Vec<u64>),
 }
 
-/// Estimates the error of the adhesion force of an outcome, or of its force curve if there is no tensile force.
+/// Estimates the error that the finite number of springs causes in the adhesion force of `outcome`, the result of `scene`. If
+/// there is no tensile force, it estimates the error of the force curve. Names of measured files are relative to `folder`.
 ///
-/// If there is a closed form, the estimate is the error itself. Otherwise the same profile is solved with about 7/8 and 2/3
-/// of the springs, with edges between springs. The estimate is four times the larger difference. A profile whose modes need
-/// more springs is solved with about 3/2 and twice as many instead. Differences are relative to the smaller of two values.
+/// If a closed form exists, the estimate is the true error. Otherwise the scene is also solved with about 7/8 and about 2/3
+/// of its springs, with edges between springs. If its waves need more springs, it is solved with about 3/2 and about 2 times
+/// its springs instead. The estimate is four times the larger of the two relative differences from `outcome`. Each difference
+/// is divided by the smaller of the two compared values.
 ///
-/// Returns `None` if there is neither an adhesion force nor a force curve, or if the two further solutions are impossible. A
-/// further solution may need a number of springs that is not allowed, or may not reach the end of a loading stage. Also
-/// returns `None` if `stop` returns true.
+/// Returns `None` if there is neither an adhesion force nor a force curve, if `stop` returns true, or if one of the two
+/// further solutions fails. A solution fails if its number of springs is not allowed, or if its contact does not reach the
+/// end of a loading stage.
 ///
 /// ```
 /// use asperity_contact::{Modulus, Move};

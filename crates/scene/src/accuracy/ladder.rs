@@ -35,11 +35,11 @@ const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform whose time is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// Progress of [`measure`].
+/// Report of [`measure`] while it runs.
 pub enum Progress<'a> {
-    /// The setting that is tried next, with its value as text.
+    /// Setting that is varied next, with its next value as text, such as `512 springs`.
     Trying(Knob, &'a str),
-    /// The table so far. Its errors are relative to the finest solution so far.
+    /// Table of the solutions so far. Its errors are relative to the finest of them.
     Rows(&'a CostTable),
 }
 
@@ -53,13 +53,14 @@ struct Ladder<'a> {
     table: CostTable,
 }
 
-/// Measures errors and times of a checked scene for ever more springs and ever smaller steps, within a budget of time. The
-/// measured files of the scene are in `folder`. `stop` is asked between solutions; true ends the measurement. `watch`
-/// receives each setting and the table so far.
+/// Measures the errors of a scene and the times of its computation, first with few springs and then with more and more. The
+/// stepwise [`Solver`] is measured as well, with smaller and smaller steps. The measurement ends when the time `budget` is
+/// spent or when `stop` returns true. Names of measured files are relative to `folder`. `watch` receives each setting before
+/// it is tried, and the table so far.
 ///
 /// # Errors
-/// Returns the reason as a sentence: the scene cannot be computed, the budget is too small for two solutions, or `stop`
-/// returned true.
+/// Returns a message if the scene cannot be computed, if the budget is too small for two solutions, or if `stop` returned
+/// true.
 pub fn measure(
     scene: &CheckedScene,
     folder: &Path,

@@ -80,19 +80,20 @@ impl Solution {
     }
 }
 
-/// Quantity whose error is estimated or bounded.
+/// Quantity whose error [`estimate`](crate::estimate()) estimates and [`choose`](crate::discretisation::choose) keeps within
+/// a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
-    /// The adhesion force.
+    /// Adhesion force of a scene with a tensile force.
     AdhesionForce,
-    /// The force curve, if there is no tensile force. Its error is the mean difference of forces at equal indentations,
-    /// divided by the largest force.
+    /// Force curve of a scene without a tensile force. Its error is the mean difference between its forces and the exact
+    /// forces at the same indentations, divided by the largest force. The loading stage with the largest mean counts.
     Curve,
 }
 
 impl Target {
-    /// Returns the name of the quantity in words.
+    /// Returns `adhesion force` or `force curve`.
     pub fn name(self) -> &'static str {
         match self {
             Target::AdhesionForce => "adhesion force",

@@ -14,24 +14,24 @@ pub(super) const REFINEMENTS: usize = 2;
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
-/// A setting on which the accuracy depends.
+/// Setting that a [`CostTable`] varies: the number of springs with either edge model ([`Edges`]), or the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
-    /// Number of springs N, with edges between springs.
+    /// Number of springs N, where the edge of a patch may lie between two springs ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N, with edges at whole springs as in the paper.
+    /// Number of springs N, where patches consist of whole springs as in the paper of Popov and Filippov ([`Edges::Grid`]).
     GridSprings,
-    /// Step Δd of the stepwise solver in m.
+    /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,
 }
 
 impl Knob {
-    /// All settings, in the order of the table.
+    /// All settings, in the order of [`CostTable::rows`].
     pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
 
-    /// Returns the name of the setting in words.
+    /// Returns the setting in words, such as `whole springs N`.
     pub fn name(self) -> &'static str {
         match self {
             Knob::SubCellSprings => "springs N, edges between springs",
@@ -41,7 +41,7 @@ impl Knob {
     }
 }
 
-/// Times of repeated runs with the same setting in s.
+/// Times that several computations of a scene with the same setting have taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Timing {
     /// Shortest time in s.
@@ -53,7 +53,7 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Computes shortest and median time from the times of some runs in s; `None` without runs.
+    /// Computes the shortest and the median time from the times of some runs in s. Returns `None` for an empty list.
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         seconds.sort_by(f64::total_cmp);
         let runs = seconds.len();
@@ -63,45 +63,49 @@ impl Timing {
     }
 }
 
-/// A relative error, and how it compares with the error of the reference.
+/// Relative error of a quantity in a [`Row`], and whether the error is large enough to be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigure {
-    /// Relative error. If it is not resolved, it is the error of the reference itself.
+    /// Relative error. If `resolved` is false, it is the smallest error that can be measured.
     pub error: f64,
-    /// True if the error is resolved, which means larger than the error of the reference.
+    /// True if the error is larger than the smallest error that can be measured. For springs this is the error of the
+    /// [`CostReference`], for steps the error by the finite number of curve points.
     pub resolved: bool,
-    /// Observed order of convergence from the previous row to this row; `None` unless the errors of both rows are resolved.
+    /// Order of convergence p from the previous row to this row: a setting that is r times as fine makes the error r^p times
+    /// smaller. `None` unless `resolved` is true in both rows.
     pub order: Option<f64>,
 }
 
-/// One setting with its times and its errors.
+/// Row of a [`CostTable`]: one value of a setting, with the times and the errors of the solution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// Setting that is varied.
+    /// Setting that is varied in this row.
     pub knob: Knob,
     /// Value of the setting: a number of springs, or a step in m.
     pub setting: f64,
-    /// Number of springs N.
+    /// Number of springs N of the solution.
     pub springs: u64,
-    /// Times of whole runs that reuse no earlier result; `None` if no run was timed.
+    /// Times of complete computations, which reuse no earlier result; `None` if no computation was timed.
     pub seconds: Option<Timing>,
-    /// Shortest time divided by the time of one Fourier transform, [`CostTable::transform_seconds`].
+    /// Shortest time of `seconds` divided by the time of one Fourier transform, [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
     /// Relative errors of the [`CostTable::QUANTITIES`], in their order.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Reference of the errors: the finest solution, whose adhesion force a formula may replace.
+/// Finest solution with edges between springs, from which the errors of a [`CostTable`] are counted. If an exact formula
+/// exists, its adhesion force is used instead. Only errors of steps are counted from another solution: the exact one with as
+/// many springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution with edges between springs.
     pub springs: u64,
     /// Adhesion force of the reference in N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// True if a formula gives `adhesion_force`. The other quantities are always from the finest solution.
+    /// True if `adhesion_force` is from an exact formula. The other quantities are always from the finest solution.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself, for the [`CostTable::QUANTITIES`] in their order.
+    /// Estimated relative errors of the reference itself, one for each of the [`CostTable::QUANTITIES`].
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<f64>; 4],
 }
@@ -110,21 +114,22 @@ fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Resul
     serializer.collect_map(CostTable::QUANTITIES.iter().zip(values))
 }
 
-/// Errors and times of one scene with settings from coarse to fine.
+/// Errors and computing times of one scene with more and more springs and with smaller and smaller steps, as
+/// [`measure`](crate::discretisation::measure) returns them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
-    /// Allowed time in s.
+    /// Time in s that the measurement was allowed to take.
     pub budget: f64,
-    /// Time that was used in s.
+    /// Time in s that the measurement has taken.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. This time serves as the unit of
-    /// time.
+    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. It is the unit of
+    /// [`Row::transforms`].
     pub transform_seconds: f64,
-    /// Reference of the errors.
+    /// Finest solution, from which the errors are counted. A closed form may replace its adhesion force.
     pub reference: CostReference,
-    /// Rows of the settings, one [`Knob`] after the other, each from coarse to fine.
+    /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to fine.
     pub rows: Vec<Row>,
-    /// Settings in words that were not tried, or for which time or memory did not suffice.
+    /// Settings, in words, that have no row because time or memory did not suffice.
     pub left_out: Vec<String>,
 }
 
@@ -133,34 +138,35 @@ impl CostTable {
     /// length. The error of the curve is the mean difference of forces at equal indentations, divided by the largest force.
     pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
-    /// Returns the rows of one setting, from coarse to fine.
+    /// Returns the rows in which this setting is varied, from coarse to fine.
     pub fn rows_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
 
-    /// Returns the error of the adhesion force of a row, or of the force curve if there is no tensile force.
+    /// Returns the main error of a row: the error of the adhesion force, or of the force curve if there is no tensile force.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
     }
 
-    /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns `None` unless a logarithmic
-    /// axis can show both.
+    /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns `None` unless both are
+    /// known, positive and finite.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }
 
-    /// Returns the coarsest row of a setting from which on the main errors of all rows are within `bound`. At least two finer
-    /// rows must follow.
+    /// Returns the coarsest row of a setting whose main error is at most `bound`, as are the main errors of all finer rows.
+    /// Returns `None` unless at least two finer rows exist.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// Returns the time in s and the main error of a scene with these numerics. Between two rows both are interpolated.
-    /// Returns `None` outside the range of the rows, and for a step that was only tried with another number of springs.
+    /// Returns the computing time in s and the main error that the scene has with `numerics`. Between two rows both are
+    /// interpolated. Returns `None` if the number of springs or the step lies outside the range of the rows. Also returns
+    /// `None` for the stepwise solver if its rows have another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -184,8 +190,8 @@ impl CostTable {
         Some((between(before.0, there.0), between(before.1, there.1)))
     }
 
-    /// Returns the order of convergence of a setting by least squares over all rows with resolved errors; `None` for fewer
-    /// than three such rows.
+    /// Returns the order of convergence of the main error with a setting: the slope of ln(error) over ln(setting), fitted by
+    /// least squares to all rows with resolved errors. Returns `None` for fewer than three such rows.
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;
@@ -196,8 +202,8 @@ impl CostTable {
         slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
     }
 
-    /// Returns sentences that state the numbers of springs and the times for errors of 1 % and 0.1 %. The errors concern the
-    /// adhesion force, or the force curve if there is no tensile force.
+    /// Returns one sentence for a main error of 1 % and one for 0.1 %. Each states how many springs this error needs with
+    /// either edge model, and how long the computation takes.
     pub fn answer(&self) -> Vec<String> {
         let of_force = self.reference.adhesion_force.is_some();
         let what = if of_force { "the adhesion force" } else { "the force curve" };

@@ -11,8 +11,8 @@ use asperity_surface::Form;
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. Each parameter is
-/// either given or derived.
+/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. Each parameter is given
+/// by the scene or derived from those that are given.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -31,9 +31,9 @@ pub struct Governing {
     pub effective_modulus: f64,
     /// Work of adhesion γ in J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Work of adhesion γ₁ on closing in J/m²; `None` if it is not given and thus equals γ.
+    /// Energy γ₁ per area gained where the interface closes, in J/m²; `None` if it is not given and thus equals γ.
     pub closing_work: Option<f64>,
-    /// Rms height, rms gradient and curvature of the roughness; `None` for a smooth profile.
+    /// Rms height, rms gradient and rms curvature of the roughness; `None` for a smooth profile.
     pub amplitude: Option<Amplitude>,
     /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) of eq. (11); `None` without roughness or adhesion.
     pub kappa: Option<f64>,
@@ -43,14 +43,14 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// Tabor number below which the model overestimates the dissipated energy.
+    /// Tabor number ([`Self::tabor_number`]) below which the model overestimates the dissipated energy.
     pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
-    /// Derives the parameters of a checked scene. `unit` is the amplitude of its self-affine profile for an rms height of 1
-    /// m, `measured` the amplitude of its measured surface.
+    /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`] of its profile when scaled
+    /// to an rms height of 1 m. A measured roughness needs `measured`, the amplitude of the surface.
     ///
-    /// A given κ yields the work of adhesion γ = h⟨∇z⟩E*/κ². A given e_el/γ yields γ by e_el = E* h² q̄/4, with the mean wave
-    /// number q̄.
+    /// A given κ yields the work of adhesion γ = h⟨∇z⟩E*/κ². A given e_el/γ yields γ, because e_el = E* h² q̄/4 is known.
+    /// Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared amplitudes of the waves.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
@@ -65,7 +65,7 @@ impl Governing {
         Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
     }
 
-    /// Returns the parameters of the same profile with another adhesion.
+    /// Returns the parameters for the same profile and modulus with another adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let given = adhesion.and_then(|adhesion| adhesion.parameter());
         let work_of_adhesion = adhesion.and_then(|adhesion| self.work_of(adhesion));
@@ -115,13 +115,14 @@ impl Governing {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Returns the unit of force E* h L in N of Pohrt, Popov and Filippov (2012). `length` is the length L of the profile in
-    /// m. Returns `None` without roughness.
+    /// Returns E* h L in N, the unit in which Pohrt, Popov and Filippov (2012) state forces. `length` is the length L of the
+    /// profile in m. Returns `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// Returns a builder of a contact of this profile, with this modulus and these works of adhesion.
+    /// Returns a builder of a contact of `profile` that has the effective modulus and the works of adhesion of these
+    /// parameters.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] if the effective modulus is out of its range.
@@ -130,19 +131,20 @@ impl Governing {
         Ok(contact.works_of_adhesion(self.adhesive_works().unwrap_or_default()))
     }
 
-    /// Returns the works of adhesion on closing and on opening in J/m², in this order; `None` without adhesion.
+    /// Returns the works of adhesion [γ₁, γ] on closing and on opening in J/m²; `None` without adhesion.
     pub fn adhesive_works(&self) -> Option<[f64; 2]> {
         let work = self.adhesive_work()?;
         Some([self.closing_work.unwrap_or(work), work])
     }
 
-    /// Returns the work of adhesion in J/m² if it is above zero; otherwise `None`.
+    /// Returns the work of adhesion γ in J/m² if it is above zero; otherwise `None`.
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
 
-    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the work of adhesion on opening γ. Returns `None`
-    /// without adhesion or without a radius of curvature ρ, as for cones.
+    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene. It measures how short-ranged the attraction is: ρ is the
+    /// radius of curvature of the summits, z₀ the range of the attraction, and γ the work of adhesion on opening. Returns
+    /// `None` without adhesion, and for bodies such as cones, which have no ρ.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
         let (radius, work) = (curvature_radius(scene.form.as_ref(), self)?, self.adhesive_work()?);
         let range = scene.adhesion?.attraction_range();
@@ -181,14 +183,15 @@ fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus:
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are so steep that its equivalent profile also falls. By the rule of Hess an inner spring then
-/// detaches first. In the theory of Johnson, Kendall and Roberts (JKR) the contact recedes at its edge.
+/// Waves of a wavy sphere that are so steep that its equivalent profile g(x) does not rise everywhere from the axis outwards.
+/// By the rule of Hess a spring inside the contact then detaches first. In the theory of Johnson, Kendall and Roberts (JKR)
+/// the contact recedes at its edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
-    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R; below [`SteepWaves::LEAST_RATIO`].
+    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R. It is below [`SteepWaves::LEAST_RATIO`].
     pub ratio: f64,
-    /// Factor (1 + A√(πE*/2λγ))² by which waves raise the pull-off force in JKR theory. The formula holds for waves much
-    /// shorter than the contact radius (Kesari and Lew 2011).
+    /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR theory. The formula holds
+    /// for waves much shorter than the contact radius (Kesari and Lew 2011).
     pub jkr_factor: f64,
 }
 
@@ -196,7 +199,8 @@ impl SteepWaves {
     /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere.
     pub const LEAST_RATIO: f64 = 12.391;
 
-    /// Returns the waves of a scene with adhesion if its equivalent profile does not rise everywhere; otherwise `None`.
+    /// Returns the waves of a scene with a wavy sphere and adhesion if its equivalent profile does not rise everywhere;
+    /// otherwise `None`.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
             return None;

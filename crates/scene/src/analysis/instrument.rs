@@ -7,7 +7,7 @@
 use asperity_contact::Branch;
 use asperity_contact::{CurvePoint, Direction, Figures, History, LegRecord};
 
-/// A point of a force curve over the displacement of the instrument.
+/// Point of a force curve over the displacement D = d + F/k of an instrument of stiffness k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplacementPoint {
     /// Displacement D of the instrument in m, with D = 0 at first touch.
@@ -18,8 +18,8 @@ pub struct DisplacementPoint {
     pub force: f64,
 }
 
-/// Force curve of one loading stage over the displacement of the instrument. The curve is exact at the points of the stage
-/// and linear between them. The time of the computation is proportional to the number of points.
+/// Force of one loading stage as a function of the displacement of the instrument. The curve is exact at the computed points
+/// of the stage and linear between them. The time of its computation is proportional to the number of points.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -42,8 +42,8 @@ pub struct DisplacementCurve {
 }
 
 impl DisplacementCurve {
-    /// Computes the curve of a stage for an instrument of stiffness k in N/m, which is infinite for a rigid one. The points
-    /// of the stage, at least one, are in the order of its `direction`.
+    /// Computes the curve of a loading stage for an instrument of this stiffness in N/m; an infinite stiffness means a rigid
+    /// instrument. `curve` has at least one point. Its indentations grow on loading and fall on unloading.
     ///
     /// If the stage ends during a jump of the instrument, the curve ends at the beginning of that jump.
     pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
@@ -72,7 +72,7 @@ impl DisplacementCurve {
         DisplacementCurve { points, sign, free }
     }
 
-    /// Returns the points in the order of the stage. Along them the displacement never turns back.
+    /// Returns the points in the order in which the stage passes them. Along them the displacement never turns back.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }
@@ -82,13 +82,13 @@ impl DisplacementCurve {
         self.points.chunk_by(|one, next| one.displacement != next.displacement)
     }
 
-    /// Returns the first and the last point of each jump.
+    /// Returns the two points of each jump, before and after it. They have the same displacement.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// Returns the point at a displacement in m; at a jump, the point before the jump. Beyond the ends of the stage the
-    /// function returns a point of the separated body, or `None` if the body is in contact there.
+    /// Returns the point of the curve at a displacement in m. Where the body jumps, it is the point before the jump. Beyond
+    /// an end of the stage the force is zero if the bodies are separated at that end; otherwise the function returns `None`.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -120,8 +120,9 @@ impl DisplacementPoint {
     }
 }
 
-/// Returns the displacement of the instrument in m for each point of a stage: the running maximum (on unloading minimum) of d
-/// + F/k. The stiffness k is in N/m. A point that the body passes in a jump has the displacement of the jump.
+/// Returns the displacement of the instrument in m for each point of a loading stage. On loading it is the largest d + F/k of
+/// all points up to this one, on unloading the smallest. The stiffness k is in N/m. A point that the body passes in a jump
+/// thus has the displacement of the jump.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {
@@ -134,7 +135,7 @@ fn sign_of(direction: Direction) -> f64 {
     if direction == Direction::Loading { 1.0 } else { -1.0 }
 }
 
-/// Results of a loading by a compliant instrument.
+/// Pull-off displacement and loop area of a loading by an instrument of finite stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct InstrumentFigures {
@@ -142,14 +143,14 @@ pub struct InstrumentFigures {
     pub stiffness: f64,
     /// Displacement of the instrument in m at which the body jumps off in the last unloading; `None` without a pull-off.
     pub pull_off_displacement: Option<f64>,
-    /// Area of the loop of force over displacement in J: the energy dissipated in the contact and in jumps of the instrument.
-    /// `None` if the loading does not end separated.
+    /// Area of the loop of force over displacement in J: the energy dissipated in the contact plus the energy lost in jumps
+    /// of the instrument. `None` if the bodies are not separated at the end.
     pub loop_area: Option<f64>,
 }
 
 impl InstrumentFigures {
-    /// Computes the results of a loading by an instrument of this stiffness in N/m. `figures` are the forces and energies of
-    /// the loading.
+    /// Computes these results from a computed loading. `history` has its force curves, `figures` its forces and energies.
+    /// `stiffness` is the stiffness of the instrument in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

@@ -4,7 +4,7 @@ use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Regime of adhesion of a loading (Fig. 4): how the adhesion depends on the preload.
+/// Regime of adhesion of a loading (Fig. 4): how strongly the adhesion force depends on the preload.
 ///
 /// ```
 /// use asperity_contact::Figures;
@@ -19,11 +19,11 @@ use strum::IntoStaticStr;
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Regime {
-    /// The bodies adhere at first touch, and the preload changes the adhesion little (Fig. 4a).
+    /// Without the preload the adhesion force is at least half of the adhesion force after it (Fig. 4a).
     PressureInsensitive,
-    /// Adhesion appears, or grows considerably, only under a preload (Fig. 4b).
+    /// Without the preload the adhesion force is less than half of the adhesion force after it (Fig. 4b).
     PressureSensitive,
-    /// There is almost no adhesion under any preload (Fig. 4c).
+    /// There is no adhesion, or the adhesion force is at most a hundredth of the preload (Fig. 4c).
     NonAdhesive,
 }
 
@@ -32,9 +32,9 @@ impl Regime {
     /// after the preload.
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// Adhesion without a preload counts as vanished below this share of the adhesion force of the smooth body. This
-    /// adhesion falls from one half to one twentieth while κ grows by a factor of about three, so the exact share hardly
-    /// moves the boundary.
+    /// The adhesion force without a preload counts as vanished below this share of the adhesion force of the same body
+    /// without roughness. It falls from one half to one twentieth of that force while κ grows by a factor of about three.
+    /// Another share would therefore hardly move the boundary of the regime.
     pub const VANISHING_SHARE: f64 = 0.05;
 
     /// A contact is non-adhesive if its adhesion coefficient F_a/F_n is at most this number. The bodies then adhere with at most
@@ -48,12 +48,12 @@ impl Regime {
     /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force.
     ///
     /// `turned` is F_a(d=0) for the regime turned at first touch, or F_a(F=0) for the regime turned at zero force. `smooth`
-    /// is the adhesion force of the same body without roughness. Both forces are in N, and `None` without adhesion.
+    /// is the adhesion force of the same body without roughness. `turned` and `smooth` are in N, and `None` without adhesion.
     ///
-    /// F_a is the adhesion force after the preload F_n. The regime is pressure-insensitive if `turned` is at least
-    /// [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the regime is non-adhesive if
-    /// F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive if F_a is below
-    /// [`Regime::VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
+    /// F_a is the adhesion force after the preload F_n, both of this loading. The regime is pressure-insensitive if `turned`
+    /// is at least [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the
+    /// regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive
+    /// if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
@@ -86,8 +86,8 @@ impl Regime {
         self.into()
     }
 
-    /// Returns the names of both regimes as text: `pressure-sensitive (d=0), insensitive (F=0)`. This regime is the one
-    /// turned at first touch.
+    /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0), insensitive (F=0)`. This regime
+    /// is turned at first touch (d = 0), and `after_zero_force` is turned at zero force (F = 0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

@@ -3,19 +3,22 @@
 use asperity_contact::Reversal;
 use std::ops::RangeInclusive;
 
-/// Unloading curves from many turning points of one loading (first-order reversal curves), on a uniform grid of indentations.
+/// Unloading curves from many turning points of one loading (first-order reversal curves). A turning point is an indentation
+/// at which the loading ends and the unloading to separation begins. The forces are known at equally spaced indentations, the
+/// grid points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Indentations of the grid in m, equally spaced and ascending. The last ones are the turning points.
+    /// Grid points: indentations in m, equally spaced and ascending. From index `below` on they are the turning points as
+    /// well.
     pub points: Vec<f64>,
     /// Number of grid points below the first turning point.
     pub below: usize,
-    /// Unloading from each turning point, with its forces at the grid points up to the turning point.
+    /// One unloading for each turning point, with its forces at the grid points up to the turning point.
     pub reversals: Vec<Reversal>,
 }
 
 impl ReversalMap {
-    /// Allowed numbers of turning points.
+    /// Allowed range for the number of turning points.
     pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
 
     /// Returns the indentations of the turning points in m.
@@ -23,20 +26,21 @@ impl ReversalMap {
         &self.points[self.below..]
     }
 
-    /// Returns the distance between grid points in m.
+    /// Returns the distance between neighbouring grid points in m.
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
-    /// Returns the force in N at grid point `point` on the unloading from turning point `turn`; `None` above the turning
-    /// point.
+    /// Returns the force in N at the grid point of index `point`, on the unloading from the turning point of index `turn`;
+    /// `None` if the grid point is above the turning point.
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
-    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. E is half of the fall of the force from the
-    /// turning point d_r to the indentation d. Returns `None` above the turning point.
+    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. It is half of the fall of the force on the
+    /// unloading from the turning point d_r (index `turn`) to the indentation d (index `point`). Returns `None` if d is above
+    /// d_r.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))

@@ -29,7 +29,7 @@ impl RoughnessParameter {
     pub const ALL: [RoughnessParameter; 2] =
         [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
 
-    /// Returns the path of the parameter in a scene: `adhesion.kappa`.
+    /// Returns the path of the parameter in a scene, such as `adhesion.kappa`.
     pub const fn path(self) -> &'static str {
         match self {
             RoughnessParameter::Kappa => "adhesion.kappa",
@@ -37,12 +37,12 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the name of the parameter in scenes, studies and tables: `kappa`.
+    /// Returns the name of the parameter in scenes, studies and tables, such as `kappa`.
     pub fn name(self) -> &'static str {
         self.path().trim_start_matches("adhesion.")
     }
 
-    /// Returns the symbol of the parameter in the equations: `κ`.
+    /// Returns the symbol of the parameter in the equations, such as `κ`.
     pub fn symbol(self) -> &'static str {
         field(self.path(), None).map_or("", |field| field.symbol)
     }
@@ -52,8 +52,8 @@ impl RoughnessParameter {
         Self::ALL.into_iter().find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Returns the ratio of the elastic energy to the work of adhesion at this value: h⟨∇z⟩E*/γ = κ² for κ, the value itself
-    /// for e_el/γ.
+    /// Returns the ratio of an elastic energy per area to the work of adhesion at this value of the parameter. For κ the
+    /// ratio is h⟨∇z⟩E*/γ = κ², for e_el/γ it is the value itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -61,7 +61,8 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the value of the parameter for this ratio; the inverse of [`energy_over_work`](Self::energy_over_work).
+    /// Returns the value of the parameter for this ratio. The function is the inverse of
+    /// [`energy_over_work`](Self::energy_over_work).
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -75,13 +76,13 @@ impl RoughnessParameter {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
-    /// Strength of the adhesion, as a work or as a parameter.
+    /// Strength of the adhesion, given by a work of adhesion or by κ or e_el/γ.
     pub strength: Strength,
     /// Range z₀ of the attraction in m; `None` for 0.3 nm. Only the Tabor number depends on it.
     pub range: Option<f64>,
 }
 
-/// Strength of the adhesion, given in one of two ways.
+/// Strength of the adhesion: a work of adhesion, or a [`RoughnessParameter`] from which the work follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
     /// Work of adhesion, which may be smaller where the interface closes.
@@ -96,7 +97,7 @@ pub enum Strength {
 }
 
 impl Adhesion {
-    /// Range of the attraction z₀, m; 0.3 nm, an interatomic distance, if none is given.
+    /// Returns the range z₀ of the attraction in m. If none is given, it is 0.3 nm, an interatomic distance.
     pub fn attraction_range(&self) -> f64 {
         self.range.unwrap_or(0.3e-9)
     }
@@ -113,7 +114,7 @@ impl Adhesion {
         Adhesion { strength: Strength::Work { opening: work, closing: None }, range: None }
     }
 
-    /// Returns an adhesion with this value of a parameter.
+    /// Returns an adhesion whose strength is given by this value of κ or e_el/γ.
     ///
     /// ```
     /// use asperity_scene::{Adhesion, RoughnessParameter};
@@ -155,7 +156,7 @@ impl Adhesion {
         Adhesion { strength: Strength::Work { opening: work, closing: self.closing_work() }, ..self }
     }
 
-    /// Returns this adhesion with a value of a parameter in place of its strength. The range of the attraction stays.
+    /// Returns this adhesion with its strength given by this value of κ or e_el/γ. The range of the attraction stays.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion { strength: Strength::Parameter(parameter, value), ..self }
     }

@@ -62,9 +62,9 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 }
 
 impl Document {
-    /// Lists the fields whose values differ in another scene. Title, notes and version do not count. A group, such as the
-    /// form, is one entry if its variants differ. The loading is one entry, or one for each changed stage where that is
-    /// shorter.
+    /// Lists the fields whose values differ in another scene. Title, notes and version do not count. If the two scenes have
+    /// different forms, such as a cone and a sphere, the whole form is one entry; the same holds for other groups. The
+    /// loading is one entry. If a list of its changed stages is shorter, each changed stage is an entry instead.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;

@@ -9,7 +9,8 @@ use super::model::{FEW_SAMPLES, Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. A changed scene is checked anew.
+/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. [`CheckedScene::with`] changes fields and
+/// checks the scene anew.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -25,15 +26,15 @@ impl Scene {
     /// Checks all values of this scene.
     ///
     /// # Errors
-    /// Returns all invalid values, each with its field and its allowed range.
+    /// Returns an error for each invalid value, with its field and its allowed range.
     pub fn checked(self) -> Result<CheckedScene, SceneErrors> {
         CheckedScene::of(self, None, |_| Origin::Scene)
     }
 }
 
 impl Scene {
-    /// Removes what the forces and energies do not depend on: title, notes, recorded quantities, and points of the force
-    /// curve. Two points remain on each stage. Forces and energies do not depend on the number of points.
+    /// Removes what forces and energies do not depend on: the title, the notes, the [`Observer`]s, and all points of the
+    /// force curve except two on each loading stage.
     pub fn strip(&mut self) {
         self.title.clear();
         self.notice.clear();
@@ -61,7 +62,7 @@ impl CheckedScene {
     /// Returns this scene after `change`, checked anew.
     ///
     /// # Errors
-    /// Returns all values that the change makes invalid.
+    /// Returns an error for each value that the change makes invalid.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;
@@ -84,14 +85,14 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene without what its forces and energies do not need, as [`Scene::strip`] does.
+    /// Returns this scene without the parts that its forces and energies do not depend on, as [`Scene::strip`] removes them.
     pub fn stripped(&self) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.strip();
         CheckedScene(scene)
     }
 
-    /// Returns this scene with one more quantity recorded.
+    /// Returns this scene with `observer` among the quantities that are recorded in addition to the force curve.
     pub fn observing(&self, observer: Observer) -> CheckedScene {
         let mut scene = self.0.clone();
         if !scene.observe.contains(&observer) {
@@ -100,7 +101,7 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with other names of its measured files. A name is checked when its file is read.
+    /// Returns this scene with its measured files renamed by `rename`. A name is checked when its file is read.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

@@ -2,8 +2,8 @@
 
 use std::ffi::OsStr;
 
-/// Returns the command that opens a scene with overrides in `program`, for a POSIX shell. Overrides are pairs of path and
-/// value.
+/// Returns the command for a POSIX shell that opens the scene `name` in `program` and changes its fields by `--set`. Each of
+/// the overrides is the path of a field and its new value.
 ///
 /// ```
 /// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
@@ -21,7 +21,7 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
     }
 }
 
-/// Returns a word for a POSIX shell, in quotes where they are needed.
+/// Returns the text that a POSIX shell reads as this one word. The text is in quotes where they are needed.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);

@@ -4,24 +4,20 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::checked::CheckedScene;
-use super::edit::{field_at, set};
 use super::effects::Effect;
 use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
-use super::fields::{FIELDS, field};
+use super::fields::FIELDS;
 use super::model::Scene;
-use super::range::Range;
 use super::read::read;
-use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::{Text, is_within, line_column};
 use super::tree::{Tree, in_ron, to_ron};
+use super::typed::{check_length, with_typed};
 use asperity_contact::Move;
 
-/// Largest length of the text of a scene in bytes. A longer text is refused unread; most scenes have a few hundred bytes.
-pub const LONGEST_TEXT: usize = 1 << 20;
-
-/// A checked scene with its text in RON, and with the overrides that have changed it. An override is the path of a field and
-/// its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it was.
+/// A checked scene with its text in RON (Rusty Object Notation), and with the overrides that have changed it. An override is
+/// the path of a field and its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it
+/// was.
 ///
 /// ```
 /// use asperity_scene::Document;
@@ -52,8 +48,8 @@ impl Document {
     /// Reads and checks the text of a scene. Errors state `name`, the name of a file or of a built-in scene.
     ///
     /// # Errors
-    /// Returns the first syntax error or all invalid values, each with line and column. If the version is not supported, this
-    /// is the only error.
+    /// Returns the first syntax error, or an error for each invalid value, with line and column. If the version of the file
+    /// is not supported, this is the only error.
     ///
     /// ```
     /// use asperity_scene::Document;
@@ -85,7 +81,7 @@ impl Document {
         })
     }
 
-    /// Creates a document with a new text for a scene that has none. The text is as [`to_ron`] writes it.
+    /// Creates a document for a scene that has no text. [`to_ron`] writes the text.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -109,11 +105,12 @@ impl Document {
     /// checked once, at the end, so values that are only allowed together may come in any order.
     ///
     /// # Errors
-    /// Returns all errors, each with the overrides that cause it.
+    /// Returns an error for each override that cannot be read and each value that is invalid, with the overrides that cause
+    /// it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let (mut new, mut errors) = (self.clone(), Vec::new());
         for (path, value) in overrides {
-            match spliced(&new.text, path, value) {
+            match with_typed(&new.text, path, value) {
                 Ok(text) => {
                     new.text = text;
                     remember(&mut new.overrides, path, value);
@@ -135,7 +132,7 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns the loading stages, each with its index in the loading.
+    /// Returns the loading stages, each with its index in the loading, as [`Document::with_stages`] takes them.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
     }
@@ -181,8 +178,8 @@ impl Document {
         })
     }
 
-    /// Returns the fields that this scene has or may have. Fields of variants that are not selected, such as other forms, are
-    /// left out.
+    /// Returns the fields that this scene has or may have. Fields of another choice, such as the angle of a cone in a scene
+    /// with a sphere, are left out.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -191,7 +188,7 @@ impl Document {
         field.variant.is_none() || field.variant == self.text.variant(field.parent())
     }
 
-    /// Returns the name of the file or of the built-in scene.
+    /// Returns the name of the file or of the built-in scene from which the document was read.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -202,8 +199,8 @@ impl Document {
         if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
     }
 
-    /// Returns the overrides since the text was opened. An override that a later one replaces is left out. If they are
-    /// applied to the opened text, the result is the scene of this document.
+    /// Returns the changes since the text was opened, each as the path of a field and its new value. A change that a later
+    /// one replaces is left out. Applied to [`Self::opened`], the changes give the scene of this document.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
@@ -213,13 +210,13 @@ impl Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// Returns the lines above the scene in the table of results from which the scene was read. Scenes from other sources
-    /// have no such lines.
+    /// Returns the lines above the scene in the file from which it was read, if the file is a table of results that repeats
+    /// its scene. For any other file the text is empty.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
 
-    /// Returns the number of comments in the text. A new value also removes the comments inside the old value.
+    /// Returns the number of comments in the text. [`Self::set`] keeps all comments except those inside the old value.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
@@ -235,18 +232,18 @@ impl Document {
         Document { opened, overrides, ..self }
     }
 
-    /// Returns the text that was opened.
+    /// Returns the text as it was when the document was opened.
     pub fn opened(&self) -> &str {
         &self.opened
     }
 
-    /// Returns true if the text differs from the opened one.
+    /// Returns true if the present text differs from [`Self::opened`].
     pub fn is_changed(&self) -> bool {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with new names of its measured files. If a name changes, the text is written anew, without
-    /// comments.
+    /// Returns this document with its measured files renamed by `rename`. If a name changes, the text is written anew,
+    /// without comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -262,61 +259,6 @@ impl Document {
     }
 }
 
-/// Returns the text with the field at `path` set to `value`.
-fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
-    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    let band = || {
-        field(parent, None).filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
-    };
-    let known = field_at(text, path).or_else(band);
-    let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
-    let refused = |message| SceneErrors::from(SceneError::whole(origin(), message));
-    let wrong = |known: &Field, why: &str| {
-        SceneErrors::from(SceneError::of(path, value, known.allowed(), why).at(origin()))
-    };
-    let typed = match known {
-        Some(known) => known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?,
-        None => value.to_string(),
-    };
-    let typed = group_in_ron(path, &typed).unwrap_or(typed);
-    let text = set(text, path, &typed).map_err(|message| match known {
-        Some(known) if message == NOT_ONE_VALUE => wrong(known, ""),
-        _ => refused(message),
-    })?;
-    check_length(text.as_str()).map_err(refused)?;
-    Ok(text)
-}
-
-/// Returns a typed group of values with prefixes and units, such as `Cone(angle: 70°)`, in RON. Returns `None` for any other
-/// text, also for a group that is in RON already.
-fn group_in_ron(path: &str, typed: &str) -> Option<String> {
-    let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
-    let mut depth = 0_usize;
-    let between = |c: char| {
-        depth = match c {
-            '(' | '[' => depth + 1,
-            ')' | ']' => depth.saturating_sub(1),
-            _ => depth,
-        };
-        c == ',' && depth == 0
-    };
-    let value = |part: &str| {
-        let (field, value) = part.split_once(':')?;
-        let (field, value) = (field.trim(), value.trim());
-        let path = if path.is_empty() { field.to_owned() } else { format!("{path}.{field}") };
-        let known = FIELDS.iter().find(|field| field.path == path)?;
-        let value = known.read_typed(value).ok()?;
-        Some(format!("{field}: {}", group_in_ron(&path, &value).unwrap_or(value)))
-    };
-    // A text or a comment may contain any sign.
-    let is_plain = !["\"", "//", "/*"].iter().any(|sign| inside.contains(sign));
-    let parts = Some(inside).filter(|_| is_plain)?.split(between);
-    let parts: Vec<_> = parts.filter(|part| !part.trim().is_empty()).collect();
-    let read = parts.iter().map(|part| value(part)).collect::<Option<Vec<_>>>()?;
-    let is_read = parts.iter().zip(&read).any(|(part, read)| part.trim() != read);
-    is_read.then(|| format!("{name}({})", read.join(", ")))
-}
-
 pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
 }
@@ -325,13 +267,6 @@ pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));
-}
-
-fn check_length(text: &str) -> Result<(), String> {
-    if text.len() > LONGEST_TEXT {
-        return Err(format!("the scene is {} bytes long, at most {LONGEST_TEXT} are read", text.len()));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field that holds the effect: `loading` for unloading, otherwise the name of the effect.
+    /// Returns the path of the field with the effect: `loading` for unloading, otherwise the name of the effect.
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self { "loading" } else { self.name() }
     }

@@ -10,7 +10,7 @@ use asperity_data::shown;
 /// Number of errors that are listed; further errors are only counted.
 pub(super) const MOST_LISTED: usize = 100;
 
-/// Source of an invalid value.
+/// Where an invalid value comes from: a text, changes of fields, or a program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
     /// A scene file or a built-in scene.
@@ -92,7 +92,8 @@ impl SceneError {
         SceneError { origin, ..self }
     }
 
-    /// Returns the error without its source: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
+    /// Returns field, value, allowed values and reason as text, without the origin: `roughness.hurst = 1.4: allowed: above 0
+    /// and below 1 (Hurst exponent)`.
     pub fn what(&self) -> String {
         let of =
             [&self.field, &self.value].map(|part| shown(part)).into_iter().filter(|part| !part.is_empty());
@@ -177,9 +178,9 @@ pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)
 /// Largest length of a name that is compared with other names. A longer one is no misspelt name.
 const LONGEST: usize = 64;
 
-/// Returns the name among `names` that is probably meant by `name`, or `None` if no name is similar.
+/// Returns the one of `names` that is most similar to the misspelt `name`; `None` if no name is similar.
 ///
-/// The last part of a path suffices: `hurst` finds `roughness.hurst`.
+/// It is enough that the last part of a path is similar: `hurst` finds `roughness.hurst`.
 ///
 /// ```
 /// use asperity_scene::text::nearest;

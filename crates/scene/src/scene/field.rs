@@ -6,15 +6,16 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// A field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). A row describes the field and does not hold its
-/// value.
+/// Description of one field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). The value of the
+/// field in a scene is not part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
     pub path: &'static str,
-    /// Variant that has this field: `Paraboloid` for the radius of a paraboloid. `None` if the field depends on no variant.
+    /// Choice that has this field, such as the form `Paraboloid` for the radius of a paraboloid. `None` if the field does not
+    /// depend on a choice.
     pub variant: Option<&'static str>,
-    /// Name of the field in words: `Hurst exponent`.
+    /// Name of the field in words, such as `Hurst exponent`.
     pub name: &'static str,
     /// Symbol of the field in the equations; empty if it has none.
     pub symbol: &'static str,
@@ -22,7 +23,7 @@ pub struct Field {
     pub unit: &'static str,
     /// Allowed values of the field.
     pub range: Range,
-    /// How one press of a key changes the value.
+    /// How one press of a key in the explorer changes the value of the field.
     pub step: Step,
     /// Value that an omitted field has, in RON; empty if the field is required.
     pub default: &'static str,
@@ -35,15 +36,15 @@ pub struct Field {
 /// Function that converts typed text, without blanks around it, to the value of a field in RON.
 pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 
-/// Change of a value by one press of a key, as a small or a large step.
+/// How one press of a key in the explorer changes the value of a field, by a small or by a large step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// Adds the first number, or the second for a large step. The result is a multiple of the first number.
+    /// A small step adds the first number, a large step the second one. The result is a multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number. For a small step there are twenty such numbers per decade (Renard series R20), for
-    /// a large step 1, 2 and 5.
+    /// Goes to the next preferred number. A small step has twenty such numbers per decade (Renard series R20). A large step
+    /// has three: 1, 2 and 5 times a power of ten.
     Logarithmic,
-    /// Adds the first integer, or the second for a large step.
+    /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),
     /// Goes to the next power of two; a large step is four small ones.
     Doubling,
@@ -106,7 +107,8 @@ impl Field {
 }
 
 impl Field {
-    /// Returns a row for a program's own list of parameters. The row is no field of a scene, and the program keeps the value.
+    /// Returns a description of a parameter that a program has in addition to the fields of a scene. The program itself keeps
+    /// the value of the parameter.
     pub const fn beside(
         path: &'static str,
         name: &'static str,
@@ -116,12 +118,12 @@ impl Field {
         row(path, range).name(name).meaning(meaning)
     }
 
-    /// Returns the same row for a quantity with this SI unit.
+    /// Returns this description with this SI unit.
     pub const fn in_unit(self, unit: &'static str) -> Field {
         Field { unit, ..self }
     }
 
-    /// Returns the allowed values in words, with the unit: `from 1 to 1e13 Pa`.
+    /// Returns the allowed values in words, with the unit, such as `from 1 to 1e13 Pa`.
     pub fn allowed(&self) -> String {
         match self.unit {
             "" | "1" => self.range.to_string(),
@@ -129,8 +131,8 @@ impl Field {
         }
     }
 
-    /// Formats a value of this field with its unit. `written` is a number or a pair of wavelengths in RON, `format` the
-    /// function that formats each number: `100 µm, 200 nm`. Returns `None` for other values.
+    /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is a number or a pair of wavelengths
+    /// in RON, and `format` is called for each number and its unit. Returns `None` for any other value.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         let ends = match self.range {
             Range::Real(..) => vec![written.parse().ok()?],
@@ -171,35 +173,36 @@ impl PartialEq for Field {
 
 pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
 
-/// Force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce). Its path is `loading.0.0` for the first
-/// stage.
+/// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce). In a scene the force of
+/// the first stage has the path `loading.0.0`.
 pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
     .of("ToForce")
     .quantity("force of stage", "F", "N")
     .meaning("target: the stage ends where the force first reaches this value; compression is positive");
 
-/// Indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation). Its path is `loading.0.0`
-/// for the first stage.
+/// Description of the indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation). In a
+/// scene the indentation of the first stage has the path `loading.0.0`.
 pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToIndentation")
     .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
-/// Loading stage as a whole, including a stage without a number. Its path is `loading.0` for the first stage.
+/// Description of a loading stage as a whole, with or without a number. In a scene the first stage has the path `loading.0`.
 pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
-/// Displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement). Its path is
-/// `loading.0.0` for the first stage.
+/// Description of the displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement). In a
+/// scene the displacement of the first stage has the path `loading.0.0`.
 pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToDisplacement")
     .quantity("displacement of stage", "D", "m")
     .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
-/// Fields of the numbers that end loading stages: force, indentation and displacement.
+/// Descriptions of the numbers that end loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-/// Returns the field and the number that end a loading stage; `None` for a stage without a number, such as separation.
+/// Returns the description of the number that ends a loading stage, and the number itself. Returns `None` for a stage without
+/// a number, such as separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
         Move::ToForce(force) => Some((&LEG_FORCE, force)),
@@ -214,12 +217,13 @@ const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
     /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of the field: `50 mJ/m²`,
-    /// `16k`. A text needs no quotes. The name of a file becomes a measured roughness or a table of the form. A work with its
-    /// unit becomes an adhesion. `none` omits an optional part. A loading may be a list of stages as
-    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text stays, without blanks around it.
+    /// `16k`. A text needs no quotes. The name of a file becomes a measured surface for the field `roughness`, and a table
+    /// for the field `form`. A work with its unit becomes an adhesion for the field `adhesion`. `none` omits an optional
+    /// part. A loading may be a list of stages as [`loading_text`](crate::scene::stages::loading_text) writes it. Any other
+    /// text stays, without blanks around it.
     ///
     /// # Errors
-    /// Returns an error for a number with another unit, or a number that is too large.
+    /// Returns an error for a number with another unit, a number that is too large, or a choice without its numbers.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         match typed.trim() {
             // As an omitted part is shown.

@@ -19,8 +19,8 @@ pub const SCENE_VERSION: u32 = 1;
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// Returns the field at a path. If several variants have a field of this name, `variant` decides; `None` selects the first
-/// one.
+/// Returns the description of the field at a path. Several choices may have a field at the same path, such as the radius of a
+/// sphere and of a punch. Then `variant` is the name of the choice; `None` selects the first one.
 ///
 /// ```
 /// let radius = asperity_scene::fields::field("form.radius", Some("Paraboloid")).unwrap();
@@ -60,7 +60,7 @@ const ROUGHNESS: Range = Choice(&[
 const SWITCH: Range = Choice(&["false", "true"]);
 const UNIT: Range = Text { least: 0, most: 20, lines: false };
 
-/// All fields of a scene, in the order of a scene file.
+/// Descriptions of all fields of a scene, in the order of a scene file.
 // Two or three lines for a row: what it is, and what it means.
 #[rustfmt::skip]
 pub const FIELDS: &[Field] = &[

@@ -6,13 +6,14 @@ use std::path::{Component, Path, PathBuf, is_separator};
 
 use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
-use super::document::{Document, LONGEST_TEXT};
+use super::document::Document;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::text::index::Text;
+use super::typed::LONGEST_TEXT;
 use asperity_data::{ReadError, read_regular_text};
 use asperity_data::{path_name, printable};
 
-/// Name of the built-in scene with which the program begins.
+/// Name of the built-in scene that the program opens if no other scene is named.
 pub const DEFAULT: &str = "pressure-sensitive";
 
 /// A built-in scene, or a built-in plan of a study.
@@ -24,7 +25,7 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Makes [`Preset`]s of the built-in files of a folder, by their names.
+/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder of it, which are named without their ending `.ron`.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
@@ -52,7 +53,7 @@ const PRESETS: &[Preset] = built_in!["":
     "elastic-energy-above",
 ];
 
-/// Returns all built-in scenes, in the recommended order.
+/// Returns all built-in scenes, in the order in which lists show them.
 ///
 /// ```
 /// use asperity_scene::presets;
@@ -89,7 +90,7 @@ pub enum Source {
     Working,
 }
 
-/// A scene of the library, or a file in RON that may be a scene.
+/// Entry of the list that [`scenes`] returns: a scene, or a file ending in `.ron` that is no valid scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Name of the scene. A file of the working folder has the ending `.ron` in its name, a scene of the user's own folder
@@ -105,9 +106,9 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes, which open by their names. The folder is `asperity/presets` in the
-/// configuration folder: `$XDG_CONFIG_HOME` or `~/.config`, on Windows the roaming application data. The folder may not
-/// exist.
+/// Returns the folder of the user's own scenes. A scene in this folder can be opened by its name without `.ron`. The folder
+/// is `asperity/presets` in the configuration folder of the user, and may not exist. The configuration folder is
+/// `$XDG_CONFIG_HOME` or `~/.config`; on Windows it is the roaming application data.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }
@@ -124,8 +125,8 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
     scene_files(own).unwrap_or_default().iter().map(|path| name_of(path, Source::Own)).collect()
 }
 
-/// Lists all scenes: the built-in ones in their order, then the folder `own` of the user, then the folder `working`. Both
-/// folders are sorted by name.
+/// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the scenes in the folder
+/// `working`. The scenes of a folder are sorted by name.
 ///
 /// A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no scene or cannot be read is
 /// listed with its error. Only regular files are opened, and subfolders are not searched.

@@ -42,7 +42,7 @@ pub struct Measured {
     )]
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub height_unit: String,
-    /// Distance between points in m where a file states none.
+    /// Distance between the measured points in m, for a file that states none.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
@@ -62,11 +62,11 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
-    /// Name of a surface or a measurement in a file with several of them.
+    /// Name of the surface or measurement to read from a file with several of them.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_name: Option<String>,
-    /// Number of a channel in a file with several channels.
+    /// Number of the channel to read from a file with several channels, counted from 0.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<u64>,
@@ -150,7 +150,8 @@ impl Measured {
         std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
     }
 
-    /// Returns the options for reading and analysing a surface whose values have been checked.
+    /// Returns the options for reading and analysing the files of this surface. Its values must be valid, as
+    /// [`Scene::checked`](crate::Scene::checked) finds them.
     pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
             as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),

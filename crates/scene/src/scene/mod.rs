@@ -36,3 +36,4 @@ pub(crate) mod step;
 pub(crate) mod switch;
 pub(crate) mod text;
 pub(crate) mod tree;
+pub(crate) mod typed;

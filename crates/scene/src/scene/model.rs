@@ -15,9 +15,9 @@ use strum::IntoStaticStr;
 
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
-/// Recommended number of springs per shortest wave. With this number the adhesion force of a rough profile has an error of
-/// about one per cent with both edge models (docs/accuracy.md). A random profile needs at least two springs per wave, a wavy
-/// sphere four.
+/// Recommended number of springs on the shortest wave. With this number the adhesion force of a rough profile has an error of
+/// about one per cent, with either edge model ([`Edges`]; see docs/accuracy.md). A random profile needs at least two springs
+/// on the shortest wave, and a wavy sphere at least four.
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -174,7 +174,8 @@ impl Scene {
         self.length / self.numerics.points as f64
     }
 
-    /// Returns the indices of the springs under the body. Only a punch leaves springs beside it.
+    /// Returns the indices of the springs under the body. These are all springs, except for a punch that is narrower than the
+    /// profile.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form.as_ref().map_or(0..points, |form| form.springs_under(self.length, points))
@@ -256,7 +257,8 @@ impl Scene {
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
     }
 
-    /// Renames the measured files and the table of the form.
+    /// Changes the names of the measured files and of the table of the form in this scene. The files themselves are not
+    /// renamed.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
@@ -293,9 +295,9 @@ impl Scene {
 pub struct Numerics {
     /// Number of springs N.
     pub points: u64,
-    /// Solver of the equilibrium: exact, or stepwise as in the paper.
+    /// Solver for the equilibrium of the springs: exact, or stepwise as in the paper of Popov and Filippov.
     pub solver: Solver,
-    /// Edge model: where the edge of a contact patch may lie, between springs or at whole springs.
+    /// Edge model: the edge of a contact patch may lie between two springs, or a patch consists of whole springs.
     pub edges: Edges,
     /// Number of points of the force curve on each loading stage.
     pub samples: u64,
@@ -330,13 +332,14 @@ impl From<NumericsText> for Numerics {
     }
 }
 
-/// Solver for the equilibrium of the springs.
+/// Method that finds the equilibrium of the springs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
     /// Exact solver: it computes at which indentations patches form, merge, split and detach, without an error from a step.
     Exact,
-    /// Method of the paper: move the body by a step, relax the springs, repeat.
+    /// Method of Popov and Filippov (2012): the body moves by one step, springs attach and detach until no further one does,
+    /// and the next step follows.
     Stepwise {
         /// Step Δd of the indentation in m.
         step: f64,
@@ -344,8 +347,8 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns the edge model of a scene that states none: edges between springs with the exact solver, whole springs with
-    /// the stepwise solver.
+    /// Returns the edge model of a scene that states none: [`Edges::SubCell`] with the exact solver, [`Edges::Grid`] with the
+    /// stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => default_of("numerics.edges"),

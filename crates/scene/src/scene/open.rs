@@ -5,16 +5,18 @@ use std::io;
 use std::io::{BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 
-use super::document::{Document, LONGEST_TEXT};
+use super::document::Document;
 use super::errors::did_you_mean;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{describe, find_scene, own_folder, own_names, own_scene, presets};
+use super::typed::LONGEST_TEXT;
 use asperity_data::printable;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 
 /// Opens a scene. A name that ends in `.ron`, contains a path separator or belongs to a file is opened as a file. Other names
-/// are searched among the built-in scenes, then in the user's [`own_folder`]. A table of results in CSV opens as the scene
-/// that it contains. Only regular files are read, because a pipe or a terminal would wait.
+/// are searched among the built-in scenes, then in the user's [`own_folder`]. A table of results in CSV repeats the scene
+/// that was computed, and opens as this scene. Only regular files are read, because a pipe or a terminal would make the
+/// program wait.
 ///
 /// # Errors
 /// Returns an error if there is no such scene, if its file cannot be read, or if the scene has errors.
@@ -57,20 +59,21 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     Err(whole(name_or_path, message))
 }
 
-/// Returns true if a name looks like a path or belongs to an existing file.
+/// Returns true if [`is_path`] is true for a name, or if the name belongs to an existing file.
 pub fn is_file_name(name: &str) -> bool {
     is_path(name) || Path::new(name).is_file()
 }
 
-/// Returns true if a name looks like a path, with the ending `.ron` or a path separator.
+/// Returns true if a name ends in `.ron` or contains a path separator.
 pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene that an argument of a command names, as [`open`] does, or reads it from a stream. The argument `-` is
-/// standard input. A pipe or a device, such as `<(…)` of a shell, is read to its end.
+/// Opens the scene that an argument on the command line names. For `-` the scene is read from standard input. From a pipe or
+/// a device, such as `<(…)` of a shell, it is read to the end. All other arguments are opened as [`open`] does.
 ///
-/// A stream waits for its writer. A program that controls the terminal should call [`open`], which never waits.
+/// For a pipe the function waits until another program has written the scene. A program that controls the terminal should
+/// call [`open`], which never waits.
 ///
 /// # Errors
 /// Returns the same errors as [`open`].

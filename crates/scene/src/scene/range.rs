@@ -8,7 +8,7 @@ use std::ops::RangeBounds;
 /// Allowed values of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
-    /// A finite real number between two ends.
+    /// A finite real number between a smallest and a largest number, each of which is included or excluded.
     Real(Bound<f64>, Bound<f64>),
     /// An integer from the first to the second number, both included.
     Whole(u64, u64),
@@ -57,7 +57,7 @@ impl Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true if a real number is allowed. NaN and infinity are never allowed.
+    /// Returns true if the range allows this real number. NaN and infinity are never allowed.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -66,13 +66,13 @@ impl Range {
         }
     }
 
-    /// Returns true if an integer is allowed.
+    /// Returns true if the range allows this integer.
     pub fn contains_whole(&self, value: u64) -> bool {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }
 
-    /// Returns the smallest and the largest number of a numeric range; `None` for other ranges. An end may itself be
-    /// excluded.
+    /// Returns the smallest and the largest number of a numeric range; `None` for other ranges. Either number may itself be
+    /// excluded from the range.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => Some((min, max)),

@@ -63,7 +63,7 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     (if text[start..end].contains(something) { start } else { end }, end)
 }
 
-/// Returns the first byte of an error in a text, and the error in plain words.
+/// Returns the byte offset of an error that [`read_ron`] has found in the text of a scene, and the error in plain words.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);

@@ -23,8 +23,9 @@ pub struct StageKind {
 }
 
 impl StageKind {
-    /// All kinds of loading stages, in the order in which a key changes them. In text, a force or an indentation is only a number
-    /// with a unit. A displacement is in metres too, so its word precedes the number.
+    /// All kinds of loading stages, in the order in which a key changes them. In a text, a force or an indentation is a
+    /// number with a unit, such as `10 µN` or `200 nm`. A displacement is in metres as well, so the word `displacement`
+    /// precedes its number.
     pub const ALL: [StageKind; 6] = [
         StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
         StageKind {
@@ -73,7 +74,7 @@ pub fn pressing_force(loading: &[Move]) -> f64 {
     loading.iter().map(force).fold(0.0, f64::max)
 }
 
-/// Returns a loading stage in RON: `ToForce(1.0e-5)`.
+/// Returns a loading stage in RON, such as `ToForce(1.0e-5)`.
 pub fn stage_in_ron(stage: &Move) -> String {
     let (kind, number) = StageKind::of(stage);
     let name = choice_name(STAGES[kind]);
@@ -92,8 +93,9 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// Formats a loading as text for readers: `10 µN, 3 loops 0 N to 10 µN, separation`. Repeated loops between two stages become
-/// one item. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] returns the same loading.
+/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. Repeated loops between two
+/// stages become one item. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text
+/// into the same loading again.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -147,8 +149,8 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// Reads a loading stage as [`loading_text`] writes it. A number without a unit has the kind `usual`, an index in
-/// [`StageKind::ALL`]; `None` is a force.
+/// Reads a loading stage as [`loading_text`] writes it. A number without a unit becomes a stage of the kind with the index
+/// `usual` in [`StageKind::ALL`]. If `usual` is `None`, it becomes a force.
 ///
 /// # Errors
 /// Returns an error if the text is no stage.

@@ -21,8 +21,8 @@ pub struct Statement {
     pub value: String,
 }
 
-/// Lists the values on which the solution depends: all numbers, and the choices and names that are not defaults. A group,
-/// such as the form, is listed by its numbers.
+/// Lists the values on which the solution of a scene depends. All numbers are listed. Choices and names are listed unless
+/// they are the default. For a group, such as the form, the fields inside it are listed.
 ///
 /// ```
 /// use asperity_scene::open;

@@ -16,11 +16,13 @@ const BY_WORK: &str = "(work: 0.05)";
 impl Document {
     /// Returns this document without an effect; unchanged if the effect is already off.
     ///
-    /// Without roughness, κ or e_el/γ cannot give the work of adhesion. The scene then gets the work that it last had, or 50
-    /// mJ/m². Without unloading, only the stage that presses most remains.
+    /// If the roughness is removed, κ or e_el/γ can no longer give the work of adhesion. The scene then gets the work of
+    /// adhesion that it had before [`Self::with_next_choice`] chose κ or e_el/γ. If there is none, it gets 50 mJ/m². If the
+    /// unloading is removed, one stage remains: the stage with the largest target force or, if there is none, with the
+    /// deepest indentation.
     ///
     /// # Errors
-    /// Returns an error if the scene needs the effect.
+    /// Returns an error if the scene is not valid without the effect.
     pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
@@ -66,8 +68,8 @@ impl Document {
         restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
     }
 
-    /// Returns this document with the values of another scene. A group that has the same variant in both scenes keeps its
-    /// text; only changed numbers are replaced.
+    /// Returns this document with the values of `scene`. Only values that differ are replaced in the text. If a choice
+    /// differs, such as a cone in place of a sphere, it is replaced together with its numbers.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -86,8 +88,8 @@ impl Document {
     /// Returns this document with the next choice of a field that the scene allows, or the previous one if `forwards` is
     /// false. Returns `None` if there is no other choice.
     ///
-    /// The choice that omits an effect switches it off, and the next choice switches it on again. A choice that the field had
-    /// earlier gets back its numbers. Any other choice has its usual numbers.
+    /// The field of an [`Effect`] also has the choice `None`, which switches the effect off; the choice after it switches the
+    /// effect on again. A choice that the field had earlier gets back its numbers. Any other choice has its usual numbers.
     ///
     /// # Errors
     /// Returns an error if the scene allows none of the other choices.

@@ -9,8 +9,9 @@ use super::model::Scene;
 use super::range::Range;
 use super::text::{ron_float, ron_string};
 
-/// Values of a scene as a JSON tree. A variant without fields is its name; a variant with fields is an object whose only key
-/// is the name. An omitted field has no value.
+/// Values of a scene, which are read and set by the paths of fields. They form a JSON tree. A choice without fields, such as
+/// `ToTouch`, is the text of its name. A choice with fields is an object whose only key is its name. An omitted field has no
+/// value.
 ///
 /// ```
 /// use asperity_scene::fields::Tree;
@@ -33,7 +34,7 @@ impl Tree {
     /// Returns the scene with these values.
     ///
     /// # Errors
-    /// Returns an error if fields contradict each other; the text names their paths.
+    /// Returns an error if fields contradict each other. The message names these fields.
     pub fn scene(self) -> Result<Scene, String> {
         serde_json::from_value(self.0).map_err(|error| error.to_string())
     }
@@ -44,8 +45,8 @@ impl Tree {
         self.at(path)?.as_f64()
     }
 
-    /// Sets the number at a path, valid or not. A number that the selected variant omits is added. A number of a missing
-    /// adhesion adds the adhesion.
+    /// Sets the number at a path without checking its range. A number that the scene omits is added. If the scene has no
+    /// adhesion, a number of the adhesion adds one.
     ///
     /// Returns false, with the tree unchanged, if the scene can have no number there.
     pub fn set(&mut self, path: &str, value: f64) -> bool {

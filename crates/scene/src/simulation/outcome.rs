@@ -16,9 +16,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// Numbers that describe the profile.
+    /// Numbers that describe the profile, such as its length and its largest gap.
     pub line: LineFacts,
-    /// Modulus, work of adhesion, roughness, κ and e_el/γ.
+    /// Effective modulus, work of adhesion, rms height and rms gradient of the roughness, κ and e_el/γ.
     pub governing: Governing,
     /// Ideal adhesion force F_a,max of eq. (14) in N; `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
@@ -28,9 +28,10 @@ pub struct Outcome {
     pub first_touch_adhesion_force: Option<f64>,
     /// Adhesion force F_a(F=0) in N, turned at zero force; `None` without adhesion or without an unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
-    /// Tabor number μ; `None` without adhesion or without a radius of curvature.
+    /// Tabor number μ; `None` without adhesion, and for a body without a radius of curvature, such as a cone.
     pub tabor_number: Option<f64>,
-    /// Waves of a wavy sphere, if they are too steep for the theory of Johnson, Kendall and Roberts.
+    /// Waves of a wavy sphere, if they are so steep that the rule of Hess differs from the theory of Johnson, Kendall and
+    /// Roberts.
     pub steep_waves: Option<SteepWaves>,
     /// Regime of adhesion (Fig. 4) that follows from F_a(d=0); `None` for a loading without a tensile force.
     pub regime: Option<Regime>,
@@ -38,15 +39,15 @@ pub struct Outcome {
     pub regime_after_zero_force: Option<Regime>,
     /// Main forces and energies of the loading, such as preload, adhesion force and dissipated energy.
     pub figures: Figures,
-    /// Results over the displacement of the instrument; `None` for a rigid instrument.
+    /// Pull-off displacement and loop area of the instrument; `None` for a rigid instrument.
     pub instrument: Option<InstrumentFigures>,
-    /// Force curves of all loading stages, and the contact at their ends.
+    /// Force curves of all loading stages, and the contact patches after the last one.
     pub history: History,
     /// Contact patches at the end of each loading stage. Empty unless the scene records them.
     pub fragments: Vec<Vec<Patch>>,
     /// Histogram of the heights of the profile; `None` unless the scene records it.
     pub histogram: Option<Histogram>,
-    /// Times of the computation.
+    /// Times that the parts of the computation have taken.
     pub timings: Timings,
 }
 
@@ -58,7 +59,7 @@ impl Outcome {
     }
 }
 
-/// Numbers that describe a profile, without its heights.
+/// Numbers that describe the profile of a scene, such as its length and its largest gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineFacts {
@@ -78,15 +79,15 @@ pub struct LineFacts {
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient by the integrals of eq. (12) for the same rms height, in place of sums over modes; `None` unless
-    /// self-affine.
+    /// Rms gradient of a continuous spectrum with the same rms height, by the integrals of eq. (12). The profile itself is a
+    /// sum of modes. `None` unless the roughness is self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// Times of the parts of a computation in s; zero for a part that was not repeated.
+/// Times in s that the parts of a computation have taken. The time is zero for a part whose earlier result was used again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
-    /// Time in s for making the profile.
+    /// Time in s for computing the profile from the form and the roughness.
     pub line: f64,
     /// Time in s for building the contact tree ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the
     /// histogram of the heights.
@@ -94,7 +95,7 @@ pub struct Timings {
     /// Time in s for finding the indentations at which patches change, or for the steps of the stepwise solver.
     #[serde(rename = "loop")]
     pub passes: f64,
-    /// Time in s for the force curves of all loading stages and their extreme forces.
+    /// Time in s for the force curves of all loading stages, with their largest and smallest forces.
     pub curve: f64,
     /// Time in s for F_a(d=0) and F_a(F=0), which the regimes need.
     pub without_preload: f64,
@@ -123,10 +124,10 @@ pub enum RunError {
         /// Required memory in bytes.
         bytes: u64,
     },
-    /// The profile could not be made.
+    /// The profile could not be computed from the form and the roughness.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Unloadings from many turning points were requested, which need the exact solver.
+    /// Unloadings from many turning points were requested for a scene with the stepwise solver. They need the exact solver.
     #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
     NeedsExactSolver,
     /// Turning points were requested for a loading that never presses the bodies together.
@@ -134,7 +135,7 @@ pub enum RunError {
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
-    /// The preload is below the force at first touch, so no loading ends there.
+    /// The requested preload is below the force at first touch, so no loading can end at it.
     #[error(
         "preload {}: allowed: at least the force at first touch, {}",
         format_quantity(*preload, "N"),
@@ -146,7 +147,7 @@ pub enum RunError {
         /// Force at first touch in N.
         touch: f64,
     },
-    /// A loading stage presses the body deeper than one length of the profile beyond full contact.
+    /// A loading stage presses the body deeper than one length of the profile beyond full contact, where all springs touch.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
     /// The contact could not be computed.

@@ -6,8 +6,9 @@ use asperity_contact::Move;
 use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 
-/// Deepest state that the model covers: the body is one length of the profile deeper than at full contact. Beyond full
-/// contact the force curve is a straight line, and a deeper body is no longer on a half-space with small deformations.
+/// Deepest state up to which a loading is computed: the body is one length of the profile deeper than at full contact, where
+/// the last spring touches. Beyond full contact the force curve is a straight line. At larger depths the deformations are too
+/// large for the theory of the elastic half-space.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -31,7 +32,7 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// Computes the deepest state of a contact that the model covers.
+    /// Computes the deepest state up to which loadings of this contact are computed.
     pub fn of(contact: &Contact) -> Reach {
         let length = contact.profile().length();
         let full_contact = (contact.full_contact_force(), contact.profile().deepest());
@@ -41,7 +42,7 @@ impl Reach {
         Reach { full_contact, force, indentation, displacement }
     }
 
-    /// Returns in words why a stage is refused; `None` for a stage that ends no deeper than the deepest state.
+    /// Returns a message that says why `stage` is refused; `None` for a stage that does not end beyond the deepest state.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }

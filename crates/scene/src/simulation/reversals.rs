@@ -21,13 +21,14 @@ const MOST_BELOW: usize = 4;
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Loads a checked scene from separation to each of the stages `ends` and unloads it to separation again. `see` receives
-    /// each unloading with the index of its stage, the shallowest first. Each unloading has its forces at the indentations
-    /// `points`, which are in m and ascend. `stop` is asked after each unloading.
+    /// Computes unloadings to separation from several turning points. Each stage in `ends` loads the separated bodies up to
+    /// one turning point. The stages must be ordered from the shallowest to the deepest. `see` receives each unloading with
+    /// the index of its stage in `ends`. Each unloading has its forces at the indentations `points`, which are in m and
+    /// ascend. The computation ends when `stop` returns true.
     ///
     /// # Errors
-    /// Returns an error if the scene has the stepwise solver, if the profile cannot be made, or if the contact cannot reach a
-    /// stage. A stopped computation is also an error.
+    /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if the contact cannot reach
+    /// the end of a stage, or if `stop` returned true.
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
@@ -48,22 +49,23 @@ impl Simulation {
         Ok(Body::new(&contact, scene.numerics.samples as usize).reversals(ends, points, &mut see)?)
     }
 
-    /// Returns the deepest state of a checked scene that the model covers.
+    /// Returns the deepest state up to which loadings of a scene are computed.
     ///
     /// # Errors
-    /// Returns an error if the profile cannot be made.
+    /// Returns an error if the profile cannot be computed.
     pub fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
         let plan = Workload::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 
-    /// Unloads a checked scene from `count` turning points, and returns the unloading curves (first-order reversal curves).
-    /// The turning points are equally spaced between the indentations at two preloads in N. Without `preloads` the turning
-    /// points lie between first touch and the preload of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest
-    /// allowed number.
+    /// Computes the unloading curves of a scene from `count` turning points to separation (first-order reversal curves). The
+    /// turning points are equally spaced between the indentations at two preloads in N. Without `preloads` the turning points
+    /// lie between first touch and the preload of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the
+    /// nearest allowed number.
     ///
     /// # Errors
-    /// Returns the same errors as [`Simulation::reverse`], and an error if the loading never presses.
+    /// Returns the same errors as [`Simulation::reverse`]. Also returns an error if the loading never presses the bodies
+    /// together.
     ///
     /// ```
     /// use asperity_scene::{Simulation, open};

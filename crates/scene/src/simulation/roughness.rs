@@ -122,9 +122,9 @@ impl RoughnessMaker {
     }
 }
 
-/// Returns a number of springs, a power of two from 1024 on, for a profile with this measured spectrum on a length in m. The
-/// shortest wave has at least twice [`SPRINGS_PER_WAVE`] springs, unless that needs more than 2²⁸. With so many springs both
-/// edge models agree.
+/// Returns a recommended number of springs for a profile of this length in m with this measured spectrum. The number is a
+/// power of two and at least 1024. The shortest wave has at least twice [`SPRINGS_PER_WAVE`] springs, unless this needs more
+/// than 2²⁸ springs. With so many springs on a wave both edge models give nearly the same results.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)

@@ -14,12 +14,13 @@ use asperity_surface::Form;
 use asperity_surface::lines::Line;
 
 impl Simulation {
-    /// Computes the adhesion force in N of the body of a scene without its roughness; `None` without adhesion. The body is
-    /// unloaded after the preload in `figures`, or from zero force if this preload is not compressive. The force is in closed
-    /// form where there is one, otherwise it is computed with the springs of the scene.
+    /// Computes the adhesion force F_smooth in N that the body of a scene has without its roughness. The body is unloaded
+    /// after the preload in `figures`, or from zero force if this preload is not compressive. A closed form gives the force
+    /// where there is one. Otherwise the force is computed with as many springs as the scene has. Returns `None` without
+    /// adhesion.
     ///
     /// # Errors
-    /// Returns an error for lack of memory, or if the form cannot be read.
+    /// Returns an error if the memory is too small, or if the table of the form cannot be read.
     pub fn smooth_adhesion_force(
         &mut self,
         scene: &CheckedScene,

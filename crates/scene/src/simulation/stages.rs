@@ -27,12 +27,14 @@ const MOST_SPARE: u64 = 4;
 /// Number of bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
-/// Computes scenes. A simulation keeps the profile and the contact tree from run to run. It repeats only the parts of the
-/// computation that depend on a changed parameter. Repeated parts reuse their memory.
+/// Computes scenes, one after the other. A simulation keeps the profile and the contact tree ([`Stage::Tree`]) from run to
+/// run. It repeats only the parts of the computation that depend on a changed field of the scene. Repeated parts reuse their
+/// memory.
 ///
-/// Between runs it keeps at most four times the memory of the last scene, but always up to 32 MiB. The memory of a scene is
-/// [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory returns to the allocator. The
-/// allocator of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
+/// Between runs it keeps at most 32 MiB or four times the memory of the last scene, whichever is larger. The memory of a
+/// scene is [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory goes to the allocator,
+/// which need not return it to the system. The allocator of glibc keeps blocks of less than 32 MiB, at most 64 MiB for each
+/// thread.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
@@ -91,8 +93,8 @@ pub(super) struct Prepared {
     timings: Timings,
 }
 
-/// Function called after each loading stage with its index, its force curve ([`LegRecord`]) and its contact ([`Leg`]). An
-/// error stops the run.
+/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, its force curve
+/// ([`LegRecord`]) and its contact ([`Leg`]). If the function returns an error, the run ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
@@ -101,19 +103,21 @@ impl Simulation {
         Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
     }
 
-    /// Saves memory for a single scene. The memory of the Fourier transform is freed before the contact is solved, and the
-    /// gaps of the profile take the memory of its heights. Each further profile then takes more time.
+    /// Returns this simulation with a smaller need of memory, for a single scene. The memory of the Fourier transform is
+    /// freed before the contact is solved, and the gaps of the profile reuse the memory of its heights. Each further profile
+    /// takes more time.
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
 
-    /// Uses a measured surface in memory in place of the measured files of all scenes.
+    /// Returns this simulation with `measured` in place of the measured files of all scenes.
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
     }
 
-    /// Returns the measured spectrum of the scene whose profile was made last; `None` if this scene has none.
+    /// Returns the measured spectrum in use: the one given to [`Self::with_measured`], otherwise the last one that was
+    /// estimated from files. Returns `None` if there is no spectrum.
     pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
         let RoughnessMaker { measured, equivalent, .. } = &self.maker;
         match &**measured.as_ref().or(equivalent.as_ref().map(|(.., surface)| surface))? {
@@ -130,16 +134,16 @@ impl Simulation {
         Simulation { single: self.single, maker, ..Simulation::default() }
     }
 
-    /// Returns the profile that was made last; `None` before the first one.
+    /// Returns the profile that was computed last; `None` before the first one.
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
     }
 
-    /// Makes the profile of a checked scene, unless the last scene had the same profile. Returns the profile, the numbers
-    /// that describe it, and its governing parameters.
+    /// Returns the profile of a scene, the numbers that describe it, and the governing parameters. The profile is computed
+    /// unless the last scene had the same one.
     ///
     /// # Errors
-    /// Returns an error for lack of memory, or if a measured file or a form cannot be used.
+    /// Returns an error if the memory is too small, or if a measured file or a form cannot be used.
     pub fn make_line(&mut self, scene: &CheckedScene) -> Result<(&Line, LineFacts, Governing), RunError> {
         self.line_of(scene)
     }
@@ -189,7 +193,7 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// Returns the profile of a checked scene for use in a [`Contact`].
+    /// Returns the profile of a scene in the type that a [`Contact`] needs.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`].
@@ -300,16 +304,16 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Returns the contact of a checked scene before its loading, and its governing parameters.
+    /// Returns the contact of a scene before its loading, and the governing parameters.
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::make_line`], and an error if a value of the contact is out of its range.
+    /// Returns the same errors as [`Self::make_line`]. Also returns an error if a value of the contact is out of its range.
     pub fn contact(&mut self, scene: &CheckedScene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
 
-    /// Computes a checked scene. [`Self::run`] does the same and can be stopped.
+    /// Computes all results of a scene. [`Self::run`] does the same and can be stopped.
     ///
     /// # Errors
     /// Returns an error if a part of the computation fails. Results of earlier parts are kept for the next run.
@@ -317,8 +321,8 @@ impl Simulation {
         self.run(scene, &|| false, &mut |_, _, _| Ok(()))
     }
 
-    /// Computes a checked scene. `stop` is asked between parts of the computation and after each loading stage; true ends the
-    /// run. `after` receives each loading stage.
+    /// Computes all results of a scene. `stop` is asked between parts of the computation and after each loading stage. If it
+    /// returns true, the run ends. `after` is called after each loading stage.
     ///
     /// # Errors
     /// Returns an error if a part of the computation fails or if `stop` returns true. Results of earlier parts are kept for

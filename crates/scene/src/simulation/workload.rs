@@ -29,8 +29,8 @@ const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its ow
 const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
-/// A part of the computation from a scene to its force curve, in the order of execution. Loading stages are something else;
-/// see [`Scene::loading`](crate::Scene::loading).
+/// Part of the computation from a scene to its force curve. The variants are in the order of execution. These parts are not
+/// the stages of the loading, which [`Scene::loading`](crate::Scene::loading) has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
@@ -38,17 +38,17 @@ pub enum Stage {
     Form,
     /// Random phases and their Fourier transform, which give a random profile.
     Synthesis,
-    /// Reading of a measured profile.
+    /// Reading of the files of a measured surface.
     MeasuredProfile,
     /// Contact tree: the tree of the gaps from which the exact solver finds where patches form, merge, split and detach.
     Tree,
-    /// Rule of Hess, which limits the stretch of contact patches.
+    /// Rule of Hess, which limits how far the springs of a contact patch may be stretched.
     RuleOfHess,
     /// Search for the indentations at which patches form and merge during loading.
     LoadingPass,
     /// Search for the indentations at which patches split and detach during unloading.
     UnloadingPass,
-    /// Steps and relaxations of the stepwise solver.
+    /// Steps of the stepwise solver. In each step the body moves, then springs attach and detach until no further one does.
     Relaxation,
     /// Loops that turn at first touch and at zero force, for F_a(d=0), F_a(F=0) and the regimes.
     WithoutPreload,
@@ -72,7 +72,8 @@ impl Stage {
     }
 }
 
-/// A part of the computation with its cost. A part that a scene does not need is listed too, with zero cost.
+/// Part of the computation of a scene in a [`Workload`], with its passes and its memory. They are zero for a part that the
+/// scene does not need.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// Part of the computation.
@@ -81,15 +82,15 @@ pub struct PlannedStage {
     pub runs: bool,
     /// Name of the field that requires this part, or the reason why it is skipped.
     pub because: &'static str,
-    /// Number of passes over the profile or its tree; `None` if it depends on the loading stages.
+    /// Number of passes over the profile or over its contact tree; `None` if the number depends on the loading stages.
     pub passes: Option<u64>,
-    /// Largest number of springs that all passes visit together; `None` if the number of passes is unknown.
+    /// Upper bound of the number of visits to springs, summed over all passes; `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
     /// Memory in bytes of the arrays that this part adds.
     pub bytes: u64,
 }
 
-/// Plan of the computation of a scene: its parts in the order of execution, and the memory that it needs.
+/// Plan of the computation of a scene: the parts of the computation in the order of execution, and the memory that they need.
 ///
 /// ```
 /// use asperity_scene::stages::{Stage, Workload};
@@ -118,7 +119,7 @@ impl Workload {
     /// Resident memory of the program in bytes after a small scene: code, tables and stacks.
     pub const PROGRAM: u64 = 14 << 20;
 
-    /// Plans the computation of a scene.
+    /// Returns the plan of the computation of a scene.
     pub fn of(scene: &CheckedScene) -> Self {
         Workload::of_any(scene)
     }

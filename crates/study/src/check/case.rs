@@ -20,18 +20,19 @@ pub(super) enum Subject {
     Bodies(fn(&Body) -> Measured),
 }
 
-/// Case with a known result, by which this program is checked.
+/// Statement with a known result, by which the program is checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Name of the case.
+    /// Name of the case, such as `jkr-sphere`.
     pub name: &'static str,
-    /// Family of the case: bodies with a known loop, laws for every body, or input at the limits of numbers and rules.
+    /// Family of the case: `closed-forms` for bodies with a known force curve, `laws` for laws that hold for every body, or
+    /// `hard-cases` for input at the limits of numbers and rules.
     pub family: &'static str,
-    /// Statement that the case checks.
+    /// Statement that must hold, as a sentence.
     pub holds: &'static str,
-    /// Source of the known result.
+    /// How the result is known: `closed form`, `independent computation` or `self-consistency`.
     pub evidence: &'static str,
-    /// Quantity whose error must not exceed the bound.
+    /// Quantity whose error must not exceed the bound of a [`Check`](crate::checks::Check).
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
     pub(super) subject: Subject,

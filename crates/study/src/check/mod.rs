@@ -16,19 +16,20 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// Case that is checked with one model of the edges of patches.
+/// Check of the program: a [`Case`], computed with one rule for the edges of patches, and the largest allowed error.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// Case that is checked.
     pub case: Case,
-    /// Model of the edges of patches: at springs or between springs.
+    /// Whether the edge of a patch lies at a spring or may lie between two springs.
     pub edges: Edges,
-    /// Largest allowed error.
+    /// Largest error with which the check passes.
     pub bound: f64,
 }
 
 impl Check {
-    /// The checks of the cases that `choose` selects, one for each model of the edges.
+    /// Returns the checks of the cases for which `choose` returns true. A case that is checked with both kinds of [`Edges`] has
+    /// two checks.
     ///
     /// ```
     /// use asperity_study::checks::Check;
@@ -41,7 +42,7 @@ impl Check {
         Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
     }
 
-    /// Runs a check and measures its error.
+    /// Computes the case and measures the error of its result.
     pub fn judge(self) -> Verdict {
         let (clock, edges) = (Instant::now(), self.edges);
         let error = match self.case.subject {
@@ -59,25 +60,25 @@ impl Check {
 }
 
 impl Case {
-    /// All cases of the catalogue in the order of display.
+    /// Returns all cases in the order in which `asperity check` shows them.
     pub fn all() -> Vec<Case> {
         [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
     }
 }
 
-/// Result of a check.
+/// Result of a [`Check`]: whether it passes, with its error and its computing time.
 #[derive(Debug)]
 pub struct Verdict {
     /// Check that was computed.
     pub check: Check,
-    /// Error that was found, or the reason why it could not be computed.
+    /// Error that was measured, or the reason why it could not be measured.
     pub error: Result<f64, String>,
     /// Computing time of the check, s.
     pub seconds: f64,
 }
 
 impl Verdict {
-    /// Returns true if the error does not exceed the bound.
+    /// Returns true if the error was measured and does not exceed the bound of the check.
     pub fn passes(&self) -> bool {
         // NaN is not within any bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)

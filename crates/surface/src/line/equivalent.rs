@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 /// Relative excess of a wavelength over the length of the scan that counts as rounding.
 const ROUNDING: f64 = 1.0e-9;
 
-/// Equivalent line of measured surfaces: a random profile with their spectrum. One or both of the two faces in contact are
-/// measured; the spectra of two faces are added.
+/// Equivalent line of measured surfaces: a random rigid profile with their spectrum. A contact has two faces, the surfaces that
+/// touch each other, and one or both may be measured. If both are measured, the line has the sum of their spectra.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, EquivalentLine, Topography, analyse};
@@ -40,7 +40,7 @@ impl From<&Analysis> for EquivalentLine {
 }
 
 impl EquivalentLine {
-    /// Analyses the surfaces in the files of one or two faces.
+    /// Analyses the surfaces in the files of one or two [faces](crate::lines::Face).
     ///
     /// # Errors
     /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
@@ -53,15 +53,16 @@ impl EquivalentLine {
     /// gives the random phases.
     ///
     /// # Errors
-    /// No wave of the spectrum fits the length with these points, or the memory is too small.
+    /// Returns an error if no wave of the spectrum fits the length and is resolved by the points, or if the memory is too
+    /// small.
     pub fn heights(&self, length: f64, points: usize, seed: u64) -> Result<Vec<f64>, SurfaceError> {
         let (modes, of_mode) = (self.modes(length, points)?, |mode: u64| self.amplitude(mode, length));
         check_room(TRANSFORM_BYTES * points as u64).map_err(SurfaceError::of_springs)?;
         Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Changes the spectra at random within the uncertainty of their fits. `share` scales the change. `number` selects the
-    /// change: equal numbers give equal changes.
+    /// Returns a line whose spectra are changed at random, by as much as the fits of the spectra are uncertain. `share`
+    /// multiplies the change of the logarithm of each spectrum. `number` is the seed: equal numbers give equal changes.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
@@ -70,8 +71,8 @@ impl EquivalentLine {
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }
 
-    /// Computes the moments of the line with their standard errors, over the wave numbers for which the spectra of all faces
-    /// are known.
+    /// Computes the moments of the line, such as the rms height, with their standard errors. The moments include all wave
+    /// numbers from half the first to the last one of [`EquivalentLine::range`].
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
@@ -81,15 +82,16 @@ impl EquivalentLine {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// Returns the first and the last wave number of the line in rad/m. The line begins where the spectra of all faces are
-    /// known, and ends where the last of them ends.
+    /// Returns the first and the last wave number of the line in rad/m. The first is the smallest wave number at which the
+    /// spectra of all faces are known. The last is the largest wave number of any face.
     pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
-    /// Returns the first and the last mode k (q = 2πk/L) of a line of this length in m on `points` springs. These are the waves
-    /// of the spectrum that fit the line and that the springs resolve. Waves longer than the scan are unknown and left out.
+    /// Returns the first and the last mode k of a line of the length L = `length` in m on `points` springs. Mode k is the wave
+    /// with the wave number q = 2πk/L. The modes are the waves of the spectrum that fit the line and that the springs resolve.
+    /// Waves longer than the scan are unknown and left out.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -107,7 +109,7 @@ impl EquivalentLine {
         Ok((first as u64, last as u64))
     }
 
-    /// Returns the same line without the waves beyond a wave number in rad/m.
+    /// Returns the same line without the waves whose wave number is above this one, in rad/m.
     pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
         EquivalentLine { faces: self.faces.iter().map(|face| face.up_to(wave_number)).collect() }
     }
@@ -118,9 +120,9 @@ impl EquivalentLine {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Returns the part A_k²/(4πk) in m² of one wave in the mean square height of a surface with these spectra. The wave has k
-    /// = `waves` waves over the side of a square in m, which need not be a whole number. The part is zero more than half a wave
-    /// beyond the first and the last wave.
+    /// Returns the contribution A_k²/(4πk) in m² of one wave to the mean square height of a square surface with these spectra.
+    /// k = `waves` is the number of periods of the wave over the side of the square, which is `side` in m. k need not be a
+    /// whole number. The contribution is zero if k is below the first or above the last wave of the spectra by more than ½.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
         if waves < first - 0.5 || waves > last + 0.5 {
@@ -139,7 +141,7 @@ impl EquivalentLine {
         4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
 
-    /// Computes the rms height, gradient and curvature of the modes `first..=last` on a line of this length in m.
+    /// Computes the rms height, gradient and curvature of a line of this length in m that has only the modes `first..=last`.
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
@@ -147,7 +149,7 @@ impl EquivalentLine {
     }
 }
 
-/// Roughness of a rigid profile from measured surfaces.
+/// Roughness of a rigid profile that comes from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
     /// The measured profile itself is the rigid profile.
@@ -157,10 +159,11 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Analyses the files of one or two faces.
+    /// Reads the files of one or two [faces](crate::lines::Face). If [`MeasuredOptions::as_line`] is given and there is only
+    /// one file, its measured profile is the rigid profile. Otherwise the rigid profile is the equivalent line of the faces.
     ///
     /// # Errors
-    /// A file cannot be read or has no spectrum.
+    /// Returns an error if a file cannot be read or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         match faces {
             [face] if options.as_line.is_some() && face.len() == 1 => {

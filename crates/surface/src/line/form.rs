@@ -10,7 +10,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body. Its axis lies on the spring ⌊N/2⌋ of N springs; see [`Form::spring_on_axis`].
+/// Macroscopic form of the rigid body: its shape without roughness. Its axis lies on the spring ⌊N/2⌋ of N springs; see
+/// [`Form::spring_on_axis`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -59,9 +60,9 @@ pub enum Form {
 }
 
 impl Form {
-    /// Reads the table of a form from a folder, unless the table is read already. Checks that the table covers a profile of
-    /// this length in m. All clones of the form then share the table. Forms without a table need no reading. A form whose table
-    /// is not read is flat.
+    /// Reads the file of a [`Form::Table`], unless it has been read already. `folder` is the folder of the scene file. Checks
+    /// that the radii of the table reach from the axis to the ends of a profile of this length in m. All clones of the form
+    /// then share the table. Other forms need no reading. Before its file is read, a [`Form::Table`] is flat.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let in_file = |error: SurfaceError| {
@@ -81,27 +82,30 @@ impl Form {
         Err(in_file(refused(Place::File, fault, format!("length at most {most:e} m"))))
     }
 
-    /// Returns the table of the form, if the form has a table that is read.
+    /// Returns the table of a [`Form::Table`]; `None` for other forms, and before [`Form::load`] has read the table.
     pub fn table(&self) -> Option<&FormTable> {
         if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
     }
 
-    /// Returns the index ⌊N/2⌋ of the spring on the axis of every form, for N = `points` springs. An axis between two springs
-    /// would blunt the form by half a cell, an error of first order in force, indentation and energy.
+    /// Returns the index ⌊N/2⌋ of the spring on the axis of every form, for N = `points` springs. If the axis lay between two
+    /// springs, no spring would be at the tip. Force, indentation and energy would then have errors of first order in the
+    /// spacing Δx of the springs.
     pub fn spring_on_axis(points: u64) -> u64 {
         points / 2
     }
 
-    /// Returns the displacement of the body along the foundation, in cells of one spring spacing. It moves the axis from L/2
-    /// onto a spring: by ½ for an even number of springs, and by 0 for an odd one. Form and roughness are displaced together,
-    /// so that their relative position does not depend on the number of springs. A punch has no tip and is not displaced.
+    /// Returns the distance by which the body is displaced along the springs, in spring spacings. The displacement moves the
+    /// axis from L/2 onto a spring. It is ½ for an even number of springs, and 0 for an odd one. Form and roughness are
+    /// displaced together, so that their relative position does not depend on the number of springs. A punch has no tip and is
+    /// not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 
-    /// Returns the range of indices of the springs under the form, for `points` springs on `length` in m. All forms except a
-    /// punch lie above all springs. A punch covers its diameter, rounded to whole cells and centred on the axis to half a cell.
-    /// The range is empty for a diameter below half a cell.
+    /// Returns the range of indices of the springs under the form, for `points` springs on the length `length` in m. All forms
+    /// except a punch lie above all springs. The width of a punch is its diameter, rounded to a whole number of spring
+    /// spacings. The middle of the punch is off the axis by at most half a spacing. The range is empty if the diameter is below
+    /// half a spacing.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -123,7 +127,7 @@ impl Form {
         }
     }
 
-    /// Returns the form without its waves.
+    /// Returns the paraboloid of a [`Form::WavySphere`], and any other form unchanged.
     pub fn without_waves(&self) -> Form {
         match self {
             &Form::WavySphere { radius, .. } => Form::Paraboloid { radius },
@@ -225,7 +229,8 @@ impl Form {
         }
     }
 
-    /// Returns an upper bound π A √(r/λ), in m, of the depth that the waves add to the profile at a distance r (m) from the axis.
+    /// Returns an upper bound π A √(r/λ) in m of the depth that the waves of a [`Form::WavySphere`] add to its equivalent
+    /// profile at the distance r in m from the axis.
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {

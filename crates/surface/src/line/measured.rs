@@ -15,10 +15,11 @@ use std::path::{Path, PathBuf};
 /// twice the length.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
-/// Options of a scene for its measured surfaces.
+/// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// Polynomial removed from a measured profile that is itself the rigid profile; `None` for an equivalent line.
+    /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. `None`: the rigid profile
+    /// is an equivalent line, a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files.
     pub reading: ReadOptions,
@@ -28,20 +29,20 @@ pub struct MeasuredOptions {
 
 /// A measured profile: the heights of points at ascending positions.
 ///
-/// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are centres of cells. N such points cover the length N Δx from
-/// x = 0, and the outer half cells have the height of the nearest point. Any other profile covers the distance from its first
-/// to its last point. If its points are equally spaced, it can also cover half a distance more at each end.
+/// N points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, cover the length N Δx from x = 0. Before the first and
+/// behind the last point such a profile is flat. Any other profile covers the distance from its first to its last point. If its
+/// points are equally spaced, it can also cover half a spacing more at each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
     pub positions: Vec<f64>,
-    /// Heights z in m as measured, one for each position.
+    /// Heights z in m, one for each position. If a polynomial had to be removed, it has been subtracted.
     pub heights: Vec<f64>,
 }
 
 impl MeasuredProfile {
-    /// Reads a profile, or a row or column of a map, from the content of a file. A polynomial can be removed only from equally
-    /// spaced points.
+    /// Reads a profile, or a row or column of a map, from the content of a file. Returns an error if a polynomial has to be
+    /// removed and the points are not equally spaced.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -86,9 +87,10 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Computes the roughness amplitude of the profile. The mean wave number is Σ q_k A_k²/2h² over the modes of the
-    /// periodically continued profile. If the ends do not meet, the straight line between them is subtracted first, because a
-    /// step has energy in every wave and a tilt has none.
+    /// Computes the rms height h, the rms gradient, the rms curvature and the mean wave number of the profile. The mean wave
+    /// number is Σ q_k A_k²/2h², where A_k are the amplitudes of the waves of the profile when it is repeated periodically. For
+    /// these amplitudes a straight line is subtracted, so that the two ends meet. A step between the ends would add to every
+    /// wave.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
@@ -112,12 +114,12 @@ impl MeasuredProfile {
     }
 
     /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation. Here L
-    /// is `length` in m and N is `points`. A measured point keeps its measured height, bit for bit. If all heights are between
-    /// half and twice the first one, the first is subtracted. The differences are then exact, and roughness with a large offset
-    /// keeps its digits.
+    /// is `length` in m and N is `points`. Interpolation does not change the height at a measured point. If all measured
+    /// heights lie between half and twice the first one, the returned heights are relative to the first one. These differences
+    /// are exact, so roughness on a large offset keeps its digits.
     ///
     /// # Errors
-    /// The profile is shorter than `length`.
+    /// Returns an error if the profile is shorter than `length`.
     ///
     /// ```
     /// use asperity_surface::lines::{MeasuredOptions, MeasuredProfile};
@@ -195,10 +197,11 @@ fn join_ends(heights: &mut [f64]) {
     (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
-/// Paths and contents of the measured files of one face. All files are samples of the same roughness.
+/// Paths and contents of the measured files of one face, which is one of the two surfaces that touch each other. All files are
+/// samples of the same roughness.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
-/// Reads the files of one or two faces.
+/// Reads the files of one or two faces from the paths of the files.
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     let read = |path: &PathBuf| match content(path) {
         Ok(content) => Ok((path.clone(), content)),
@@ -208,10 +211,10 @@ pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
 }
 
 impl MeasuredOptions {
-    /// Analyses the files of one face.
+    /// Analyses the files of one face as samples of the same roughness.
     ///
     /// # Errors
-    /// A file cannot be read or has no spectrum.
+    /// Returns an error if a file cannot be read or has no spectrum.
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let (mut surfaces, mut files) = (Vec::new(), Vec::new());
         for (path, content) in face {

@@ -179,7 +179,8 @@ const COUNTS: [f64; BLOCK] = {
 /// Separates this use of the random generator from other uses; a change in how phases are drawn must change this text.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
-/// Returns the phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed, uniform in [0, 2π).
+/// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed, uniform in [0, 2π). Mode k is the
+/// wave with k periods over the profile.
 ///
 /// The generator is ChaCha with 8 rounds. Its key of 32 bytes is the seed, little-endian, followed by the 24 ASCII bytes
 /// `asperity-line-phases-v1` and a zero. φ_k is the k-th 64-bit word of its stream, counted from k = 1; the upper 53 bits are the

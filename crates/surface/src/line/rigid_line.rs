@@ -10,27 +10,29 @@ use std::sync::Arc;
 pub struct Line {
     /// Gaps c_i = max z − z_i in m of the springs under the body, each at least 0.
     pub gaps: Arc<Vec<f64>>,
-    /// Index along the foundation of the first spring under the body. It is above zero only under a punch.
+    /// Index of the leftmost spring under the body, counted along the whole foundation. It is above zero only for a punch.
     pub first: usize,
-    /// Number of springs N of the whole foundation.
+    /// Number of springs N of the whole foundation, the row of springs.
     pub points: usize,
     /// Length L of the whole foundation in m.
     pub length: f64,
     /// Distance Δx = L/N between springs in m.
     pub spacing: f64,
-    /// Height of the highest point in m, above the apex of the form and the mean of the roughness.
+    /// Height of the highest point in m. Height 0 is the apex of the form where the roughness has its mean height.
     pub summit: f64,
     /// Largest gap in m.
     pub deepest: f64,
 }
 
 impl Line {
-    /// Creates the profile of a form (`None`: flat) plus roughness (`None`: smooth). The roughness has one height for each
-    /// point, in units of `scale` (m). The axis of the form is on the spring ⌊N/2⌋, at x = L/2 for odd N and half a cell
-    /// further for even N. Roughness has to be sampled with the same [`Form::shift`]. For a punch see [`Form::springs_under`].
+    /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form the body is flat, and without
+    /// roughness it is smooth. The roughness has one height for each spring, in units of `scale` in m. The axis of the form is
+    /// on the spring ⌊N/2⌋: at x = L/2 for odd N, and half a spring spacing to the right for even N. The roughness has to be
+    /// displaced equally, by [`Form::shift`]. A punch lies only above the springs of [`Form::springs_under`]. The profile then
+    /// has only these springs.
     ///
     /// # Errors
-    /// The memory is too small, a height is not finite, or no spring lies under a punch.
+    /// Returns an error if the memory is too small, if a height is not finite, or if no spring lies under a punch.
     ///
     /// ```
     /// use asperity_surface::Form;
@@ -55,7 +57,7 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// Creates the profile as [`Line::new`] does. The gaps take the memory of the given roughness.
+    /// Creates the profile as [`Line::new`] does, and stores the gaps in the memory of the roughness.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
@@ -146,8 +148,8 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included. Heights outside are left
-    /// out. If `low` equals `high`, all heights are in the first bin.
+    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included. Heights outside this range
+    /// are left out. If `low` equals `high`, all heights are in the first bin.
     ///
     /// ```
     /// let histogram = asperity_surface::lines::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);

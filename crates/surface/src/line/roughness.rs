@@ -16,7 +16,7 @@ const MANY_MODES: usize = 1 << 16;
 /// on longer profiles are worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Synthesises random profiles one after the other. The planned Fourier transform and its memory are kept for the next profile.
+/// Computes random profiles one after the other. It keeps the planned Fourier transform and its memory for the next profile.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
@@ -40,8 +40,8 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs: heights at x = (i + ½
-    /// − `shift`)L/N. The heights are stored in the memory of `memory`.
+    /// Computes the profile of [`SelfAffine::heights`], displaced along the springs by `shift` spring spacings. Spring i then
+    /// has the height of this profile at x = (i + ½ − `shift`)L/N. The heights are stored in the memory of the vector `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -64,8 +64,9 @@ impl Synthesizer {
         self.transform((spectrum.first, spectrum.last), points, memory, draw)
     }
 
-    /// Sums the cosines of the modes `first..=last` with these amplitudes in m and the phases of the seed. `last` is at most
-    /// `points`/2. Positions are as in [`Self::synthesize`].
+    /// Sums cosine waves with k = `first..=last` periods over the length. Their amplitudes `amplitude`(k) are in m, and their
+    /// phases come from the seed. `last` is at most `points`/2. The positions of the heights are the same as in
+    /// [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
@@ -122,12 +123,12 @@ impl Synthesizer {
 }
 
 impl SelfAffine {
-    /// Synthesises heights in units of the rms height on `points` springs at x = (i + ½)L/N, eqs. (8) and (9) of Popov and
-    /// Filippov (2012). `points` is at least twice the last mode. The heights depend only on the spectrum, the seed, and the
-    /// number and positions of the points, not on the length.
+    /// Computes a random profile with this spectrum by eqs. (8) and (9) of Popov and Filippov (2012). The heights, in units of
+    /// the rms height, are at x = (i + ½)L/N on N = `points` springs. `points` has to be at least twice the last mode. The
+    /// heights depend only on the spectrum, the seed, and the number and positions of the points, not on the length.
     ///
-    /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile to within the
-    /// rounding of the transform.
+    /// The rms height is the rms of the sum of cosines over the whole length. With other numbers of springs the same profile is
+    /// sampled, to within the rounding of the Fourier transform.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };

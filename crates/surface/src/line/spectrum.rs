@@ -4,23 +4,24 @@
 use asperity_data::{integral_of_power, sum_of_powers};
 use std::f64::consts::TAU;
 
-/// Self-affine spectrum of the modes k = `first` … `last`, whose wave numbers are q_k = 2πk/L. The amplitudes are A_k ∝
-/// k^(−H−1/2). Below the roll-off the spectrum C₂D of the surface is flat, and by eq. (8) of Popov and Filippov (2012) A_k ∝ √k.
+/// Self-affine spectrum of a profile. The modes k = `first` … `last` are waves with k periods over the length L and the wave
+/// numbers q_k = 2πk/L. Their amplitudes are A_k ∝ k^(−H−1/2). For modes below the roll-off the spectrum C₂D of the surface is
+/// flat, and A_k ∝ √k by eq. (8) of Popov and Filippov (2012).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
     pub hurst: f64,
-    /// First mode, at least 1.
+    /// First mode, the longest wave; at least 1.
     pub first: u64,
-    /// Last mode, at least `first`.
+    /// Last mode, the shortest wave; at least `first`.
     pub last: u64,
-    /// Mode of the roll-off: the length L over the roll-off wavelength, above which the spectrum of the surface is flat. It
-    /// need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
+    /// Mode at the roll-off: the length L divided by the roll-off wavelength. For longer waves the spectrum of the surface is
+    /// flat. The value need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
     pub roll_off_mode: f64,
 }
 
 impl SelfAffine {
-    /// Returns the amplitude of mode k over A₁, the amplitude of mode 1 without a roll-off.
+    /// Returns A_k/A₁, where A_k is the amplitude of mode k and A₁ the amplitude that mode 1 would have without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
@@ -34,10 +35,10 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the part A_k²/(4πk) of one wave in the mean square height of a surface, divided by A₁² of
-    /// [`Self::relative_amplitude`]. The wave has k = `waves` waves per length. k need not be a whole number, because waves of
-    /// a surface lie in all directions. The surface has the spectrum C₂D, and its equivalent profile has this spectrum, C₁D =
-    /// πq C₂D. The part is zero more than half a wave beyond the first and the last mode.
+    /// Returns the contribution A_k²/(4πk) of one wave to the mean square height of a surface, divided by the A₁² of
+    /// [`Self::relative_amplitude`]. The wave has k = `waves` periods over the length. k need not be a whole number, because
+    /// waves of a surface lie in all directions. The profile has the spectrum `self`, C₁D(q). The surface has the spectrum
+    /// C₂D(q) = C₁D(q)/(πq). The contribution is zero if k is below `first` or above `last` by more than ½.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -88,8 +89,9 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m for a continuum of modes. By eqs. (5)–(7) and (12) of Popov and Filippov (2012) its
-    /// square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
+    /// Returns the ratio ⟨∇z⟩/h in 1/m as if the profile had waves at all wave numbers from the first to the last mode. Without
+    /// a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, by eqs. (5)–(7) and (12) of Popov and
+    /// Filippov (2012).
     ///
     /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. It is zero
     /// for a single mode.
@@ -146,7 +148,7 @@ pub struct Amplitude {
 }
 
 impl Amplitude {
-    /// Returns the amplitude of the profile whose heights are all multiplied by a factor.
+    /// Returns the roughness amplitude of the profile after all its heights are multiplied by a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
@@ -156,7 +158,7 @@ impl Amplitude {
         }
     }
 
-    /// Returns the amplitude of the profile that is stretched to `times` its length.
+    /// Returns the roughness amplitude of the profile after it is stretched to `times` its length.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,
@@ -186,9 +188,9 @@ impl Amplitude {
         }
     }
 
-    /// Returns the elastic energy of conformity per area in J/m²: e_el = (E*/8) Σ q_k A_k². It is the energy of a half-space of
-    /// effective modulus E* (Pa) in full contact with an isotropic surface. The surface has the rms height, rms gradient and
-    /// mean wave number of the profile (Persson and Tosatti, 2001).
+    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in J/m². A half-space of
+    /// effective modulus E* (Pa) has this energy in full contact with an isotropic surface. The surface has the rms height, rms
+    /// gradient and mean wave number of the profile (Persson and Tosatti, 2001).
     ///
     /// ```
     /// use asperity_surface::SelfAffine;

@@ -43,8 +43,8 @@ pub struct FormTable {
     slopes: Vec<[f64; 3]>,
 }
 
-/// Rows of a form. All clones of the form share the rows once they are read. In a comparison, rows that are not read equal all
-/// others.
+/// Rows of a [`Form::Table`](crate::Form::Table), empty until its file is read. All clones of the form share the rows that were
+/// read. In a comparison, rows that have not been read are equal to any rows.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -70,7 +70,7 @@ impl FormTable {
     /// Creates a form from depths in m at two or more radii in m, ascending from 0.
     ///
     /// # Errors
-    /// The error names the row at fault and the allowed values.
+    /// Returns an error that names the row at fault and the allowed values.
     ///
     /// ```
     /// let cone = asperity_surface::FormTable::new(vec![0.0, 1e-6, 2e-6], &[0.0, 1e-7, 2e-7])?;
@@ -117,7 +117,7 @@ impl FormTable {
         Ok(FormTable { radii, slopes })
     }
 
-    /// Returns the radius of the last row in m.
+    /// Returns the largest radius of the table in m, in its last row.
     pub fn reach(&self) -> f64 {
         self.radii[self.radii.len() - 1]
     }
@@ -192,8 +192,8 @@ impl FormTable {
     /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing` (m) from the axis, the first
     /// on the axis.
     ///
-    /// One depth takes a square root for each row nearer the axis. With many points between two rows, a polynomial therefore
-    /// interpolates what the rows at least one interval away contribute.
+    /// To compute one depth takes a square root for each row nearer the axis. If many depths lie between two rows, the
+    /// contributions of rows at least one interval away are therefore interpolated by a polynomial.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {
@@ -230,8 +230,8 @@ impl FormTable {
         Ok(depths)
     }
 
-    /// Finds the distance from the axis in m at which the equivalent profile begins to fall, within a radius in m. `None` if it
-    /// never falls.
+    /// Finds the smallest distance from the axis in m beyond which the depth g of the equivalent profile decreases. Searches up
+    /// to the distance `radius` in m. Returns `None` if the depth does not decrease there.
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;

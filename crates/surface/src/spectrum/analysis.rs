@@ -40,13 +40,14 @@ const CONTINUED: f64 = 4.0;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. With `None` it is the polynomial that a container states, or else the tilt. From
-    /// a periodic surface the default removes only the mean, because removing a plane would leave a step at the borders.
+    /// Polynomial removed before the analysis. With `None` it is the polynomial that a container, an archive of
+    /// contact.engineering, states for the surface. If none is stated, it is the tilt, or for a periodic surface only the mean.
+    /// To remove a plane from a periodic surface would leave a step at its borders.
     pub detrend: Option<Detrend>,
-    /// True for a surface that continues periodically at its borders. No window function is used for it. A container may also
-    /// state that its surface is periodic.
+    /// True for a surface that continues periodically at its borders. The analysis then uses no window function. A container
+    /// may also state that its surface is periodic.
     pub periodic: bool,
-    /// End of the spectrum: whether waves continue beyond the last resolved one.
+    /// Whether the surface has waves shorter than the shortest wave that its points resolve.
     pub end: End,
     /// Radius in m of the tip that measured the surface.
     pub tip_radius: Option<f64>,
@@ -58,37 +59,38 @@ pub struct AnalysisOptions {
 pub struct Analysis {
     /// Statistics of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height of each surface in m.
+    /// Rms height of each surface in m, after removal of the polynomial.
     pub rms_heights: Vec<f64>,
-    /// Spectra of the measured surfaces by direction, averaged in bins of the wave number.
+    /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
-    /// Isotropic spectrum of which the surfaces are samples.
+    /// Isotropic spectrum fitted to the surfaces, which are taken as samples of it.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine fit; `None` if the fit does not converge or finds no Hurst exponent between 0 and 1.
+    /// Self-affine spectrum fitted to the surfaces; `None` if the fit does not converge or finds no Hurst exponent between 0
+    /// and 1.
     pub power_law: Option<SelfAffineFit>,
     /// Moments of the equivalent line, such as its rms height.
     pub line: LineMoments,
-    /// Shortest wavelength in m that the tip resolves reliably. The largest wavelength of several surfaces counts; `None`
-    /// without a tip radius, or if the tip resolves all waves.
+    /// Shortest wavelength in m that the tip resolves reliably. For several surfaces it is the largest of their wavelengths.
+    /// `None` if no tip radius is given, or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
-    /// Number of profiles among the surfaces.
+    /// Number of surfaces that are profiles.
     pub profiles: u64,
-    /// Number of maps among the surfaces.
+    /// Number of surfaces that are maps.
     pub maps: u64,
     /// Length of the longest row of all surfaces in m.
     pub length: f64,
-    /// End of the spectrum, as the options state it.
+    /// [`AnalysisOptions::end`] of this analysis: whether waves continue beyond the last resolved one.
     pub end: End,
-    /// True if the spectrum ends before the last resolved wave.
+    /// True if the shortest waves that the points resolve have no significant power. The spectrum then ends before these waves.
     pub ends_inside: bool,
     /// True if the waves parallel to one axis of a map are left out. The rows or columns of such a map are offset against each
     /// other, or were levelled one by one.
     pub offsets: bool,
-    /// Difference between waves parallel to an axis of a map and waves in neighbouring directions, as a share of the squared
-    /// gradient. The share is 0 if the waves are left out, or if the difference is small or may be chance.
+    /// Share of the squared gradient by which waves parallel to an axis of a map differ from waves in neighbouring directions.
+    /// The share is 0 if waves parallel to an axis are left out, or if the difference is small or may be chance.
     pub apart: f64,
-    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. The largest
-    /// distance of several maps counts; `None` if no map has such a displacement.
+    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. For several
+    /// maps it is the largest of their distances. `None` if no map has such a displacement.
     pub displaced: Option<f64>,
 }
 
@@ -108,7 +110,7 @@ struct Powers {
 ///
 /// # Errors
 /// Returns an error for a surface with uneven points, with too few points or without roughness. Returns an error for an
-/// [`End::Continues`] that the surfaces already resolve.
+/// [`End::Continues`] with a wave number that the points already resolve.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};
@@ -393,7 +395,8 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns the share of the squared height that lies in waves longer than a quarter of the scan. There are few such waves.
+    /// Returns the share of the mean square height that comes from waves longer than a quarter of the scan. A scan has only few
+    /// such waves, so with a large share the rms height depends on the length of the scan.
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

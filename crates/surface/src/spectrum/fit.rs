@@ -211,13 +211,14 @@ pub struct SelfAffineFit {
     pub hurst: ValueWithError,
     /// Roll-off wave number in rad/m; `None` without a roll-off.
     pub roll_off: Option<ValueWithError>,
-    /// Two-dimensional spectral density C2D in m⁴ at the roll-off, or at the first wave number if there is no roll-off.
+    /// Two-dimensional spectral density C2D in m⁴ at the roll-off wave number. Without a roll-off it is C2D at the first wave
+    /// number.
     pub level: ValueWithError,
 }
 
 impl SelfAffineFit {
-    /// Returns the power spectral density in m³ of a cut through the surface at a wave number, for a spectrum between two wave
-    /// numbers. All wave numbers are in rad/m.
+    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave number. `first` and `last`
+    /// are the wave numbers between which the surface has the spectrum. All wave numbers are in rad/m.
     pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
         let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);

@@ -43,13 +43,13 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     terms.sum::<f64>() * wave_number / PI
 }
 
-/// End of a spectrum: whether it has waves beyond the last resolved wave.
+/// Whether a spectrum continues beyond the last resolved wave, the shortest wave that the measured points resolve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
-    /// The surface has no waves beyond the last resolved one.
+    /// The surface has no waves shorter than the last resolved one.
     #[default]
     Ends,
-    /// Waves continue up to this wave number in rad/m, by the power law between the last two nodes of the spectrum.
+    /// Waves continue up to this wave number in rad/m. Their spectrum is the power law through the last two [nodes](Node).
     Continues(f64),
 }
 
@@ -62,7 +62,7 @@ pub struct ValueWithError {
     pub error: f64,
 }
 
-/// A moment of a spectrum with its errors, all in the unit of the moment.
+/// A moment of a spectrum, such as the rms height, with its errors. All values have the unit of the moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Moment {
@@ -72,12 +72,12 @@ pub struct Moment {
     pub error: f64,
     /// Standard error that results from the finite number of measured waves.
     pub statistical: f64,
-    /// Error of the method: the difference between the moments of the fit and of the measured powers, and the error of
-    /// interpolated points.
+    /// Standard error that results from the method of estimation. One part is the difference between the moment of the fitted
+    /// spectrum and the moment of the measured powers. The other part is the error by interpolated points.
     pub method: f64,
-    /// Largest change of the value if the spectrum continues as a power law down to a quarter of the last resolved wavelength.
-    /// Short waves are then missing, and by aliasing they add to the power of longer waves. The change is zero for a spectrum
-    /// that ends inside the scan, and with [`End::Continues`].
+    /// Largest change of the value if the spectrum continues by a power law down to a quarter of the last resolved wavelength.
+    /// These waves are missing in the value, and by aliasing they add to the power of longer waves. The change is zero with
+    /// [`End::Continues`], and if the spectrum ends before the last resolved wave.
     pub missing_short_waves: f64,
 }
 
@@ -114,7 +114,7 @@ pub struct LineMoments {
     pub rms_gradient: Moment,
     /// Product h⟨∇z⟩ in m, to which κ² is proportional. Its error accounts for the correlation of both factors.
     pub height_gradient: Moment,
-    /// Elastic energy of conformity over the effective modulus, e_el/E* in m.
+    /// Elastic energy per area that flattens the roughness, divided by the effective modulus: e_el/E* in m.
     pub energy_per_modulus: Moment,
 }
 
@@ -209,8 +209,8 @@ pub struct Node {
     pub line: f64,
 }
 
-/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at nodes; between these wave numbers
-/// ln C2D is linear in ln q.
+/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at several wave numbers, the
+/// [nodes](Node). Between them ln C2D is linear in ln q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
@@ -226,7 +226,7 @@ pub struct IsotropicSpectrum {
 
 impl IsotropicSpectrum {
     /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is constant below the first node
-    /// and zero beyond the end.
+    /// and zero beyond the last wave number of the spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }
@@ -236,7 +236,7 @@ impl IsotropicSpectrum {
         0.5 * wave_number * self.c2d(wave_number)
     }
 
-    /// Returns the power spectral density of a cut through the surface in m³ at a wave number in rad/m.
+    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave number in rad/m.
     pub fn cut(&self, wave_number: f64) -> f64 {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
@@ -257,7 +257,7 @@ impl IsotropicSpectrum {
         IsotropicSpectrum { nodes, ..self.clone() }
     }
 
-    /// Returns the nodes with the spectrum and its error at each.
+    /// Returns the spectrum and its error at each node, in the order of the wave numbers.
     pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {
             let wave_number = self.nodes.wave_number(index);

@@ -10,18 +10,19 @@ use std::ops::RangeInclusive;
 /// Number of bins per decade of wave numbers, for display.
 const BINS_PER_DECADE: f64 = 10.0;
 
-/// Direction of the waves of a spectrum. Each direction has its own spectral density in m³.
+/// Direction of the waves of a measured spectrum. Each direction has its own spectral density in m³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Waves along a profile or along the rows of a map, with the one-dimensional spectral density C1D.
+    /// Waves along a profile or along the rows of a map. Their spectral density is the one-dimensional density C1D.
     X,
-    /// Waves between the rows of a map, with the one-dimensional spectral density C1D.
+    /// Waves along the columns of a map. Their spectral density is the one-dimensional density C1D.
     Y,
-    /// Waves in all directions of a map, with q C2D/π at the wave number q. C2D is the two-dimensional spectral density.
+    /// Waves in all directions of a map. Their spectral density at the wave number q is q C2D/π, where C2D is the
+    /// two-dimensional density.
     Radial,
 }
 
-/// Mean power of the waves within a range of wave numbers.
+/// Mean power spectral density of the waves within a range of wave numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bin {
     /// Mean wave number of the waves in rad/m.

@@ -6,13 +6,13 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PointStatistics {
-    /// Number of points.
+    /// Number of points of all surfaces together.
     pub points: usize,
     /// Root mean square height about the mean in m: Pq of profiles, Sq of maps, neither of them filtered.
     pub rms_height: f64,
-    /// Root mean square slope along rows, PΔq, from differences between neighbours.
+    /// Root mean square slope along rows, PΔq, from the differences between the heights of neighbouring points.
     pub rms_slope: f64,
-    /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` for profiles.
+    /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if any surface is a profile.
     pub rms_gradient: Option<f64>,
     /// Skewness: the mean cube of the height over the cube of the rms height.
     pub skewness: f64,

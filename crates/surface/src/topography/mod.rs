@@ -39,7 +39,7 @@ const UNITS: [(&str, &str, f64); 7] = [
     ("pm", "picometer picometre", 1e12),
 ];
 
-/// A unit of length, such as µm.
+/// A unit of length that a file or an option may state, such as µm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     name: &'static str,
@@ -47,7 +47,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Names of the units of length that can be read.
+    /// Names of all units of length that can be read, for messages.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 
     /// The unit metre.

@@ -38,8 +38,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Reads the columns of a NumPy array with at least two columns, and their names. Columns are the fields of the points. In an
-/// array with two axes the shorter axis counts the columns.
+/// Reads the names and the numbers of all columns of a NumPy array with at least two columns. In a structured array the fields
+/// are the columns. In an array with two axes the number of columns is the length of the shorter axis.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;

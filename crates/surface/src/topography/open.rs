@@ -25,8 +25,8 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
 
-/// Reads a surface from a regular file of at most 1 GiB. From a container of contact.engineering it reads all measurements of a
-/// surface.
+/// Reads a measured surface from a regular file of at most 1 GiB. A container of contact.engineering is an archive with several
+/// measurements of a surface. All its measurements are read.
 ///
 /// # Errors
 /// Returns [`SurfaceError`] if the file cannot be read or holds no surface.
@@ -50,7 +50,7 @@ pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
 
-/// Reads the only surface from the content of a file.
+/// Reads the surface from the content of a file that has only one measurement.
 ///
 /// # Errors
 /// Returns the errors of [`read`], and an error for a file with several measurements.

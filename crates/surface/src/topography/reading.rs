@@ -16,7 +16,7 @@ pub struct ReadOptions {
     pub unit: Option<Unit>,
     /// Unit of the heights if the file states none; `None` means the unit in `unit`.
     pub height_unit: Option<Unit>,
-    /// Unit to assume if neither the file nor the user states one.
+    /// Unit to assume if the file states none and `unit` is `None`.
     pub convention: Option<Unit>,
     /// Distance between points in m if the file states none.
     pub spacing: Option<f64>,
@@ -30,9 +30,9 @@ pub struct ReadOptions {
     pub resample: bool,
     /// True if the median height of each row of a map is subtracted, for rows that are offset against each other.
     pub align_rows: bool,
-    /// True if outliers are replaced by heights interpolated from their neighbours.
+    /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated from their neighbours.
     pub robust: bool,
-    /// Name of the surface, or of one measurement, to read from a container.
+    /// Name of the surface or of the measurement to read from a container, an archive with several measurements.
     pub surface_name: Option<String>,
 }
 
@@ -236,7 +236,7 @@ impl Topography {
     /// Creates a profile from heights in m at equal distances `spacing` in m.
     ///
     /// # Errors
-    /// There are fewer than two points, a height is not finite, or the distance is not above 0.
+    /// Returns an error if there are fewer than two points, if a height is not finite, or if the distance is not above 0.
     ///
     /// ```
     /// let profile = asperity_surface::Topography::from_profile(&[1e-8, 3e-8, 2e-8], 1e-7)?;

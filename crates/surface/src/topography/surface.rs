@@ -20,7 +20,7 @@ pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Opti
     positions.iter().enumerate().position(|point| !is_even(point))
 }
 
-/// A row or a column of a map, counted from 1.
+/// A row or a column of a map that is read as a profile. Rows and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
     /// The row with this number.
@@ -38,8 +38,8 @@ pub(super) enum Layout {
     Even([f64; 2]),
 }
 
-/// Borders of a map without a measured point, which are left out: numbers of columns and rows before and after the measured
-/// part. For a profile they are numbers of points at its ends.
+/// Numbers of columns and rows at the borders of a map that have no measured point and are left out. For a profile these are
+/// numbers of points at its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -47,7 +47,7 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Returns the number of columns and the number of rows left out, before and after together.
+    /// Returns the number of columns and the number of rows left out, at both borders together.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
@@ -69,7 +69,7 @@ pub struct Topography {
     /// Number of points of a row, or of all points for a profile.
     pub columns: usize,
     pub(super) layout: Layout,
-    /// Empty rows and columns at the borders of the file that are left out.
+    /// Numbers of rows and columns without a measured point that are left out at the borders.
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
@@ -82,7 +82,7 @@ pub struct Topography {
     /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
-    /// Messages about oddities of the file.
+    /// Messages for the user about unusual content of the file.
     pub warnings: Vec<String>,
 }
 
@@ -159,7 +159,7 @@ impl Topography {
     /// Returns the positions and heights of a profile in m. Equally spaced points begin at x = 0.
     ///
     /// # Errors
-    /// The surface is a map.
+    /// Returns an error if the surface is a map.
     ///
     /// ```
     /// use asperity_surface::Topography;
@@ -223,11 +223,12 @@ impl Topography {
         })
     }
 
-    /// Returns the distances between points in m, along and between rows. Both are equal for a profile.
+    /// Returns the distance between neighbouring points along the rows and the distance between rows, in m. Both are equal for
+    /// a profile.
     ///
     /// # Errors
-    /// The profile has uneven spacing. The error names the first point that is off an even grid by more than 0.1 % of the mean
-    /// distance. This grid runs from the first to the last point.
+    /// Returns an error if the points of a profile are not evenly spaced. The error names the first point that is off an even
+    /// grid by more than 0.1 % of the mean distance. This grid runs from the first to the last point.
     ///
     /// ```
     /// use asperity_surface::{ReadOptions, parse};
@@ -302,7 +303,7 @@ fn mean_distance(positions: &[f64]) -> f64 {
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
-    /// Nothing is removed. Scenes write `Nothing`, because `None` omits a field.
+    /// Nothing is removed. The name in scene files is `Nothing`, because `None` there means that a field is omitted.
     #[serde(rename = "Nothing")]
     #[strum(serialize = "Nothing")]
     None,

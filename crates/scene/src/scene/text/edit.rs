@@ -8,7 +8,7 @@ use super::index::{Text, TextSpan};
 pub(in crate::scene) const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
 impl Text {
-    /// Returns the text with another value at a path.
+    /// Returns the text with `value` in place of the value at a path.
     ///
     /// # Errors
     /// Returns an error if the text has no value at the path, or if `value` is not exactly one value.

@@ -11,7 +11,8 @@ use super::scan::{Kind, Scan, Token, Unreadable, scan};
 /// Length of a path from which on values are not indexed. No scene has a longer path.
 const LONGEST_PATH: usize = 100;
 
-/// RON text with matching brackets and quotes, and the places of its values.
+/// RON text and the places of its values. A value is found by its path, which consists of the names of fields and of
+/// positions in lists, from 0: `roughness.hurst`, `loading.0`. The empty path is the whole text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub(super) source: String,
@@ -20,7 +21,7 @@ pub struct Text {
     pub(super) comments: Vec<Range<usize>>,
 }
 
-/// Place of a value in a text, in bytes.
+/// Byte ranges of one value and of its entry in a [`Text`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextSpan {
     /// Path of the value, such as `roughness.hurst`.
