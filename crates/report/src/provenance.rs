@@ -100,8 +100,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Returns the name under which a table in the folder `destination` finds a file. `file` is its name relative to `folder`. The
-/// name stays as it is if both folders are the same; otherwise it becomes absolute.
+/// Returns the path of a file as it is written into a table in the folder `destination`. `file` is the path relative to `folder`.
+/// If both folders are the same, the path does not change; otherwise it becomes absolute.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

@@ -86,7 +86,8 @@ fn counted(count: u64, noun: &str) -> String {
 }
 
 /// Returns in a few words how far the computation of force loops of random rough squares is. After the first square, the words
-/// have the ratio of profile to three dimensions: of the adhesion force, or of the indentation if `is_adhesive` is false.
+/// also have a ratio: the adhesion force of the profiles divided by the adhesion force in three dimensions. If `is_adhesive` is
+/// false, it is the ratio of the indentations.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some(compared) = loops.headline() else {
@@ -102,7 +103,9 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     format!("{symbol} line/three dimensions {}{rest}", ratio(&compared))
 }
 
-/// Returns the error of the model in a sentence.
+/// Returns a sentence with the ratio of the mean over random profiles to the mean in three dimensions, and with the error of the
+/// model that follows from this ratio. The means are of the adhesion force, or of the indentation without adhesion. Returns
+/// `None` if the ratio is unknown.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let quantity = if reference.adhesion_force.is_some() { "the adhesion force" } else { "the indentation" };
@@ -257,8 +260,9 @@ impl Report for ReferenceReport<'_> {
         }))
     }
 
-    /// Returns a table of the loading without adhesion. For each force it has the indentation and the stiffness of both
-    /// computations and their ratio.
+    /// Returns a table of the loading without adhesion. A row has a force and two quantities at this force, the indentation and
+    /// the stiffness. Each quantity has three numbers: the mean over profiles, the mean in three dimensions, and the ratio of the
+    /// means.
     fn table(&self) -> Option<Table<'_>> {
         let rows = move || self.reference.loading.iter();
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);

@@ -127,7 +127,7 @@ pub struct PathReport<'a> {
     pub scene: &'a Scene,
     /// Stages of the loading, which begins at separation.
     pub loading: &'a [Move],
-    /// Points of the force curve along these stages.
+    /// Points of the force curve along the stages of [`Self::loading`].
     pub path: &'a [CurvePoint],
     /// For each point, the index of its stage in `loading`.
     pub stages: &'a [usize],
@@ -160,7 +160,7 @@ fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -
 /// Index of a loading stage, a point of its curve, and the displacement of the instrument in m.
 type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 
-/// A profile is a result with the form of a table: the position x and the height z of each spring in m.
+/// A profile can be written as a table: a row has the position x and the height z of a spring in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
         let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));

@@ -25,9 +25,9 @@ pub struct SceneSpectra {
     /// Spectra of the measured surfaces, the spectrum that the profile should have, and the spectrum of its computed heights.
     pub spectra: Spectra,
     /// Moments of random profiles with the measured spectrum, with their errors. `None` if the roughness is not measured, or if
-    /// the measured profile itself is pressed.
+    /// the scene uses the measured profile itself.
     pub moments: Option<LineMoments>,
-    /// Reason why a spectrum could not be computed; `None` if all could.
+    /// Reason why a spectrum could not be computed; `None` if all spectra were computed.
     pub missing: Option<String>,
 }
 
