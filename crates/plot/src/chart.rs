@@ -270,7 +270,7 @@ pub enum Shape {
     Upright(f64),
     /// Horizontal line at this y from the left to the right end of the chart.
     Level(f64),
-    /// Heat map with one coloured cell for each pair of values of the axes.
+    /// Heat map with one coloured cell for each pair of a number on the horizontal axis and a number on the vertical axis.
     Map(Box<HeatMap>),
 }
 

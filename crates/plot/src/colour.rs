@@ -80,7 +80,7 @@ pub enum Ink {
 }
 
 impl Ink {
-    /// Returns the colour of the ink in a figure on white.
+    /// Returns the colour of the ink in a figure with a white background.
     pub fn on_paper(self) -> Rgb {
         let Palette { foreground, ansi, .. } = Palette::LIGHT;
         match self {

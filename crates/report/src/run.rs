@@ -123,7 +123,7 @@ impl Report for RunReport<'_> {
 /// Report on a force curve along which the user moved the body by hand in the explorer.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Scene of the body. Its own loading is replaced by `loading`.
+    /// Scene of the body. The loading in the scene is replaced by [`Self::loading`].
     pub scene: &'a Scene,
     /// Stages of the loading, which begins at separation.
     pub loading: &'a [Move],

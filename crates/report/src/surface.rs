@@ -35,7 +35,7 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
 /// Report on the measured surfaces of one body or of both bodies in contact, and on the adhesion of this contact.
 #[derive(Clone, Debug)]
 pub struct SurfaceReport {
-    /// Surfaces of the first body, and those of the opposite body if it was measured too.
+    /// Measured surfaces: one entry for the first body, and a second entry for the opposite body if it was measured too.
     pub faces: Vec<MeasuredFace>,
     /// Spectrum of the random profiles that replace the surfaces of both bodies.
     pub line: EquivalentLine,

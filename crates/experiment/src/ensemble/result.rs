@@ -58,7 +58,8 @@ pub struct EnsembleFit {
     /// profiles. Each curve and each profile gives one γ. If E* is free, the scatter of ln E* is included. The ratio
     /// should be about 0.8 to 1.2. It is `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
-    /// True if random profiles describe the measured curves, so that [`SummaryDeviation::deviates`] is false for all summaries.
+    /// True if random profiles describe the measured curves. This means that [`SummaryDeviation::deviates`] is false in
+    /// all [`Self::deviations`].
     pub described: bool,
     /// Differences between the measured curves and the random profiles, one for each number that is computed from a
     /// curve, such as the pull-off force.
@@ -136,7 +137,8 @@ pub struct CurveOfEnsemble {
 pub struct SummaryDeviation {
     /// Name of the summary, such as `pull-off force`.
     pub summary: &'static str,
-    /// Mean of the natural logarithm of the summary over the measured curves, minus its mean over the random profiles.
+    /// Mean of the natural logarithm of the summary over the measured curves, minus the mean over the random profiles
+    /// with the fitted γ and E*.
     pub logarithm: f64,
     /// [`Self::logarithm`] divided by its standard error.
     pub deviation: f64,
