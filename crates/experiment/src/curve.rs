@@ -28,7 +28,7 @@ const PULLS: f64 = -5.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
     /// Displacement of the drive of the instrument at each point, in m. If the file has only the displacement of the
-    /// body, and the stiffness of the instrument is unknown, it is the displacement of the body.
+    /// body, and the stiffness of the instrument is unknown, the field has the displacement of the body.
     pub displacement: Vec<f64>,
     /// Force at each point, in N.
     pub force: Vec<f64>,

@@ -87,7 +87,7 @@ pub struct FitResult {
     /// added.
     #[serde(skip)]
     pub model: Vec<f64>,
-    /// Scene with the fitted values, and with the turning points of the measured curve as its loading.
+    /// Scene with the fitted values. The stages of its loading end at the turning points of the measured curve.
     #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
 }

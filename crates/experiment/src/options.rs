@@ -28,7 +28,7 @@ pub enum Drift {
     Keep,
     /// Subtracts the straight line over time that fits the force at the points without contact best.
     Remove,
-    /// Subtracts a straight line over time. It rises from the first to the last point by this force in N.
+    /// Subtracts a straight line over time. The line rises from the first to the last point by this force in N.
     Known(f64),
 }
 
@@ -136,9 +136,9 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument in N/m that the scene states; if it is `None`, the stiffness in the file is used. It
-    /// is needed only if the file has the displacement of the body, which the reading converts to the displacement of
-    /// the instrument.
+    /// Stiffness of the instrument in N/m that the scene states; if it is `None`, the stiffness in the file is used. A
+    /// stiffness is needed only if the file has the displacement of the body, because reading converts it to the
+    /// displacement of the instrument.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
     /// Number of points before contact; default: found from the force

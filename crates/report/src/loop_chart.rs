@@ -177,7 +177,7 @@ pub struct ForceLoop<'a> {
     pub without_forces: bool,
     /// Ink of the loop; `None` for [`Ink::Loading`] and [`Ink::Unloading`].
     pub ink: Option<Ink>,
-    /// Stroke of the loop; `None` for dotted loading and solid unloading.
+    /// Stroke of the loop. If it is `None`, the loading is dotted, and the unloading has the stroke [`Self::unloading`].
     pub stroke: Option<Stroke>,
     /// Stroke of the unloading, which is used if [`Self::stroke`] is `None`. If both are `None`, the unloading is a solid line.
     pub unloading: Option<Stroke>,

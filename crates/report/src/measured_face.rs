@@ -111,7 +111,8 @@ impl SurfaceFile {
     }
 }
 
-/// Measured surfaces (profiles or maps) of one body, and their common analysis. All surfaces count as samples of one roughness.
+/// Measured surfaces (profiles or maps) of one body, and their common analysis. The analysis takes all surfaces as samples of the
+/// same roughness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
     /// Facts about each surface and its file.

@@ -20,7 +20,7 @@ pub(crate) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 pub struct PreloadReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// How the number of springs was chosen for a tolerance of the error; `None` without a tolerance.
+    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no tolerance was given.
     pub choice: Option<&'a Choice>,
     /// Values computed so far for each preload on each profile: the quantities [`Results::OF_PRELOADS`].
     pub results: &'a Results,

@@ -53,7 +53,7 @@ impl Default for ReferenceProgress {
 
 impl ReferenceProgress {
     /// Returns a line of text on an event of the comparison, such as a finished square. The second value is true if the line
-    /// announces a comparison of at least 10 s.
+    /// announces a comparison that will take at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
             ReferenceEvent::Begins { maps, threads, bytes, seconds, .. } => {
@@ -72,7 +72,7 @@ impl ReferenceProgress {
         }
     }
 
-    /// Returns in words how many squares are lost if the comparison is stopped now.
+    /// Returns in words how many finished squares are lost if the comparison is stopped now.
     pub fn lost(&self) -> String {
         match self.maps {
             0 => "stopped before the first square".to_owned(),
@@ -85,9 +85,9 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Returns in a few words how far the computation of force loops of random rough squares is. After the first square, the words
-/// also have a ratio: the adhesion force of the profiles divided by the adhesion force in three dimensions. If `is_adhesive` is
-/// false, it is the ratio of the indentations.
+/// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. After the
+/// first square, the words also have a ratio: the adhesion force of the profiles divided by the adhesion force in three
+/// dimensions. If `is_adhesive` is false, it is the ratio of the indentations.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some(compared) = loops.headline() else {
@@ -260,9 +260,9 @@ impl Report for ReferenceReport<'_> {
         }))
     }
 
-    /// Returns a table of the loading without adhesion. A row has a force and two quantities at this force, the indentation and
-    /// the stiffness. Each quantity has three numbers: the mean over profiles, the mean in three dimensions, and the ratio of the
-    /// means.
+    /// Returns a table of the loading without adhesion, which is computed with profiles and in three dimensions. A row has a
+    /// force and two quantities at this force, the indentation and the stiffness. Each quantity has three numbers: the mean over
+    /// profiles, the mean in three dimensions, and the ratio of the means.
     fn table(&self) -> Option<Table<'_>> {
         let rows = move || self.reference.loading.iter();
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);

@@ -10,8 +10,8 @@ use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
-/// Result that can be written in one or more of four forms: text, JSON, table, figure. The method of a form that a result lacks
-/// returns `None`.
+/// Result that can be written in one or more of four forms: text, JSON, table, figure. If a result lacks a form, the method of
+/// this form returns `None`.
 pub trait Report {
     /// Returns the result as plain text of at most 80 columns.
     fn text(&self) -> Option<String> {

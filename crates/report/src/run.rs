@@ -26,7 +26,7 @@ pub struct RunReport<'a> {
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
-    /// How the number of springs was chosen for a tolerance of the error; `None` without a tolerance.
+    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no tolerance was given.
     pub choice: Option<&'a Choice>,
     /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is unknown.
     pub estimate: Option<&'a Estimate>,

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Rigid profile and its contact with the elastic surface at one indentation.
 #[derive(Clone, Copy)]
 pub struct SectionContact<'a> {
-    /// Depth of the profile below its highest point at each spring, m.
+    /// Gap at each spring, m: depth of the profile at this spring below the highest point of the profile.
     pub gaps: &'a [f64],
     /// Height of the highest point of the profile, m.
     pub summit: f64,

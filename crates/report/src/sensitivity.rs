@@ -122,8 +122,9 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// Returns a bar chart of the changes of one result in per cent, with two bars for each changed number. `result` is an index of
-/// [`Sensitivity::RESULTS`]. At most `most` numbers have bars, the number with the largest influence at the top.
+/// Returns a bar chart of the changes of one result in per cent, with two bars for each changed number. `result` chooses this
+/// result; it is an index of [`Sensitivity::RESULTS`]. At most `most` numbers have bars, the number with the largest influence at
+/// the top.
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);

@@ -19,7 +19,8 @@ const SELF_AFFINE: Stroke = Stroke::Dotted;
 /// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density in m³.
 pub type SpectrumPoint = (f64, f64);
 
-/// Power spectra of measured surfaces, of the random profile that replaces them, and of its computed heights.
+/// Three kinds of power spectra: of measured surfaces, of the random profile that replaces these surfaces, and of the heights
+/// that were computed for this profile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,

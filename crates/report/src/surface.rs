@@ -37,7 +37,7 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
 pub struct SurfaceReport {
     /// Measured surfaces: one entry for the first body, and a second entry for the opposite body if it was measured too.
     pub faces: Vec<MeasuredFace>,
-    /// Spectrum of the random profiles that replace the surfaces of both bodies.
+    /// Spectrum of the random profiles that replace the measured surfaces.
     pub line: EquivalentLine,
     /// Effective modulus E*, Pa; `None` if it is not given.
     pub modulus: Option<f64>,

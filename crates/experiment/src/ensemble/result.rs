@@ -74,11 +74,11 @@ pub struct EnsembleFit {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Shares {
-    /// Share due to the limited number of measured curves.
+    /// Share of the uncertainty that comes from the limited number of measured curves.
     pub places: f64,
-    /// Share due to the limited number of random profiles.
+    /// Share of the uncertainty that comes from the limited number of random profiles.
     pub profiles: f64,
-    /// Share due to the stated errors of the roughness.
+    /// Share of the uncertainty that comes from the stated errors of the roughness.
     pub roughness: f64,
 }
 
@@ -119,7 +119,8 @@ pub struct CurveOfEnsemble {
     pub pull_off_force: Option<f64>,
     /// Area between approach and retraction in a chart of the force over the displacement of the instrument, J.
     pub loop_area: f64,
-    /// Half the preload divided by the displacement on the retraction from the preload to half the preload, N/m.
+    /// Stiffness at the beginning of the retraction, N/m: half the preload, divided by the change of the displacement
+    /// while the force falls from the preload to half the preload.
     pub stiffness: f64,
     /// Work of adhesion found from this single curve, J/m².
     pub work: IntervalEstimate,
