@@ -37,7 +37,8 @@ fn ratio(of: &Compared) -> String {
 /// Time in s above which a comparison takes long.
 const LONG: f64 = 10.0;
 
-/// Progress of a comparison with three dimensions in words. Such a comparison computes a number of random rough squares.
+/// Progress, in words, of a comparison of a scene with three dimensions. Such a comparison computes the contact of a number of
+/// random rough squares.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,

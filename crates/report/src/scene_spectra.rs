@@ -22,7 +22,8 @@ const BYTES: u64 = 40;
 /// Power spectra of a rough scene, and moments such as the rms height of its random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
-    /// Spectra of the measured surfaces, the spectrum that the profile should have, and the spectrum of its computed heights.
+    /// Spectra of the measured surfaces, the spectrum that the profile should have, and the spectrum of the heights computed for
+    /// the profile.
     pub spectra: Spectra,
     /// Moments of random profiles with the measured spectrum, with their errors. `None` if the roughness is not measured, or if
     /// the scene uses the measured profile itself.

@@ -34,8 +34,8 @@ pub struct Part {
 /// Largest number of columns of a profile in a picture.
 const DRAWN: usize = 1200;
 
-/// Lowest and highest point of a profile in each column of a [`Part`], which [`SectionContact::section`] keeps here. Its next
-/// call with the same part reuses these points.
+/// Lowest and highest point of a profile in each column of a [`Part`], which [`SectionContact::section`] keeps here. The next
+/// call of this function with the same part reuses these points.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,

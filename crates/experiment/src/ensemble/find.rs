@@ -35,8 +35,8 @@ const MOST_ERROR: f64 = 0.5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
-/// Finds the work of adhesion of a rough body from curves measured at different places of it. `curves` has pairs of a name and a
-/// curve. With [`EnsembleOptions::is_modulus_free`] the effective modulus is found too.
+/// Finds the work of adhesion of a rough body from curves measured at different places of it. `curves` has pairs of a
+/// name and a curve. If [`EnsembleOptions::is_modulus_free`] is true, the effective modulus is found too.
 ///
 /// The curves are compared with curves computed for random profiles that have the roughness of the scene. The scene
 /// also gives the form, the stiffness of the instrument, and the ratio of the works of adhesion on closing and on

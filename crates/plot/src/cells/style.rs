@@ -24,8 +24,8 @@ pub enum Colours {
 }
 
 impl Colours {
-    /// Converts red, green and blue to a colour that this terminal can show. Of 256 fixed colours it is a similar one. A terminal
-    /// without colours uses its default colour.
+    /// Converts red, green and blue to a colour that this terminal can show. If the terminal has 256 fixed colours, the result is
+    /// a similar one of these colours. A terminal without colours uses its default colour.
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;
