@@ -76,7 +76,8 @@ impl MeasuredCurve {
     }
 
     /// Reads a curve from the content of a file. `name` is the name of this file. For a file in a binary format other
-    /// than a NumPy array it returns an error, which names the format that belongs to the extension of `name`.
+    /// than a NumPy array it returns an error. The error names the format if the extension of `name` or the first bytes
+    /// identify it.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`MeasuredCurve::read`].
