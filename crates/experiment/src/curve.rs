@@ -25,13 +25,13 @@ const PULLS: f64 = -5.0;
 /// body is pressed on. The force is positive in compression, and zero before contact except for noise and drift.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// Displacement of the drive of the instrument at each point, in m. It is the displacement of the body if the file has
-    /// only this one and no stiffness of the instrument is known.
+    /// Displacement of the drive of the instrument at each point, in m. If the file has only the displacement of the
+    /// body, and the stiffness of the instrument is unknown, the field has the displacement of the body.
     pub displacement: Vec<f64>,
     /// Force at each point, in N.
     pub force: Vec<f64>,
-    /// Index of the segment of each point, from 0. The body is pressed in segments with even indices and pulled in segments
-    /// with odd indices.
+    /// Index, from 0, of the segment to which each point belongs. A segment is a motion in one direction. The body is
+    /// pressed in segments with even indices, and pulled in segments with odd indices.
     pub segment: Vec<usize>,
     /// Number of points at the beginning of the curve that lie before contact.
     pub(crate) free: usize,
@@ -39,9 +39,10 @@ pub struct MeasuredCurve {
     pub touch: f64,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Number of points of the file that are used. A point of a long curve is the mean of several of them.
+    /// Number of points of the file that are used. In a long curve each point of [`Self::force`] is the mean of several
+    /// points of the file.
     pub points: usize,
-    /// Number of points of the file that are left out because a value is missing.
+    /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
     /// Displacement at the end of each segment, in m.
     pub(crate) turns: Vec<f64>,
@@ -65,15 +66,16 @@ impl MeasuredCurve {
     /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be compressed by gzip.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read, or if it has no columns of displacement and force. It also returns an
-    /// error if the curve has no points without contact, no contact, or no retraction although [`CurveOptions::segments`]
-    /// is not 1 alone.
+    /// Returns an error if the file cannot be read, or if it has no columns of displacement and force. It also returns
+    /// an error if the curve has no points without contact, or no contact. A curve without a retraction is an error
+    /// unless [`CurveOptions::segments`] selects only the first approach.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
 
-    /// Reads a curve from the content of a file. `name` is the name of this file. Binary formats are refused; the error says
-    /// which format it is, by the extension of `name`.
+    /// Reads a curve from the content of a file. `name` is the name of this file. For a file in a binary format other
+    /// than a NumPy array it returns an error. The error names the format if the extension of `name` or the first bytes
+    /// identify it.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`MeasuredCurve::read`].

@@ -12,7 +12,7 @@ pub enum ExperimentError {
     /// The file cannot be read, or its content is no table with the columns of a curve.
     #[error(transparent)]
     File(#[from] SurfaceError),
-    /// The curve, the scene or an option does not allow the reading or the fit.
+    /// The curve cannot be read or fitted because of a property of the curve, of the scene or of an option.
     #[error("{found}; allowed: {allowed}")]
     Refused {
         /// What was found in the curve, the scene or the options, in words.

@@ -25,8 +25,8 @@ const ENOUGH: usize = 400;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing its computed force with a
-/// [`MeasuredCurve`].
+/// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing the computed force of the
+/// scene with a [`MeasuredCurve`].
 ///
 /// ```
 /// use asperity_data::Control;
@@ -72,20 +72,21 @@ impl<'a> Fit<'a> {
     /// of force curves computed so far.
     ///
     /// The search is a sequential Monte Carlo method. Many sets of parameter values are drawn over the ranges, for most
-    /// parameters evenly in their logarithm. The likelihood of a set assumes a noise that is first large, so that jumps of
-    /// the force count little, and is lowered in steps to the noise of the curve. At each step likely sets are copied,
-    /// unlikely sets are dropped, and all sets are changed at random. A residual (measured minus computed force) above 5
-    /// times the noise counts by its logarithm, because the point is on the wrong side of a jump.
+    /// parameters evenly in their logarithm. The likelihood of a set assumes a noise that is first large, so that jumps
+    /// of the force count little, and is lowered in steps to the noise of the curve. At each step likely sets are
+    /// copied, unlikely sets are dropped, and all sets are changed at random. A residual (measured minus computed
+    /// force) above 5 times the noise counts by its logarithm instead of its square, because such a point is on the
+    /// wrong side of a jump.
     ///
     /// Zero, drift and tilt of the force that were subtracted on reading are estimated anew for each set. If the residuals
-    /// remain larger than the noise, the search is repeated with other sets, and the better result is kept. If they are
-    /// still larger, each segment is divided into four parts. The error of a parameter is then the scatter of its value as
+    /// remain larger than the noise, the search is repeated with other sets, and the better result is kept. If they are still
+    /// larger, each segment is divided into four parts. The error of a parameter is then at least the scatter of its value as
     /// the weights of the parts change (jackknife).
     ///
     /// # Errors
-    /// Returns an error if no parameter is free, if one is given twice, or if the scene lacks one, such as the radius. It
-    /// also returns an error if `numerics.solver` of the scene is `Stepwise`, if the curve turns before contact, if a
-    /// computation fails, or if `control` stops the fit.
+    /// Returns an error if no parameter is free, if a parameter is given twice, or if the scene lacks a free parameter,
+    /// such as the radius of its form. It also returns an error if `numerics.solver` of the scene is `Stepwise`, if the
+    /// curve turns before contact, if a computation fails, or if `control` stops the fit.
     pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
         find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))

@@ -37,8 +37,9 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower the [`Self::interval`],
-    /// the more digits the text has; they are not limited if the interval is the whole range.
+    /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower the
+    /// [`Self::interval`], the more digits the text has. If the interval is the whole [`Self::range`], the number of
+    /// digits is not limited.
     pub fn text(&self, value: f64) -> String {
         let half = 0.5 * (self.interval.1 - self.interval.0);
         format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
@@ -56,14 +57,14 @@ pub struct FitResult {
     pub residual: f64,
     /// [`Self::residual`] divided by the noise of the curve.
     pub residual_over_noise: f64,
-    /// Share of the points whose residual exceeds 5 times the noise.
+    /// Share of the points, from 0 to 1, whose residual exceeds 5 times the noise in magnitude.
     pub beyond_five_sigma: f64,
-    /// Root mean square of the residuals divided by the noise, over the points after the part before contact. A force
-    /// between both ends of a computed jump beside it counts as no residual. A residual above 5 times this root mean square
-    /// counts as 5 times it.
+    /// Root mean square of the residuals divided by the noise of the curve, over all points except those before
+    /// contact. The residual of a point counts as 0 if its force is between the two ends of a computed jump next to the
+    /// point. A residual above 5 times this root mean square counts as 5 times the root mean square.
     pub misfit: f64,
-    /// Upper bound of the work of adhesion, J/m², if a scene without adhesion describes the curve as well; otherwise
-    /// `None`. It is the upper end of the 95 % interval.
+    /// Upper bound of the work of adhesion, J/m², if a scene without adhesion describes the curve equally well;
+    /// otherwise `None`. It is the upper end of the 95 % interval.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values; `None` without adhesion or without a radius of curvature, as for a
@@ -86,7 +87,7 @@ pub struct FitResult {
     /// added.
     #[serde(skip)]
     pub model: Vec<f64>,
-    /// Scene with the fitted values, and with the turning points of the measured curve as its loading.
+    /// Scene with the fitted values. The stages of its loading end at the turning points of the measured curve.
     #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
 }
@@ -105,8 +106,8 @@ impl FitResult {
         self.misfit <= MISFIT
     }
 
-    /// Returns true if the model does not describe the curve and the profile of the scene is random. The cause is then
-    /// another profile of the specimen, and the fitted values are meaningless.
+    /// Returns true if the model does not describe the curve and the profile of the scene is random. The specimen then
+    /// has another profile than the scene, and the fitted values are meaningless.
     pub fn has_other_profile(&self) -> bool {
         !self.describes() && self.document.scene().seed().is_some()
     }

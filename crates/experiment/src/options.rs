@@ -28,7 +28,7 @@ pub enum Drift {
     Keep,
     /// Subtracts the straight line over time that fits the force at the points without contact best.
     Remove,
-    /// Subtracts a straight line over time. It rises from the first to the last point by this force in N.
+    /// Subtracts a straight line over time. The line rises from the first to the last point by this force in N.
     Known(f64),
 }
 
@@ -73,8 +73,8 @@ fn positive_length(text: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err("allowed: a length above 0, such as 500nm".to_owned()) }
 }
 
-/// Options with which a [`MeasuredCurve`](crate::MeasuredCurve) is read. What they leave open is taken from the file or
-/// found from its numbers.
+/// Options with which a [`MeasuredCurve`](crate::MeasuredCurve) is read. What an omitted option would state is taken
+/// from the file, or estimated from the points of the curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
@@ -136,8 +136,9 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument in N/m, as the scene states it; `None` for the stiffness in the file. It is needed only
-    /// if the file has the displacement of the body, to convert it to the displacement of the instrument.
+    /// Stiffness of the instrument in N/m that the scene states; if it is `None`, the stiffness in the file is used. A
+    /// stiffness is needed only if the file has the displacement of the body, because reading converts it to the
+    /// displacement of the instrument.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
     /// Number of points before contact; default: found from the force

@@ -16,9 +16,9 @@ pub enum Parameter {
     ClosingWork,
     /// Effective modulus E*, Pa.
     Modulus,
-    /// Displacement of the instrument at first touch as the curve counts it, D₀, m.
+    /// Displacement D₀ that the measured curve has at first touch, m.
     Offset,
-    /// Force that the curve has before contact, F₀, N.
+    /// Force F₀ that the measured curve has before contact, N.
     Zero,
     /// Stiffness of the instrument, N/m.
     Stiffness,
@@ -138,7 +138,8 @@ impl Parameter {
     }
 }
 
-/// Parameter that a fit searches, with the range of the search if one is given. Its text is a name, or `NAME=LOW..HIGH`.
+/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed from a text: the name
+/// of the parameter, or `NAME=LOW..HIGH` with a range.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};
@@ -161,8 +162,8 @@ impl Free {
     /// parameter.
     ///
     /// # Errors
-    /// Returns an error if the first value is not below the second, or a value is not finite. Only `Offset` and `Zero`
-    /// allow negative values, and besides them only a work of adhesion allows 0.
+    /// Returns an error if the first value is not below the second, or a value is not finite. `Offset` and `Zero` allow
+    /// any sign, a work of adhesion allows 0 and positive values, and all other parameters allow only positive values.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range) {
             return Ok(Free { parameter, range: Some(range) });

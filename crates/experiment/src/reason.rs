@@ -37,10 +37,12 @@ const CUT: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact reaches the ends of the profile, so that the scene needs a larger length. The value is its length in m.
+    /// The contact reaches the ends of the profile, so that the scene needs a larger length. The value is the length of
+    /// the profile in m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
-    /// Too few springs are ever in contact: at most this number. The profile needs more springs or a smaller length.
+    /// Too few springs are in contact. The value is the largest number of springs in contact. The profile needs more
+    /// springs or a smaller length.
     #[error(
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]
@@ -62,7 +64,8 @@ pub enum Reason {
         "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
     )]
     DriftAndTilt,
-    /// The measured forces before and after contact differ by this value in N, as by drag of a fluid.
+    /// The measured forces before and after contact differ by this value in N, for example because of the drag of a
+    /// fluid.
     #[error(
         "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
          alone.",
@@ -91,7 +94,7 @@ pub enum Reason {
         Parameter::ClosingWork.name()
     )]
     Branches,
-    /// The measured force rises over the displacement with this slope in N/m. No contact allows a larger slope than the
+    /// The measured force rises over the displacement with this slope in N/m. The slope cannot be larger than the
     /// stiffness of the instrument, so that the stiffness in the scene is too small.
     #[error(
         "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",

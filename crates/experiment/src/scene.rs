@@ -81,10 +81,10 @@ pub(crate) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// Returns the scene with a loading stiffness that suits the measured curve. A scene without `loading_stiffness` gets
-    /// the stiffness that the file of the curve states. If the measured displacement is that of the body, the
-    /// `loading_stiffness` of the scene is removed. The second value is a sentence for the user on such a change, or on a
-    /// file and a scene that state different stiffnesses.
+    /// Returns the scene with a loading stiffness that suits the measured curve. A scene without `loading_stiffness`
+    /// gets the stiffness that the file of the curve states. If the measured displacement is the displacement of the
+    /// body, the `loading_stiffness` of the scene is removed. The second value is a sentence for the user. It states
+    /// such a change, or that the file and the scene have different stiffnesses.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this stiffness.

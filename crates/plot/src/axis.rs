@@ -8,13 +8,13 @@ use asperity_data::AxisScale;
 /// Smallest and largest value of the largest number on a linear axis for which the numbers at the ticks have few digits.
 const SHORT: (f64, f64) = (1e-3, 1e6);
 
-/// Axis of a chart: the quantity it shows, its scale, and the range of its numbers.
+/// Axis of a chart: a quantity with name, symbol and unit, and the scale and range of the numbers that the axis shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartAxis {
     /// Scale of the axis, linear or logarithmic.
     pub scale: AxisScale,
-    /// Range of coordinates that the axis shows. The coordinate of a number is the number itself, or on a logarithmic axis its
-    /// decadic logarithm.
+    /// Range of coordinates that the axis shows. On a linear axis the coordinate of a number is the number itself. On a
+    /// logarithmic axis it is the decadic logarithm of the number.
     pub span: Span,
     /// Name of the quantity in words; may be empty.
     pub name: String,
@@ -22,7 +22,8 @@ pub struct ChartAxis {
     pub symbol: String,
     /// SI unit of the quantity without a prefix; `1` or empty for plain numbers.
     pub unit: String,
-    /// Names that the axis has at the coordinates 0, 1, 2, … in place of numbers; empty for an axis with numbers.
+    /// Names along the axis in place of numbers, the first at the coordinate 0, the next at 1, and so on. Empty for an axis with
+    /// numbers.
     pub names: Vec<Label>,
     /// True if the quantity is a count, so that the axis has ticks only at whole numbers.
     pub counts: bool,
@@ -35,8 +36,8 @@ impl ChartAxis {
         ChartAxis { scale, span, name, symbol, unit, names: Vec::new(), counts: false }
     }
 
-    /// Creates a linear axis with names in place of numbers. The first name is at the coordinate 0, the next at 1, and so on;
-    /// each is in the middle of a range of width 1.
+    /// Creates a linear axis with names in place of numbers. The first name is at the coordinate 0, the next at 1, and so on. The
+    /// axis extends by ½ beyond the first and the last name.
     pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
         ChartAxis { names, ..ChartAxis::new(AxisScale::Linear, span, "", "", "") }
@@ -48,9 +49,9 @@ impl ChartAxis {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Returns the divisor of the numbers at the ticks and the unit that they then have, such as 1e-6 and `µN`. If no SI prefix
-    /// makes the numbers of a linear axis short, the divisor is a power of ten, which the unit then begins with. If the ticks of
-    /// a logarithmic axis are powers of ten, the divisor is 1.
+    /// Returns by what the numbers at the ticks are divided, and their unit after this division, such as 1e-6 and `µN`. If no SI
+    /// prefix makes the numbers of a linear axis short, the divisor is a power of ten, and the returned unit begins with this
+    /// power, as `10⁶ rad/m` does. If the ticks of a logarithmic axis are powers of ten, the divisor is 1.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
@@ -96,13 +97,13 @@ impl ChartAxis {
         if label.width() <= most { label } else { self.symbol_with_unit() }
     }
 
-    /// Returns a short label of the axis: the symbol, or the name of a quantity without a symbol, then in brackets the unit of
-    /// [`Self::prefix`].
+    /// Returns a short label of the axis: the symbol, then in brackets the unit of [`Self::prefix`]. A quantity without a symbol
+    /// has the name in place of the symbol.
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
     }
 
-    /// Returns the symbol, or the name of a quantity without a symbol.
+    /// Returns the symbol of the quantity, or the name if the quantity has no symbol.
     pub fn symbol_or_name(&self) -> Label {
         Label::symbol_or_name(&self.symbol, &self.name)
     }
@@ -114,8 +115,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the ticks of the axis: about `most` with a number, and minor ticks between them. At least two have a number if
-    /// the range contains two round numbers. An axis with names has a tick at each name.
+    /// Returns the ticks of the axis: about `most` ticks with a number, and minor ticks without a number between them. If fewer
+    /// than two ticks would have a number, `most` is raised by up to 2. An axis with names has a tick at each name.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };

@@ -16,20 +16,21 @@ pub struct Figure {
     pub notes: Vec<Label>,
     /// Charts of the figure, which are placed in rows from left to right.
     pub charts: Vec<Chart>,
-    /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given, only the ratio of both
-    /// counts.
+    /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given, only the ratio of frame width
+    /// to frame height counts.
     pub size: (f64, f64),
-    /// Lines that say how to repeat the figure: version, command and scene. Only an SVG document contains them, as metadata.
+    /// Lines that say how to compute the figure again: version, command and scene. Of all formats only SVG contains these lines,
+    /// as metadata.
     pub origin: String,
     /// Lines of text in a box below the legend, such as the numbers of the scene.
     pub parameters: Vec<Label>,
-    /// Width of the picture in px (1/96 inch), to which the frames are fitted while letters and lines keep their size. `None`
-    /// for the width that frames of this [`Self::size`] need.
+    /// Width of the picture in px (1/96 inch). The frames are fitted to this width, while letters and lines keep their size. If
+    /// it is `None`, the frames have [`Self::size`], and the picture is as wide as they need.
     pub width: Option<f64>,
-    /// Height of the picture in px (1/96 inch); `None` for the height that its frames need, which for a given width is at most
-    /// that of a page.
+    /// Height of the picture in px (1/96 inch). If it is `None`, the picture is as high as the frames need. A picture with a
+    /// given [`Self::width`] is then at most as high as a page.
     pub height: Option<f64>,
-    /// True if the picture is drawn without its title, for use with a caption that has the title.
+    /// True if the picture is drawn without the title, because a caption outside the picture has the title.
     pub untitled: bool,
 }
 
@@ -63,8 +64,8 @@ impl Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }
 
-    /// Creates a figure without a title from the charts of several figures. Title and notes of each figure become part of the
-    /// headings of its charts.
+    /// Creates a figure without a title from the charts of several figures. The title and the notes of each given figure become
+    /// part of the headings of its charts.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
@@ -101,8 +102,8 @@ impl Figure {
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend. Layers of the same name share one entry, which shows the line, area or sign of each of
-    /// these layers in its colour.
+    /// Returns the entries of the legend. Layers of the same name share one entry, which shows the line, area or marker of each
+    /// of these layers in the colour of the layer.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
@@ -135,8 +136,9 @@ impl Chart {
         self
     }
 
-    /// Divides the chart by a unit along each axis: the numbers on the axis and those of the layers, except heat maps. A unit is
-    /// given with its symbol; `None` leaves an axis as it is.
+    /// Expresses the quantity of an axis in another unit, for example F in units of F_a,max. The numbers on the axis and the
+    /// numbers of the layers are divided by the unit; heat maps are not changed. A unit is given by its value and its symbol;
+    /// `None` leaves an axis as it is.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
             *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
@@ -191,25 +193,25 @@ impl Chart {
 pub struct Layer {
     /// Name in the legend. A layer with an empty name has no entry.
     pub name: Label,
-    /// Ink of the layer: what the data are, from which each output chooses the colour.
+    /// What the data are, such as a loading. Each output format chooses the colour for it.
     pub ink: Ink,
-    /// Shape of the data.
+    /// The data, and the shape in which they are drawn, such as a curve or a heat map.
     pub shape: Shape,
 }
 
 impl Shape {
-    /// Creates a line through points.
+    /// Creates a curve that is drawn as a line through these points (x, y).
     pub fn line(points: Vec<(f64, f64)>, stroke: Stroke) -> Shape {
         Shape::Curve { points, stroke: Some(stroke), sign: None }
     }
 
-    /// Creates signs at points.
+    /// Creates a curve that is drawn as a marker at each of these points (x, y), without a line.
     pub fn signs(points: Vec<(f64, f64)>, sign: Sign) -> Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
 
-    /// Returns the points (x, y) of a curve. For an envelope these are the lowest and the highest point of each column; other
-    /// shapes have no points.
+    /// Returns the points (x, y) of a curve. For an [`Shape::Envelope`] these are the lowest and the highest point of each
+    /// column. For other shapes the list is empty.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -236,23 +238,23 @@ impl Layer {
     }
 }
 
-/// Shape of the data of a layer. All numbers are numbers on the axes of the chart. A point that has no place on an axis, such as
-/// 0 on a logarithmic one, interrupts a curve or a band.
+/// Data of a layer, and the shape in which they are drawn. Each x is a number on the horizontal axis, each y on the vertical
+/// axis. A point that has no place on an axis, such as 0 on a logarithmic axis, interrupts a curve or a band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// Line through points, signs at the points, or both.
+    /// Line through points, markers at the points, or both.
     Curve {
         /// Points of the curve as (x, y).
         points: Vec<(f64, f64)>,
         /// Stroke of the line; `None` for no line.
         stroke: Option<Stroke>,
-        /// Sign at each point; `None` for no signs.
+        /// Marker at each point; `None` for no markers.
         sign: Option<Sign>,
     },
     /// Area between two curves, as points (x, lower y, upper y). If the lower or upper y is beyond the axis, the area ends at
     /// the end of the axis.
     Band(Vec<(f64, f64, f64)>),
-    /// Line with more points than a picture resolves. Its range of x is divided into columns of equal width, and only the lowest
+    /// Line with more points than a picture resolves. The range of x is divided into columns of equal width, and only the lowest
     /// and the highest y of each column are kept.
     Envelope {
         /// The x of the left edge of the first column, and of the right edge of the last column.
@@ -268,7 +270,7 @@ pub enum Shape {
     Upright(f64),
     /// Horizontal line at this y from the left to the right end of the chart.
     Level(f64),
-    /// Heat map with one coloured cell for each pair of values of the axes.
+    /// Heat map with one coloured cell for each pair of a number on the horizontal axis and a number on the vertical axis.
     Map(Box<HeatMap>),
 }
 
@@ -287,7 +289,7 @@ pub enum Stroke {
     Sparse,
 }
 
-/// Sign at a point.
+/// Marker that is drawn at a point, such as a filled circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// Filled circle.
@@ -310,24 +312,24 @@ pub enum Sign {
     Cross,
     /// Open diamond.
     HollowDiamond,
-    /// Smallest mark that an output has, in a terminal a single Braille dot. Lines drawn over thousands of these marks remain
-    /// legible.
+    /// Smallest marker of an output format; in a terminal it is one Braille dot. Lines drawn over thousands of these markers
+    /// remain legible.
     Point,
 }
 
 impl Sign {
-    /// Returns the sign for one of several curves, which are numbered from 0.
+    /// Returns the marker for one of several curves of a chart. `number` is the number of this curve, from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
 }
 
-/// Heat map: values on a grid over two axes, shown by colours, with the scale of these colours.
+/// Heat map: values on a grid over two axes, which are shown by colours, and the scale of these colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// Number on the horizontal axis of each column of cells, ascending.
+    /// For each column of cells, its number on the horizontal axis. The numbers ascend.
     pub columns: Vec<f64>,
-    /// Number on the vertical axis of each row of cells, ascending.
+    /// For each row of cells, its number on the vertical axis. The numbers ascend.
     pub rows: Vec<f64>,
     /// Values of the cells, row by row from the lower left; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
@@ -340,16 +342,17 @@ pub struct HeatMap {
     pub classes: Vec<Option<usize>>,
     /// Classes that cells can have, such as regimes of adhesion; empty for a map without classes.
     pub class_names: Vec<Class>,
-    /// Line on the map along which another quantity has a given value; `None` for no line.
+    /// Line on the map along which a quantity has a given value; `None` for no line.
     pub contour: Option<Contour>,
 }
 
 /// Class of cells in a heat map, such as a regime of adhesion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Class {
-    /// Sign of the class in an SVG, PNG or PDF figure.
+    /// Marker of the class in an SVG, PNG or PDF figure.
     pub sign: Sign,
-    /// Letter that marks the class in a terminal if map cells are wide enough; `None` if the colour already shows the class.
+    /// Letter that marks the class in a terminal if the cells of the map are wide enough. `None` for a class without a letter,
+    /// for example if the colour of a cell already shows the class.
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,
@@ -357,31 +360,32 @@ pub struct Class {
     pub ink: Ink,
 }
 
-/// Line in a heat map along which a quantity other than that of the colours has a given value.
+/// Line in a heat map along which a quantity has a given value. This quantity may differ from the quantity that the colours show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Values of this other quantity in the cells, in the order of [`HeatMap::values`].
+    /// Values of the quantity of the line in the cells, in the order of [`HeatMap::values`]; `None` for a cell without a value.
     pub field: Vec<Option<f64>>,
-    /// Value that this other quantity has along the line, in its unit.
+    /// Value of the quantity along the line, in the unit of [`Self::field`].
     pub level: f64,
     /// Name of the line in the legend.
     pub name: Label,
 }
 
 impl HeatMap {
-    /// Returns the colour that the colour scale gives to a value.
+    /// Returns the colour of a value on the colour scale [`Self::key`].
     pub fn colour(&self, value: f64) -> Rgb {
         self.shades.at(self.key.share(value))
     }
 
-    /// Returns the band of equal colour to which a value belongs, for [`Shades::of_band`]: 0 for the lowest values, up to
-    /// [`Shades::BANDS`] − 1.
+    /// Returns the number of the colour band to which a value belongs, from 0 for the lowest values to [`Shades::BANDS`] − 1 for
+    /// the highest. [`Shades::of_band`] returns the colour of a band.
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the borders of the map cells around these values of an axis, one more than there are values. They are
-    /// coordinates, for which see [`ChartAxis::span`]. Inner borders are halfway between the coordinates of neighbouring values.
+    /// Returns the borders of the map cells along an axis, each cell around one of these values. They are coordinates as in
+    /// [`ChartAxis::span`], and one more than there are values. Inner borders are halfway between the coordinates of neighbouring
+    /// values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
@@ -401,19 +405,19 @@ impl HeatMap {
     }
 }
 
-/// Entry of a legend: a name, with the line, area or sign of each layer of this name.
+/// Entry of a legend: a name, with the line, area or marker of each layer of this name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Name of the layers.
     pub name: Label,
-    /// What the legend shows before the name, with its ink; several if the layers look different.
+    /// What the legend shows before the name, each with its ink. There are several if the layers of this name look different.
     pub samples: Vec<(Ink, Sample)>,
 }
 
 /// What a legend shows before a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
-    /// Line, sign, or a line with a sign on it.
+    /// Line, marker, or a line with a marker on it.
     Line(Option<Stroke>, Option<Sign>),
     /// A filled transparent area.
     Area,
@@ -421,9 +425,9 @@ pub enum Sample {
     Solid,
     /// A line across the chart, vertical or horizontal.
     Guide,
-    /// A level line of a map.
+    /// The line of a [`Contour`](crate::Contour).
     Contour,
-    /// A cell without a value.
+    /// A cell of a heat map without a value.
     Empty,
 }
 

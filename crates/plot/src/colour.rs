@@ -39,7 +39,7 @@ impl Palette {
         ]),
     };
 
-    /// Dark colours on a white background, which differ in lightness as those of [`Palette::DARK`].
+    /// Dark colours on a white background. As in [`Palette::DARK`], red, green, blue and magenta also differ in lightness.
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -50,7 +50,7 @@ impl Palette {
     };
 }
 
-/// What the coloured thing is, such as the loading. Each output format chooses the colour for it.
+/// Meaning of a line, area or text in a chart, such as loading. Each output format chooses a colour for each ink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
@@ -80,7 +80,7 @@ pub enum Ink {
 }
 
 impl Ink {
-    /// Returns the colour of the ink in a figure on white.
+    /// Returns the colour of the ink in a figure with a white background.
     pub fn on_paper(self) -> Rgb {
         let Palette { foreground, ansi, .. } = Palette::LIGHT;
         match self {
@@ -121,13 +121,13 @@ impl Shades {
     /// Number of bands of equal colour into which an SVG figure divides the colour scale.
     pub const BANDS: usize = 64;
 
-    /// Returns the colour of a band, counted from 0 at the lowest value.
+    /// Returns the colour of a band: one of [`Self::BANDS`] parts of the colour scale, counted from 0 at the lowest values.
     pub fn of_band(self, band: usize) -> Rgb {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
 
-    /// Returns nine colours of the scale at equal distances: the first is that of the lowest value, the last that of the
-    /// highest.
+    /// Returns nine colours at equal distances along the scale, from the colour of the lowest value to the colour of the highest
+    /// value.
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,

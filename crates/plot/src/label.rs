@@ -190,9 +190,9 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Returns the divisor and the unit with an SI prefix in which numbers up to `largest` are short: 1e-3 and `mN` for 0.02 N. For
-/// a unit that takes no prefix, such as rad/m, the divisor is 1. For numbers without a unit (`1` or empty) the returned unit is
-/// empty.
+/// Chooses an SI prefix with which numbers up to `largest` are short. Returns the divisor of the numbers and the unit with the
+/// prefix: 1e-3 and `mN` for 0.02 N. For a unit that takes no prefix, such as rad/m, the divisor is 1. For numbers without a unit
+/// (`1` or empty) the returned unit is empty.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());

@@ -2,7 +2,7 @@
 
 use asperity_data::AxisScale;
 
-/// Range of coordinates along an axis; see [`ChartAxis::span`](crate::ChartAxis::span). Its width is above zero.
+/// Range of coordinates along an axis; see [`ChartAxis::span`](crate::ChartAxis::span). The upper end is above the lower end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Lower end of the range.
@@ -16,7 +16,8 @@ const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
     /// Returns the range from the smallest to the largest finite coordinate, widened at each end by `room` times its width. If
-    /// all coordinates are equal, the range extends to both sides of them. Without coordinates it is 0 to 1.
+    /// all coordinates are equal, the range extends to both sides of their common value. If there are no coordinates, the range
+    /// is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
@@ -39,9 +40,9 @@ impl Span {
         Span { low: low - margin, high: high + margin }
     }
 
-    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it begins at zero if no value is
-    /// negative and the lowest value is at most 0.3 of the highest. On a logarithmic scale it has at most `decades` decades, so
-    /// that lower values are cut off.
+    /// Returns the range of coordinates for an axis that shows these values. On a linear scale the range begins at zero if no
+    /// value is negative and the lowest value is at most 0.3 times the highest. On a logarithmic scale the range has at most
+    /// `decades` decades, and smaller values are outside it.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -51,7 +52,7 @@ impl Span {
         }
     }
 
-    /// Returns the range of whole decades that contains these coordinates of a logarithmic scale. It has at least one decade.
+    /// Returns the smallest range of whole decades, at least one, that contains these coordinates of a logarithmic scale.
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();

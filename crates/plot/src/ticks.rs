@@ -9,9 +9,9 @@ const PLAIN: (f64, f64) = (-3.5, 4.5);
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Coordinate on the axis.
+    /// Coordinate of the tick; see [`ChartAxis::span`](crate::ChartAxis::span).
     pub at: f64,
-    /// Number at the tick; `None` at a minor tick.
+    /// Number or name that is written at the tick; `None` for a minor tick.
     pub label: Option<Label>,
 }
 

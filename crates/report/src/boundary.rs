@@ -34,8 +34,9 @@ impl Report for Boundaries {
         Some(sheet.into_text())
     }
 
-    /// Returns an entry for each boundary. If the boundary lies outside the studied range, the entry has the nearest end of this
-    /// range under `below` or `above`.
+    /// Returns an entry for each boundary: the κ or e_el/γ at which adhesion without a preload falls to a stated share of
+    /// F_a,max. If this value lies outside the studied range, the entry has the nearest end of the range under `below` or
+    /// `above`.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let object = |boundary: &AdhesionBoundary| {
             let mut object = Map::new();

@@ -31,8 +31,8 @@ pub struct CostReport<'a> {
 }
 
 impl<'a> CostReport<'a> {
-    /// Makes a report on the measured times and errors of a scene. A comparison with three dimensions, `reference`, adds the
-    /// error of the model.
+    /// Makes a report on the measured times and errors of a scene. `reference` is a comparison of the scene with a computation in
+    /// three dimensions. If it is given, the report also has the error of the model.
     pub fn new(
         title: &'a str,
         scene: &'a Scene,
@@ -44,8 +44,8 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
-    /// Returns text that begins with the numbers of springs and the times for errors of 1 % and 0.1 %. It ends with the settings
-    /// that were not tried or needed too much time or memory.
+    /// Returns text. It begins with the numbers of springs that give errors of 1 % and 0.1 %, and with their computing times. It
+    /// ends with the settings that were not tried or needed too much time or memory.
     fn text(&self) -> Option<String> {
         let table = self.table;
         let mut sheet = Sheet::default();
@@ -91,7 +91,7 @@ impl Report for CostReport<'_> {
         Some(Box::new(self))
     }
 
-    /// Returns a table with a row for each setting: its computing times in s, and its relative errors.
+    /// Returns a table with a row for each setting. A row has computing times in s and relative errors.
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.table.rows.iter())
             .with("knob", Kind::Text("sub-cell-springs".len()), |row| <&str>::from(row.knob))

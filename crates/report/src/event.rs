@@ -6,8 +6,9 @@ use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 /// force.
 const NEAR: f64 = 0.01;
 
-/// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or `contact spreads`. `branch` is the
-/// loading or unloading of `legs` (loading stages) on which the point lies. Returns `None` if the body does not move on it.
+/// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or `contact spreads`. `legs` are the
+/// loading stages of the history. `branch` is the loading or unloading among these stages on which the point lies. Returns `None`
+/// if the body does not move on this branch.
 pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
     let stages = &legs[branch.stages.clone()];
     let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);

@@ -11,19 +11,21 @@ use asperity_study::{Answer, Ensemble, Found};
 /// Largest number of listed profiles with several crossings. Further ones are counted.
 const MOST_LISTED: usize = 8;
 
-/// Report on the number of a scene, such as the preload, at which a result, such as the adhesion force, reaches a wanted value.
+/// Report on a search in a scene: which value of a number, such as the preload, gives a wanted value of a result, such as the
+/// adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Scene in which this number is searched.
+    /// Scene in which the number is varied.
     pub scene: &'a Scene,
-    /// Numbers found on each profile.
+    /// Answer: the values of the number that were found, on each profile.
     pub found: &'a Found,
 }
 
-/// Returns in one sentence the number at which the result reaches the wanted value: its median and quartiles over the profiles.
-/// If there is no such number, the sentence says that the value is reached always or never, and states the range of the result.
+/// Returns one sentence with the value of the number at which the result reaches the wanted value: median and quartiles over the
+/// profiles. If there is no such value, the sentence says whether the wanted value is reached always or never, and states the
+/// range of the result.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
     let (axis, count) = (&question.axis, found.answers.len());
@@ -210,8 +212,8 @@ impl Report for FindReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each profile: the number found, how often the result crosses the wanted value, and the
-    /// range of the result.
+    /// Returns a table with a row for each profile. A row has the value of the number that was found, how often the result
+    /// crosses the wanted value, and the range of the result.
     fn table(&self) -> Option<Table<'_>> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());

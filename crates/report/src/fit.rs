@@ -9,7 +9,8 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Report on a fit of a scene to one measured force curve: its parameters, and a figure with both curves and the residuals.
+/// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a figure with the measured curve,
+/// the computed curve and their difference.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
     /// Name of the file of the curve, which is the title of the report.

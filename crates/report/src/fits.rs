@@ -18,18 +18,18 @@ const BARS: (usize, usize) = (5, 40);
 /// One measured curve of many, with the result of its fit or with the reason why it was not fitted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurveRow {
-    /// Path of the file as it was given.
+    /// Path of the file of the curve, as the user gave it.
     pub file: String,
-    /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty without a fit.
+    /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if the curve was not fitted.
     pub parameters: Vec<[f64; 3]>,
-    /// Four numbers: the pull-off force in N, the work of adhesion in J/m² that a smooth sphere with this force has, the rms
+    /// Four numbers: the pull-off force in N, the work of adhesion in J/m² of a smooth sphere with this pull-off force, the rms
     /// residual divided by the noise, and the noise in N. A number that is unknown is `None`.
     pub facts: [Option<f64>; 4],
-    /// Number of points of the curve that are used; `None` without a fit.
+    /// Number of points of the curve that are used; `None` if the curve was not fitted.
     pub points: Option<u64>,
-    /// True if the model describes the curve; `None` without a fit.
+    /// True if the model describes the curve; `None` if the curve was not fitted.
     pub described: Option<bool>,
-    /// Reason why the model does not describe the curve; empty if the model does.
+    /// Reason why the model does not describe the curve; empty if there is no such reason, or if the curve was not fitted.
     pub reason: String,
     /// Reason why the curve was not read or not fitted; empty if the curve was fitted.
     pub error: String,
@@ -75,7 +75,7 @@ impl CurveRow {
     }
 
     /// Reads a row from a line of a CSV table that [`FitsReport`] wrote. `parameters` is the number of free parameters. Returns
-    /// `None` if the line has another number of cells or a cell that is no number.
+    /// `None` if the number of cells in the line is wrong, or if a cell that must have a number has none.
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
         let (file, rest) = cells.split_first()?;

@@ -14,15 +14,15 @@ pub enum LoopQuantities {
     ForceIndentation,
     /// Force over the displacement of the instrument.
     ForceDisplacement,
-    /// Total length of the springs in contact over the force.
+    /// Total length of all contact patches, over the force.
     LengthForce,
-    /// Number of contact patches over the indentation.
+    /// Number of contact patches, over the indentation.
     FragmentsIndentation,
 }
 
 impl LoopQuantities {
-    /// Returns the pair of quantities that follows in the explorer. `ForceDisplacement` is left out unless `deflects`, which is
-    /// true for an instrument that is not rigid.
+    /// Returns the pair of quantities that the explorer shows next after this pair. `deflects` is true for an instrument that is
+    /// not rigid. If it is false, `ForceDisplacement` is left out.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -73,9 +73,9 @@ impl LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
 
-    /// Returns these quantities for a computed scene and the stiffness of its instrument. If `normalised` is true, the
-    /// indentation is in units of the rms height h, the force in units of F_a,max and lengths in units of L; otherwise all are
-    /// in SI units.
+    /// Returns these quantities for a chart of a computed scene, whose instrument has the stiffness in the scene. If `normalised`
+    /// is true, the indentation is in units of the rms height h, the force in units of F_a,max and lengths in units of L;
+    /// otherwise all are in SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
         LoopUnits {
@@ -100,8 +100,8 @@ impl LoopUnits {
         self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
-    /// Returns true if a marked point, such as the pull-off, lies on the drawn curve. Over the displacement of the instrument
-    /// the jumps into and out of contact are not marked.
+    /// Returns true if a chart of these quantities shows this kind of marked point, such as the pull-off. A chart over the
+    /// displacement of the instrument does not show the jumps into and out of contact.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
@@ -158,26 +158,27 @@ impl LoopUnits {
     }
 }
 
-/// Force loop in a chart: the curves of loading and unloading, and how they are drawn. Without a name, ink or stroke of the
-/// loop, loading and unloading have different ones.
+/// Force loop in a chart: the curves of loading and unloading, and how they are drawn. If the loop has no name, ink or stroke of
+/// its own, loading and unloading differ in name, ink or stroke.
 #[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
     /// Points of the force curve of each loading stage, with the direction of the stage.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
-    /// Stiffness of the instrument in N/m, `None` for a rigid one. Over the displacement, a jump of the force on this instrument
-    /// is drawn dashed.
+    /// Stiffness of the instrument in N/m; `None` for a rigid instrument. In a chart over the displacement, a jump of the force
+    /// that this instrument shows is drawn dashed.
     pub stiffness: Option<f64>,
-    /// Marked points of the curves, such as preload and pull-off. The legend names them if the loop has no name.
+    /// Marked points of the curves, such as preload and pull-off. The legend has the names of these points if [`Self::name`] is
+    /// `None`.
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name of the loop in the legend; `None` for the two names `loading` and `unloading`.
     pub name: Option<Label>,
-    /// True if the legend names the marks without their forces, because several charts share the legend.
+    /// True if the legend has the names of the marked points without their forces, because several charts share the legend.
     pub without_forces: bool,
     /// Ink of the loop; `None` for [`Ink::Loading`] and [`Ink::Unloading`].
     pub ink: Option<Ink>,
-    /// Stroke of the loop; `None` for dotted loading and solid unloading.
+    /// Stroke of the loop. If it is `None`, the loading is dotted, and the unloading has the stroke [`Self::unloading`].
     pub stroke: Option<Stroke>,
-    /// Stroke of the unloading if [`Self::stroke`] is `None`; `None` for a solid line.
+    /// Stroke of the unloading, which is used if [`Self::stroke`] is `None`. If both are `None`, the unloading is a solid line.
     pub unloading: Option<Stroke>,
 }
 
@@ -185,13 +186,13 @@ pub struct ForceLoop<'a> {
 type Places = Vec<(f64, f64)>;
 
 impl<'a> ForceLoop<'a> {
-    /// Creates the loop of the loading stages of a history, with its marked points and without an instrument.
+    /// Creates the loop of the loading stages of a history, with the marked points of the history and a rigid instrument.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
         ForceLoop { curves, marks: Mark::all(legs), ..ForceLoop::default() }
     }
 
-    /// Creates the loop of a computed scene, with its marked points and on the instrument of the scene.
+    /// Creates the loop of a computed scene, with the marked points of its history and the instrument of the scene.
     pub fn of_outcome(outcome: &'a Outcome) -> ForceLoop<'a> {
         let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
         ForceLoop { stiffness, ..ForceLoop::new(&outcome.history.legs) }
@@ -268,8 +269,8 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 }
 
 /// Returns a figure of the force curves of computed scenes, each given with its title, in one chart. A single scene has one
-/// colour for loading and another for unloading. With several scenes, each has its own colour and stroke, and the legend
-/// explains the dotted loading and each sign once.
+/// colour for loading and another for unloading. Several scenes differ in colour, and neighbouring scenes in the stroke of the
+/// unloading too. The legend then explains the dotted loading and each marker once.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         return Figure::of_chart(title, loop_chart(&[ForceLoop::new(&outcome.history.legs)], units));
@@ -293,8 +294,8 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     Figure::of_chart("", chart)
 }
 
-/// Returns a figure with a chart for each of several computed scenes with titles. The heading of a chart has the adhesion
-/// force.
+/// Returns a figure with a chart of the force curve for each of several computed scenes, which are given with their titles. The
+/// heading of a chart has the title and the adhesion force of the scene.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let figure = |(title, outcome): &(&str, &Outcome)| {
         let one = ForceLoop { without_forces: true, ..ForceLoop::new(&outcome.history.legs) };
@@ -306,7 +307,7 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure::of_panels(scenes.iter().map(figure).collect())
 }
 
-/// Returns the sign with which charts show a marked point, such as ▼ for the pull-off.
+/// Returns the marker with which charts show a marked point, such as ▼ for the pull-off.
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,

@@ -42,8 +42,8 @@ pub struct SurfaceFile {
     pub points: Vec<usize>,
     /// Length of a row, and for a map the length of a column, m; 0 if the points are not evenly spaced.
     pub lengths: Vec<f64>,
-    /// Number of empty columns and of empty rows left out at the borders of a map. For a profile it is the number of points
-    /// without a height left out at its ends.
+    /// Numbers of columns and of rows left out at the borders of a map because they have no measured heights. For a profile it is
+    /// the number of points without a height left out at both ends.
     pub cropped: Vec<usize>,
     /// Number of points without a measured height, whose heights were interpolated.
     pub interpolated: usize,
@@ -109,7 +109,8 @@ impl SurfaceFile {
     }
 }
 
-/// Measured surfaces (profiles or maps) of one body, and their common analysis. All surfaces count as samples of one roughness.
+/// Measured surfaces (profiles or maps) of one body, and their common analysis. The analysis takes all surfaces as samples of the
+/// same roughness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
     /// Facts about each surface and its file.

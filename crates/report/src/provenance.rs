@@ -12,8 +12,8 @@ const HASH: &str = "sha256: ";
 /// Beginning of the line of the command.
 const COMMAND: &str = "command: ";
 
-/// Returns the lines at the head of a table that say how to repeat it: version, command, measured files with their SHA-256, and
-/// scene. Names of files in the scene are relative to `folder`; the table will be in the folder `destination`. An error is
+/// Returns the first lines of a table, which say how to compute it again: version, command, measured files with their SHA-256,
+/// and scene. Names of files in the scene are relative to `folder`; the table will be in the folder `destination`. An error is
 /// returned if a file cannot be read.
 pub fn scene_provenance(
     command: &str,
@@ -30,7 +30,7 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-/// Returns the lines for the metadata of a figure that say how to repeat it: version, command and scenes with their names.
+/// Returns lines for the metadata of a figure, which say how to compute it again: version, command and scenes with their names.
 /// Scenes without a name are left out.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     let named = scenes.iter().filter(|(name, _)| !name.is_empty());
@@ -45,8 +45,8 @@ pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     program.into_iter().chain(command.map(|command| ("command", command))).collect()
 }
 
-/// Returns the lines at the head of a table without a scene: version, command, and measured files with their SHA-256. The table
-/// will be in the folder `destination`. An error is returned if a file cannot be read.
+/// Returns the first lines of a table without a scene: version, command, and measured files with their SHA-256. The table will
+/// be in the folder `destination`. An error is returned if a file cannot be read.
 pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
@@ -99,8 +99,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Returns the name under which a table in the folder `destination` finds a file. `file` is its name relative to `folder`. The
-/// name stays as it is if both folders are the same; otherwise it becomes absolute.
+/// Returns the path of a file as it is written into a table in the folder `destination`. `file` is the path relative to `folder`.
+/// If both folders are the same, the path does not change; otherwise it becomes absolute.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

@@ -36,7 +36,8 @@ fn ratio(of: &Compared) -> String {
 /// Time in s above which a comparison takes long.
 const LONG: f64 = 10.0;
 
-/// Progress of a comparison with three dimensions in words. Such a comparison computes random rough squares one by one.
+/// Progress, in words, of a comparison of a scene with three dimensions. Such a comparison computes the contact of a number of
+/// random rough squares.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,
@@ -52,7 +53,7 @@ impl Default for ReferenceProgress {
 
 impl ReferenceProgress {
     /// Returns a line of text on an event of the comparison, such as a finished square. The second value is true if the line
-    /// announces a comparison of at least 10 s.
+    /// announces a comparison that will take at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
             ReferenceEvent::Begins { maps, threads, bytes, seconds, .. } => {
@@ -71,7 +72,7 @@ impl ReferenceProgress {
         }
     }
 
-    /// Returns in words how many squares are lost if the comparison is stopped now.
+    /// Returns in words how many finished squares are lost if the comparison is stopped now.
     pub fn lost(&self) -> String {
         match self.maps {
             0 => "stopped before the first square".to_owned(),
@@ -84,8 +85,9 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Returns in a few words how far the computation of force loops of random rough squares is. After the first square, the words
-/// have the ratio of profile to three dimensions: of the adhesion force, or of the indentation if `is_adhesive` is false.
+/// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. After the
+/// first square, the words also have a ratio: the adhesion force of the profiles divided by the adhesion force in three
+/// dimensions. If `is_adhesive` is false, it is the ratio of the indentations.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some(compared) = loops.headline() else {
@@ -101,7 +103,9 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     format!("{symbol} line/three dimensions {}{rest}", ratio(&compared))
 }
 
-/// Returns the error of the model in a sentence.
+/// Returns a sentence with the ratio of the mean over random profiles to the mean in three dimensions, and with the error of the
+/// model that follows from this ratio. The means are of the adhesion force, or of the indentation without adhesion. Returns
+/// `None` if the ratio is unknown.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let quantity = if reference.adhesion_force.is_some() { "the adhesion force" } else { "the indentation" };
@@ -256,8 +260,9 @@ impl Report for ReferenceReport<'_> {
         }))
     }
 
-    /// Returns a table of the loading without adhesion. For each force it has the indentation and the stiffness of both
-    /// computations and their ratio.
+    /// Returns a table of the loading without adhesion, which is computed with profiles and in three dimensions. A row has a
+    /// force and two quantities at this force, the indentation and the stiffness. Each quantity has three numbers: the mean over
+    /// profiles, the mean in three dimensions, and the ratio of the means.
     fn table(&self) -> Option<Table<'_>> {
         let rows = move || self.reference.loading.iter();
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);

@@ -9,8 +9,8 @@ use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
-/// Result that can be written in one or more of four forms: text, JSON, table, figure. The method of a form that a result lacks
-/// returns `None`.
+/// Result that can be written in one or more of four forms: text, JSON, table, figure. If a result lacks a form, the method of
+/// this form returns `None`.
 pub trait Report {
     /// Returns the result as plain text of at most 80 columns.
     fn text(&self) -> Option<String> {
@@ -45,9 +45,9 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// A figure is a result with the form of a figure. If it has one chart, it is also a table with the points of the curves.
+/// A figure can be written as a figure. If it has a single chart, it can also be written as a table of the points of the curves.
 impl Report for Figure {
-    /// Returns a table with a row for each point of each curve; `None` for several charts.
+    /// Returns a table with a row for each point of each curve; `None` for a figure of several charts.
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
@@ -70,7 +70,7 @@ impl Report for Figure {
 }
 
 /// Writes a report in a format. `provenance` has the lines of [`scene_provenance`](crate::scene_provenance), which say how to
-/// repeat the result. CSV and SVG contain all lines, JSON only version and command, and the other formats none.
+/// compute the result again. CSV and SVG contain all lines, JSON only version and command, and the other formats none.
 ///
 /// # Errors
 /// Returns an error if the report lacks the form that the format needs, or if the output cannot be written.
@@ -141,8 +141,8 @@ impl Format {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
-    /// Returns the format in which a result is written: the one that belongs to the extension of `file`. Without a file or an
-    /// extension it is the format that the user chose, or else `usual`. The result has only `formats`.
+    /// Returns the format in which a result is written. If `file` has an extension, it is the format of this extension. Otherwise
+    /// it is the format `chosen` by the user, or `usual` if the user chose none. `formats` are the formats that the result has.
     ///
     /// # Errors
     /// Returns an error if the chosen format is not among `formats`, if the extension belongs to none of them, or if the

@@ -13,9 +13,9 @@ const MOST_ROWS: usize = 16;
 /// Largest number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
-/// Report on the unloadings of one profile from many turning points, the indentations where its loading ends, and on their
-/// Everett function. At a turning point and an indentation this function is half of the fall of the force on unloading from the
-/// one to the other.
+/// Report on the unloadings of one profile from many turning points, and on the Everett function. A turning point is an
+/// indentation d_r at which the loading ends. For d_r and a smaller indentation d the Everett function is E(d_r, d) = ½ (F(d_r) −
+/// F(d_r, d)). Here F(d_r) is the force at the turning point, and F(d_r, d) is the force at d on the unloading from d_r.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
     /// Title of the scene.
@@ -27,7 +27,8 @@ pub struct ReversalReport<'a> {
     /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
     /// bodies together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force as a function of the preload, a staircase with the exact place of each step. Only the figure needs it.
+    /// Adhesion force as a function of the preload, a staircase with the exact place of each step. Only the figure shows it;
+    /// `None` leaves it out.
     pub staircase: Option<&'a Staircase>,
 }
 
@@ -54,7 +55,7 @@ impl Report for ReversalReport<'_> {
         Some(sheet.into_text())
     }
 
-    /// Returns for each turning point the forces and the Everett function at the indentations up to it.
+    /// Returns, for each turning point, the force and the Everett function at the indentations up to this turning point.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let ReversalReport { scene, map, preloads, .. } = *self;
         let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
@@ -79,7 +80,7 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// Returns a chart of the adhesion force over the preload, and a map of the Everett function.
+    /// Returns a figure with a chart of the adhesion force over the preload, and a heat map of the Everett function.
     fn figure(&self) -> Option<Figure> {
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),
@@ -101,7 +102,8 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
         .done()
 }
 
-/// Returns the chart of the Everett function in N, over the indentation and the turning point.
+/// Returns a heat map of the Everett function E(d_r, d) in N, which [`ReversalReport`] defines. The horizontal axis is the
+/// indentation d, and the vertical axis is the turning point d_r.
 pub fn everett_chart(map: &ReversalMap) -> Chart {
     // A subset of the points of a fine map: the eye cannot distinguish more cells.
     let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();

@@ -23,7 +23,7 @@ pub struct RunReport<'a> {
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
-    /// How the number of springs was chosen for a tolerance of the error; `None` without a tolerance.
+    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no tolerance was given.
     pub choice: Option<&'a Choice>,
     /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is unknown.
     pub estimate: Option<&'a Estimate>,
@@ -120,11 +120,11 @@ impl Report for RunReport<'_> {
 /// Report on a force curve along which the user moved the body by hand in the explorer.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Scene of the body. Its own loading is replaced by `loading`.
+    /// Scene of the body. The loading in the scene is replaced by [`Self::loading`].
     pub scene: &'a Scene,
     /// Stages of the loading, which begins at separation.
     pub loading: &'a [Move],
-    /// Points of the force curve along these stages.
+    /// Points of the force curve along the stages of [`Self::loading`].
     pub path: &'a [CurvePoint],
     /// For each point, the index of its stage in `loading`.
     pub stages: &'a [usize],
@@ -157,7 +157,7 @@ fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -
 /// Index of a loading stage, a point of its curve, and the displacement of the instrument in m.
 type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 
-/// Profile, whose table has the position x and the height z of every spring in m.
+/// A profile can be written as a table: a row has the position x and the height z of a spring in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
         let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));

@@ -25,8 +25,8 @@ struct Patches {
     patches: Vec<Patch>,
 }
 
-/// Contact patches of a scene for figures. They are collected while the loading stages are computed: at the largest force, and
-/// on request at many indentations of each stage.
+/// Collection of contact patches of a scene, from which figures are drawn. It is filled while the loading stages are computed. It
+/// has the patches at the largest force, and on request the patches at many indentations of each stage.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
@@ -44,8 +44,8 @@ impl ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
 
-    /// Adds the patches of a loading stage that was just computed. `record` has its force curve, and `leg` returns the patches
-    /// at any of its indentations.
+    /// Adds the patches of a loading stage that was just computed. `record` has the force curve of this stage, and `leg` returns
+    /// the patches at any indentation of this stage.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
@@ -68,7 +68,8 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// Returns the figure with the heights of the rigid profile, of the elastic surface and of the contact at the largest force.
+    /// Returns the figure of the contact at the largest force: heights of the rigid profile, of the elastic surface, and of the
+    /// parts in contact, over the position.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);

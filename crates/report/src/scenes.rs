@@ -12,7 +12,7 @@ use asperity_study::{Ensemble, Quantity};
 /// One of several computed scenes in a [`ScenesReport`].
 #[derive(Clone, Debug)]
 pub struct ComparedScene<'a> {
-    /// The scene as its file has it, with title and comments.
+    /// The scene as it is written in its file, with title and comments.
     pub document: &'a Document,
     /// Results on the profile of the scene.
     pub outcome: Outcome,
@@ -105,9 +105,9 @@ impl ScenesReport<'_> {
 }
 
 impl Report for ScenesReport<'_> {
-    /// Returns the titles, the fields in which each scene differs from the first one, and tables of the results with their
-    /// ratios to the first scene. The medians over random profiles come first, then the results on the own profile of each
-    /// scene.
+    /// Returns the titles, the fields in which each scene differs from the first one, and tables of the results with their ratios
+    /// to the results of the first scene. The medians over random profiles come first. The results on the profile that each scene
+    /// itself states follow.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let first = self.scenes.first()?.document;

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Rigid profile and its contact with the elastic surface at one indentation.
 #[derive(Clone, Copy)]
 pub struct SectionContact<'a> {
-    /// Depth of the profile below its highest point at each spring, m.
+    /// Gap at each spring, m: depth of the profile at this spring below the highest point of the profile.
     pub gaps: &'a [f64],
     /// Height of the highest point of the profile, m.
     pub summit: f64,
@@ -19,7 +19,8 @@ pub struct SectionContact<'a> {
     pub patches: &'a [Patch],
 }
 
-/// Range of at least one spring that a chart shows, and the number of equally wide columns into which the chart divides it.
+/// Range of springs that a chart shows, at least one spring, and the number of columns of equal width into which the chart
+/// divides this range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
     /// Index of the first spring.
@@ -33,8 +34,8 @@ pub struct Part {
 /// Largest number of columns of a profile in a picture.
 const DRAWN: usize = 1200;
 
-/// Lowest and highest point of a profile in each column of a [`Part`]. A [`SectionContact::section`] of the same part reuses
-/// them.
+/// Lowest and highest point of a profile in each column of a [`Part`], which [`SectionContact::section`] keeps here. The next
+/// call of this function with the same part reuses these points.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
@@ -64,13 +65,13 @@ pub struct Column {
     /// Heights of the lowest and the highest point of the elastic surface, m. In contact the surface follows the profile,
     /// elsewhere it is undeformed.
     pub surface: (f64, f64),
-    /// Heights of the lowest and the highest point of the profile in contact, m; `None` without contact.
+    /// Heights of the lowest and the highest point of those springs of the column that are in contact, m; `None` without contact.
     pub contact: Option<(f64, f64)>,
 }
 
 impl Section {
-    /// Returns the chart of the heights over the position. `line` has spacing and first spring of the profile, and `z` is the
-    /// range of the vertical axis, m.
+    /// Returns the chart of the heights over the position. `line` has the spring spacing of the profile and the index of its
+    /// first spring, and `z` is the range of the vertical axis in m.
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
         let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
         let x = (edge(self.first), edge(self.first + self.springs.max(1)));
@@ -122,14 +123,16 @@ impl SectionContact<'_> {
         self.summit - self.indentation
     }
 
-    /// Returns the runs of springs in contact among `springs`, each cut off at the ends of this range.
+    /// Returns the runs of neighbouring springs in contact within the range `springs`. A run that crosses an end of the range is
+    /// cut off there.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let begun = self.patches.partition_point(|patch| patch.last < springs.start);
         let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);
         touching.map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
-    /// Reduces a part of the profile to columns. `line` keeps heights between calls, so that each profile needs its own.
+    /// Reduces a part of the profile and its contact to the columns of a chart. `line` keeps the heights of the profile for the
+    /// next call, so that each profile needs its own `line`.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let Part { first, springs, columns } = part;
         if line.part != part {

@@ -14,14 +14,14 @@ const LEAST: f64 = 1.0;
 /// Half the height of a bar, divided by the distance of bars.
 const HALF: f64 = 0.35;
 
-/// Report on how far each number of a scene, changed by ±10 %, changes the results.
+/// Report on how much the results of a scene change if one of its numbers is changed by +10 % or −10 %, for each number in turn.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
     /// Scene whose numbers are changed.
     pub scene: &'a Scene,
-    /// Changes of the results for each number.
+    /// Changes of the results for each changed number.
     pub sensitivity: &'a Sensitivity,
 }
 
@@ -93,9 +93,9 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
 }
 
 /// Returns a table of the changes of the median results. The first two rows are headings and the medians of the unchanged scene.
-/// Two rows follow for each of at most `most` numbers, one for each change. The number with the largest influence on the
-/// adhesion force comes first. The first three columns are name, value and change of the number. The next two are the change of
-/// F_a and the range of this change on single profiles. The last two are the changes of F_a(d=0) and dissipated energy.
+/// Two rows follow for each of at most `most` numbers, one for each change. The number with the largest influence on the adhesion
+/// force comes first. The first three columns are name, value and change of the number. The next two are the change of F_a and
+/// the range of this change on single profiles. The last two columns are the changes of F_a(d=0) and of the dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
@@ -119,8 +119,9 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// Returns a bar chart of the changes of one result in per cent, with two bars for each changed number. `result` is an index of
-/// [`Sensitivity::RESULTS`]. At most `most` numbers have bars, the number with the largest influence at the top.
+/// Returns a bar chart of the changes of one result in per cent, with two bars for each changed number. `result` chooses this
+/// result; it is an index of [`Sensitivity::RESULTS`]. At most `most` numbers have bars, the number with the largest influence at
+/// the top.
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);

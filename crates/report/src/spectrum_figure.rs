@@ -18,13 +18,14 @@ const SELF_AFFINE: Stroke = Stroke::Dotted;
 /// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density in m³.
 pub type SpectrumPoint = (f64, f64);
 
-/// Power spectra of measured surfaces, of the random profile that replaces them, and of its computed heights.
+/// Three kinds of power spectra: of measured surfaces, of the random profile that replaces these surfaces, and of the heights
+/// that were computed for this profile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,
-    /// Intended spectrum of the profile; empty for none.
+    /// Spectrum that the profile should have according to the scene or to the measured surfaces; empty if there is none.
     pub line: Vec<SpectrumPoint>,
-    /// Spectrum computed from the heights of the profile, averaged over ranges of wave numbers; empty for none.
+    /// Spectrum computed from the heights of the profile, averaged over ranges of wave numbers; empty if it was not computed.
     pub heights: Vec<SpectrumPoint>,
 }
 
@@ -87,9 +88,9 @@ impl Spectra {
         Spectra { measured: layers, line: over(&|q| isotropic.line(q)), heights: Vec::new() }
     }
 
-    /// Returns the spectra of the measured surfaces of one body, or of both bodies in contact. Each [`Analysis`] is of one body.
-    /// For one body the fits to its spectrum are shown too. For two bodies the intended spectrum of the profile is for the sum
-    /// of both roughnesses.
+    /// Returns the spectra of the measured surfaces of one body, or of both bodies in contact. Each [`Analysis`] belongs to one
+    /// body. If there is one body, the result also has the fits to its spectrum. If there are two bodies, [`Self::line`] is the
+    /// sum of their spectra, that is the spectrum of a profile that replaces both rough surfaces.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),
@@ -101,7 +102,7 @@ impl Spectra {
         Spectra { measured: measured(faces), line, heights: Vec::new() }
     }
 
-    /// Returns the chart of all these spectra over the wave number.
+    /// Returns the chart of all spectra over the wave number.
     pub fn chart(&self) -> Chart {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {

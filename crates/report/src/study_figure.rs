@@ -29,8 +29,8 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
     (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
-/// Returns a figure with these charts of a parameter study. Lines below its title state the axes of the study that are kept at
-/// one value.
+/// Returns a figure with these charts of a parameter study. Lines below the title state the axes of the study that do not vary in
+/// the charts, each with its value.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
@@ -38,9 +38,10 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// Returns the map of the mean of a quantity over both axes of a study; `None` for a study along one axis. Signs or letters on
-/// the map show the regimes, and a line shows where adhesion without a preload vanishes. If `whole` is true, a cell that is not
-/// computed yet shows the value of a computed cell nearby; otherwise it is empty.
+/// Returns a heat map of a quantity, which is the mean over the random profiles, over both axes of `grid`. Returns `None` if
+/// `grid` has one axis. Markers, in a terminal letters, show the regimes. A line shows where the adhesion force without a preload
+/// falls to [`Regime::VANISHING_SHARE`] of F_a,max. A cell of the map whose values are not computed yet is empty. If `whole` is
+/// true, it shows the value of a computed cell nearby instead.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.statistics(quantity, whole));
@@ -89,8 +90,8 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Returns a chart of a quantity over the first axis of a study, with a curve for each value of the second axis. If the values
-/// extend over many decades, a second chart shows them on a logarithmic scale.
+/// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the second axis. If the quantity
+/// extends over many decades, a second chart shows the same curves with a logarithmic vertical axis.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);

@@ -20,8 +20,9 @@ const LINE_PER_DECADE: f64 = 10.0;
 
 const LINE: &str = "equivalent line";
 
-/// Returns in words median, quartiles and range of the adhesion force over random profiles that replace a measured surface. The
-/// words end with the interval due to errors of the fitted spectrum. Returns `None` for fewer than two profiles.
+/// Returns in words median, quartiles and range of the adhesion force over random profiles that replace a measured surface. At
+/// the end they have the interval of the adhesion force that follows from errors of the fitted spectrum. Returns `None` for fewer
+/// than two profiles.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
     let fit = computed.fit_interval().map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));
@@ -31,16 +32,16 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
 /// Report on the measured surfaces of one body or of both bodies in contact, and on the adhesion of this contact.
 #[derive(Clone, Debug)]
 pub struct SurfaceReport {
-    /// Surfaces of the first body, and those of the opposite body if it was measured too.
+    /// Measured surfaces: one entry for the first body, and a second entry for the opposite body if it was measured too.
     pub faces: Vec<MeasuredFace>,
-    /// Spectrum of the random profiles that replace the surfaces of both bodies.
+    /// Spectrum of the random profiles that replace the measured surfaces.
     pub line: EquivalentLine,
     /// Effective modulus E*, Pa; `None` if it is not given.
     pub modulus: Option<f64>,
     /// Work of adhesion γ, J/m²; `None` if it is not given.
     pub work: Option<f64>,
-    /// Scene with these random profiles and its results on them; `None` if no adhesion was requested. The results alone are
-    /// `None` if the scene has many springs and the user did not request them.
+    /// Scene with the random profiles of [`Self::line`], and the adhesion computed on them; `None` if no adhesion was requested.
+    /// The second value alone is `None` if the scene has many springs and the user did not request its results.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
@@ -85,8 +86,8 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// Returns the results on the first body, and in the entry `opposite` those on the opposite body. Only the first has the
-    /// random profiles that replace both surfaces (`equivalent_line`) and their adhesion.
+    /// Returns the analysis of the first body, and in the entry `opposite` the analysis of the opposite body. The analysis of the
+    /// first body also has the random profiles that replace both surfaces (`equivalent_line`) and the adhesion of these profiles.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));

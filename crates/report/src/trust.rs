@@ -39,9 +39,9 @@ pub(crate) fn trust(
     }
 }
 
-/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has the name of a theory, and in
-/// words its number and whether the bodies adhere. The name is empty for a further row of the same theory. This program comes
-/// last.
+/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has two texts: the name of a
+/// theory, and its number, such as e_el/γ, with the verdict whether the bodies adhere. If a theory has several rows, only the
+/// first has the name. The last rows have the result of this program.
 pub fn theory_rows(
     scene: &Scene,
     outcome: &Outcome,

@@ -30,12 +30,14 @@ pub struct EnsembleFit {
     pub closing_over_opening: f64,
     /// Correlation of the errors of ln γ and ln E*, from −1 to 1; 0 for a given E*.
     pub correlation: f64,
-    /// How much each source contributes to the uncertainty of the work of adhesion.
+    /// How much the number of curves, the number of profiles and the errors of the roughness contribute to the
+    /// uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// How narrow the interval of the work of adhesion would be with 16, 64 and 256 measured curves. Numbers up to that of the
-    /// present curves are left out.
+    /// How narrow the interval of the work of adhesion would be with 16, 64 and 256 measured curves. Numbers that do
+    /// not exceed the present number of curves are left out.
     pub prospects: Vec<Prospect>,
-    /// Changes of γ and E* with the rms height and the Hurst exponent of the scene; `None` for a measured roughness.
+    /// Changes of γ and E* that errors of the rms height and of the Hurst exponent of the scene cause; `None` for a
+    /// measured roughness.
     pub roughness: Option<RoughnessShifts>,
     /// Sentence about the stiffness of the instrument that the files of the curves state; `None` if the scene is used
     /// unchanged.
@@ -50,29 +52,33 @@ pub struct EnsembleFit {
     /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise only. If there is a value,
     /// each random profile is loaded to the preload of one of the curves, otherwise to the mean preload.
     pub preload_scatter: Option<f64>,
-    /// Results that each single curve gives.
+    /// Results of each measured curve when it is used without the others.
     pub curves: Vec<CurveOfEnsemble>,
-    /// Standard deviation of ln γ from single measured curves, divided by that from single random profiles. If E* is free,
-    /// ln E* counts too. The ratio should be about 0.8 to 1.2; it is `None` for fewer than 4 curves.
+    /// Standard deviation of ln γ between measured curves, divided by the standard deviation of ln γ between random
+    /// profiles. Each curve and each profile gives one γ. If E* is free, the scatter of ln E* is included. The ratio
+    /// should be about 0.8 to 1.2. It is `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
-    /// True if random profiles describe the measured curves, so that [`SummaryDeviation::deviates`] is false for all summaries.
+    /// True if random profiles describe the measured curves. This means that [`SummaryDeviation::deviates`] is false in
+    /// all [`Self::deviations`].
     pub described: bool,
-    /// Differences between the measured curves and the random profiles, one for each number such as the pull-off force.
+    /// Differences between the measured curves and the random profiles, one for each number that is computed from a
+    /// curve, such as the pull-off force.
     pub deviations: Vec<SummaryDeviation>,
     /// True if the interval of γ or E* reaches an end of the range of values for which curves were computed. The true
     /// interval is then wider.
     pub at_end_of_table: bool,
 }
 
-/// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of its interval. Their sum is 1.
+/// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of its interval. The three
+/// shares have the sum 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Shares {
-    /// Share due to the limited number of curves.
+    /// Share of the uncertainty that comes from the limited number of measured curves.
     pub places: f64,
-    /// Share due to the limited number of random profiles.
+    /// Share of the uncertainty that comes from the limited number of random profiles.
     pub profiles: f64,
-    /// Share due to the stated errors of the roughness.
+    /// Share of the uncertainty that comes from the stated errors of the roughness.
     pub roughness: f64,
 }
 
@@ -82,7 +88,7 @@ pub struct Shares {
 pub struct Prospect {
     /// Number of measured curves.
     pub curves: u64,
-    /// Half the width of the 95 % interval of ln γ with this number.
+    /// Half the width of the 95 % interval of ln γ with this number of curves.
     pub half_width: f64,
 }
 
@@ -101,26 +107,27 @@ pub struct RoughnessShifts {
     pub modulus_by_hurst: f64,
 }
 
-/// Results that one of the compared curves gives by itself.
+/// Results of one measured curve when it is used without the others.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct CurveOfEnsemble {
-    /// Name of the curve.
+    /// Name of the curve, as it was given to [`fit_ensemble`](crate::fit_ensemble).
     pub name: String,
     /// Largest force of the curve, N.
     pub preload: f64,
     /// Largest tensile force of the curve, N; `None` if it is at most 5 times the noise.
     pub pull_off_force: Option<f64>,
-    /// Area between approach and retraction over the displacement of the instrument, J.
+    /// Area between approach and retraction in a chart of the force over the displacement of the instrument, J.
     pub loop_area: f64,
-    /// Half the preload divided by the displacement on the retraction from the preload to half the preload, N/m.
+    /// Stiffness at the beginning of the retraction, N/m: half the preload, divided by the change of the displacement
+    /// while the force falls from the preload to half the preload.
     pub stiffness: f64,
     /// Work of adhesion found from this single curve, J/m².
     pub work: IntervalEstimate,
     /// True if the interval from this single curve reaches an end of the range of values for which curves were computed.
     pub at_end_of_table: bool,
-    /// True if this curve deviates from the mean of the random profiles more than 999 of 1000 of them do. Its place may then
-    /// differ from the others.
+    /// True if this curve deviates from the mean of the random profiles by more than 999 of 1000 random profiles do.
+    /// The place of the specimen at which it was measured may then differ from the other places.
     pub foreign: bool,
 }
 
@@ -131,11 +138,12 @@ pub struct CurveOfEnsemble {
 pub struct SummaryDeviation {
     /// Name of the summary, such as `pull-off force`.
     pub summary: &'static str,
-    /// Mean of the natural logarithm of the summary over the measured curves, minus its mean over the random profiles.
+    /// Mean of the natural logarithm of the summary over the measured curves, minus the mean over the random profiles
+    /// with the fitted γ and E*.
     pub logarithm: f64,
     /// [`Self::logarithm`] divided by its standard error.
     pub deviation: f64,
-    /// True if the magnitude of [`Self::deviation`] exceeds a limit that all summaries keep in 99 % of equally many random
-    /// profiles.
+    /// True if the magnitude of [`Self::deviation`] exceeds a limit. Random profiles replace the measured curves to
+    /// find this limit: in 99 % of such trials no summary exceeds it.
     pub deviates: bool,
 }

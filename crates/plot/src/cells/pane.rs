@@ -25,31 +25,35 @@ const BELOW: RangeInclusive<u16> = 3..=7;
 /// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
-/// Chart in a pane of the terminal, with names beside its curves. Further charts can be on its right and below it.
+/// Chart in a pane, which is a part of the screen of the terminal. The names of the curves are written beside the curves. A
+/// second chart can be on the right, and a third one below.
 pub struct PaneChart {
     /// Main chart.
     pub chart: Chart,
-    /// Texts beside points of the chart, in addition to the names of its layers, which are drawn without being listed here.
+    /// Further texts to write beside points of the chart. The names of the layers are always written and are not listed here.
     pub names: Vec<Name>,
     /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
-    /// Chart of a few rows below the main chart, with the same horizontal axis. It is shown only in a pane of at least 11 rows.
+    /// Chart of a few rows below the main chart, with the same horizontal axis. It is shown only in a pane with at least 11 rows
+    /// of text.
     pub below: Option<Chart>,
-    /// Springs in contact, which are shown by signs in place of the line below the plot; empty for no signs.
+    /// Row of characters directly below the plot that shows which springs are in contact. It is omitted if it has no springs.
     pub contact: ContactRow,
 }
 
-/// Springs in contact along the horizontal axis of a chart.
+/// Row of characters below a chart that shows where springs along the horizontal axis are in contact. `■` means that all springs
+/// at this place are in contact, `▪` that some are, and `·` that none is.
 #[derive(Default)]
 pub struct ContactRow {
-    /// Whether each spring is in contact, from left to right.
+    /// For each spring, from left to right, true if the spring is in contact. Empty for no row.
     pub springs: Vec<bool>,
-    /// Both ends of a part of the axis that brackets mark, from 0 at the left end of the axis to 1 at the right end.
+    /// Part of the axis that brackets mark, as positions of its two ends: 0 is the left end of the axis, 1 the right end. `None`
+    /// for no brackets.
     pub marked: Option<(f64, f64)>,
 }
 
-/// Divides an area of the screen between a chart and a second chart on its right. The second part is `None` if the area is too
-/// narrow for both.
+/// Divides an area of the screen into a left part for a chart and a right part for a second chart. The right part is `None` if
+/// the area is too narrow for two charts.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);
@@ -87,8 +91,8 @@ impl PaneChart {
         PaneChart { chart, names: Vec::new(), beside: None, below: None, contact: ContactRow::default() }
     }
 
-    /// Divides an area of the screen as [`Self::draw`] does. Returns the place of the main chart, and the area of the chart on
-    /// its right if that is shown.
+    /// Divides an area of the screen in the same way as [`Self::draw`]. Returns the place of the main chart and the area of the
+    /// chart on the right. The latter is `None` if no chart is shown on the right.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() { split(area) } else { (area, None) };
         let left = Rect { height: left.height - self.rows_below(area), ..left };
@@ -146,8 +150,7 @@ impl PaneChart {
         }
     }
 
-    /// Draws all charts and texts into `area`. Returns the legend entries of the curves beside which there was no room for their
-    /// names.
+    /// Draws all charts and texts into `area`. Returns the legend entries of those curves whose names found no room in the chart.
     pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;

@@ -27,15 +27,16 @@ const DOTS: (u16, u16) = (2, 4);
 /// Text that [`CellPlot::draw_name`] draws beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Possible points, as numbers on both axes. The text is drawn beside the first of them that has room.
+    /// Points (x, y) on the axes of the chart beside which the text may be written. The first point with enough room is used.
     pub at: Vec<(f64, f64)>,
-    /// The text, and shorter texts in its place if the room does not suffice for it, longest first.
+    /// Alternative texts, from the longest to the shortest. The first one that fits is written.
     pub texts: Vec<String>,
     /// Ink of the text.
     pub ink: Ink,
 }
 
-/// Area of the screen for one chart, divided into the plot and the scales: the numbers on the left of the plot and below it.
+/// Area of the screen for one chart, divided into the plot and its scales. The scales are the numbers on the left of the plot and
+/// below it.
 pub struct CellPlot {
     /// Area of the plot without the scales.
     pub plot: Rect,
@@ -49,7 +50,8 @@ pub struct CellPlot {
 }
 
 impl CellPlot {
-    /// Divides an area of the screen between the plot and the scales of a chart. In a low or narrow area scales are left out.
+    /// Divides an area of the screen between the plot and the scales of a chart. If the area is low or narrow, scales are left
+    /// out.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let line = area.height >= WITH_LINE_BELOW;
         CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
@@ -73,9 +75,9 @@ impl CellPlot {
         CellPlot { plot, left, between, line: false, below, label }
     }
 
-    /// Returns the numbers on both axes at a screen cell, given by column and row. In a chart without a heat map they belong to
-    /// the middle of this cell, or of the nearest cell of the plot. On a heat map they are the values of the map cell drawn
-    /// there, and `None` outside the map.
+    /// Returns the point (x, y) on the axes of the chart at a cell of the screen, which is given by column and row. In a chart
+    /// without a heat map this is the middle of the cell; a cell outside the plot counts as the nearest cell of the plot. In a
+    /// heat map it is the pair of axis values whose map cell is drawn there, and `None` outside the map.
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {
@@ -96,8 +98,8 @@ impl CellPlot {
         Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
 
-    /// Returns column and row of the screen cell at a point, given as numbers on both axes. For a point outside the chart it is
-    /// `None`, or on a heat map the nearest cell at the edge.
+    /// Returns column and row of the cell of the screen that contains the point (x, y) on the axes of the chart. Returns `None`
+    /// for a point outside the chart; in a heat map such a point has the nearest cell at the edge.
     pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
@@ -142,7 +144,8 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes the first text of a name that fits on blank cells beside one of its points. Returns false if no text fits.
+    /// Writes the longest text of a name that fits on blank cells beside one of the points [`Name::at`]. Returns false if no text
+    /// fits.
     pub fn draw_name(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>, name: &Name) -> bool {
         let pairs = name.texts.iter().flat_map(|text| name.at.iter().map(move |at| (text, *at)));
         for (text, at) in pairs {

@@ -6,25 +6,26 @@ use ratatui::style::{Color, Style};
 
 /// Appearance of a chart in a terminal: the style of each [`Ink`], and the colours that the terminal has.
 pub struct CellStyle<'a> {
-    /// Function that returns the style, such as the colour, of an ink.
+    /// Function that returns the style in which things of an ink are drawn, such as their colour.
     pub ink: &'a dyn Fn(Ink) -> Style,
-    /// Colours that the terminal has.
+    /// Colours that the terminal can show.
     pub colours: Colours,
 }
 
-/// Colours that a terminal has.
+/// Colours that a terminal can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// No colours. A heat map is drawn with the characters [`SHADES`](crate::SHADES).
+    /// Terminal without colours. A heat map is drawn with the characters [`SHADES`](crate::SHADES).
     None,
-    /// The 256 fixed colours of a terminal of 8 bits.
+    /// Terminal with 256 fixed colours (8 bits).
     Palette,
-    /// All colours of 24 bits.
+    /// Terminal with all colours of red, green and blue (24 bits).
     All,
 }
 
 impl Colours {
-    /// Returns the colour of the terminal that is nearest to this one.
+    /// Converts red, green and blue to a colour that this terminal can show. If the terminal has 256 fixed colours, the result is
+    /// a similar one of these colours. A terminal without colours uses its default colour.
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;
@@ -36,7 +37,7 @@ impl Colours {
     }
 }
 
-/// Returns the character of a sign.
+/// Returns the character of a marker.
 pub fn glyph(sign: Sign) -> &'static str {
     match sign {
         Sign::Dot => "●",
