@@ -17,7 +17,7 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// Number of random profiles unless another number is requested.
+    /// Usual number of random profiles, for a caller that requests no other number.
     pub const PROFILES: u64 = 16;
 
     /// Sentence that is shown for a scene with a fixed profile.
@@ -33,7 +33,7 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Quantities that a table with one row for each profile has in addition to [`Ensemble::NUMBERS`].
+    /// Quantities that are recorded in addition to [`Ensemble::NUMBERS`] for a table with one row for each profile.
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -42,8 +42,8 @@ impl Ensemble {
         Quantity::TaborNumber,
     ];
 
-    /// Returns the number of profiles on which a scene is computed unless another number is requested. It is
-    /// [`Ensemble::PROFILES`], but 1 for a fixed profile and for the solver [`Solver::Stepwise`], which takes long.
+    /// Returns the usual number of profiles for a scene. It is 1 if the profile of the scene is fixed or the solver is the slow
+    /// [`Solver::Stepwise`]. For all other scenes it is [`Ensemble::PROFILES`].
     pub fn profiles_of(scene: &Scene) -> u64 {
         let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
         if several { Ensemble::PROFILES } else { 1 }
@@ -54,7 +54,7 @@ impl Ensemble {
     ///
     /// `workers` is a pair: the simulation with which the first thread computes, and the number of threads that share the
     /// profiles. The results do not depend on the number of threads. After each profile `report` receives the number of
-    /// profiles so far, and a function that returns a copy of the ensemble so far.
+    /// computed profiles, and a function that returns a copy of the ensemble with the computed profiles.
     ///
     /// # Errors
     /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the memory does not
@@ -93,7 +93,7 @@ impl Ensemble {
         self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
 
-    /// Returns the values on all profiles, as results of a study whose only cell is the scene itself.
+    /// Returns the values on all profiles as the results of a study without axes.
     pub fn results(&self) -> &Results {
         &self.results
     }

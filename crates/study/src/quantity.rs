@@ -190,20 +190,20 @@ quantities! {
 }
 
 impl Quantity {
-    /// F_a(d=0)/F_a,max and F_a(F=0)/F_a,max: both adhesion forces without a preload, divided by the ideal adhesion force.
+    /// Both adhesion forces without a preload, F_a(d=0) and F_a(F=0), each divided by the ideal adhesion force F_a,max.
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
     /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns in words which regimes a map of this quantity shows: `turned at zero force` for
-    /// [`Quantity::RegimeAfterZeroForce`], `turned at first touch` for any other quantity.
+    /// Returns the loop from which the regimes on a map of this quantity follow: `turned at zero force` for
+    /// [`Quantity::RegimeAfterZeroForce`], and `turned at first touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }
     }
 
-    /// Returns the same as [`Quantity::protocol`] in short, for a title or a legend: `F=0` or `d=0`.
+    /// Returns the turning point of the loop that [`Quantity::protocol`] names: `F=0` for zero force, `d=0` for first touch.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "d=0" }
     }
@@ -272,12 +272,12 @@ impl Quantity {
         }
     }
 
-    /// Returns what the quantity is, in one line.
+    /// Returns the meaning of the quantity as one line of text, such as `adhesion force after the preload`.
     pub const fn meaning(self) -> &'static str {
         self.row().meaning
     }
 
-    /// Returns the smallest and the largest value that the quantity can have, in its SI unit. Both may be infinite.
+    /// Returns the smallest and the largest value that the quantity can have, in its SI unit. A missing bound is −∞ or ∞.
     pub const fn bounds(self) -> (f64, f64) {
         self.row().bounds
     }

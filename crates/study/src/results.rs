@@ -30,26 +30,27 @@ pub struct Results {
     failed: BTreeMap<u64, String>,
 }
 
-/// What [`merge`](crate::merge) found in the files of a study, each of which one process has written. A record has the values
-/// of one [cell](Plan) on one random profile.
+/// What [`merge`](crate::merge) found in the files of a study. Each file was written by one process. A record has the values of
+/// one [cell](Plan) on one random profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of records in the files, without repetitions.
+    /// Number of different records in the files. A record that occurs again is not counted again.
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
-    /// First records without values, each with the number of the cell, the seed of the profile and the reason.
+    /// First few of the records that cannot be computed, each with the number of the cell, the seed of the profile and the
+    /// reason.
     pub first_failed: Vec<(u64, u64, String)>,
-    /// Number of records of the complete study.
+    /// Number of records that the study has once it is complete.
     pub total: u64,
-    /// Number of records that occur again with exactly the same values.
+    /// Number of repetitions: records that occur again with exactly the same values.
     pub duplicates: u64,
     /// Number of incomplete or damaged lines in the files. These lines are left out.
     pub damaged: u64,
     /// Number of cells that lack the records of some profiles.
     pub missing_cells: u64,
-    /// Numbers of the first cells that lack the records of some profiles.
+    /// Numbers of the first few cells that lack the records of some profiles.
     pub first_missing: Vec<u64>,
     /// Number of files that have at least one record.
     pub files: usize,
@@ -96,8 +97,9 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// Makes a study in memory that has no values yet. Its only cell is a checked scene on `lines` random profiles, with the
-    /// quantities `record`. With an axis of `preloads` in N it has a cell for each preload, which replaces the loading.
+    /// Makes a study in memory that has no values yet. The study has no axis: it is a checked scene on `lines` random profiles,
+    /// with the recorded quantities `record`. If `preloads` is an axis of preloads in N, the study has this axis, and each
+    /// preload replaces the loading of the scene.
     ///
     /// # Errors
     /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an error if `preloads` are
@@ -137,8 +139,8 @@ impl Results {
     }
 
     /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` is a pair: the simulation with which
-    /// the first thread computes, and the number of threads. After each profile `report` is called on this thread, with the
-    /// results so far.
+    /// the first thread computes, and the number of threads. After each profile `report` receives the results so far, on the
+    /// calling thread.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
@@ -269,7 +271,8 @@ impl Results {
         }
     }
 
-    /// Returns what cannot be computed: number of the cell, index of the profile, and reason.
+    /// Returns the cells that cannot be computed on a profile: the number of the [cell](Plan), the index of the profile, and
+    /// the reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
         self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
@@ -292,9 +295,9 @@ impl Results {
         &self.plan
     }
 
-    /// Returns the values of a cell on the profile with the index `line`, in the order of [`Plan::record`]. `None` if the
-    /// profile is not computed or cannot be computed. A quantity without a value is NaN. A regime is an index into
-    /// [`asperity_scene::Regime::ALL`].
+    /// Returns the values of the quantities in a [cell](Plan) on the profile with the index `line`, in the order of
+    /// [`Plan::record`]. `None` if they are not computed or cannot be computed. A quantity without a value is NaN. A regime is
+    /// an index into [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -318,7 +321,8 @@ impl Results {
         regime_of(self.value(cell, line, regime)?)
     }
 
-    /// Returns the values of a cell on all profiles that have values, each with the index of the profile.
+    /// Returns the index of each profile on which a [cell](Plan) is computed, with the values of the quantities in the order of
+    /// [`Plan::record`].
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
@@ -327,7 +331,8 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true if the cell is computed, or cannot be computed, on each profile.
+    /// Returns true if there is nothing left to compute in a [cell](Plan): on each profile it is either computed or cannot be
+    /// computed.
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
