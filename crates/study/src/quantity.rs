@@ -90,7 +90,8 @@ quantities! {
         symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
     }
     FirstTouchAdhesionForce {
-        name: "first_touch_adhesion_force", meaning: "adhesion force turned at first touch",
+        name: "first_touch_adhesion_force",
+        meaning: "adhesion force F_a(d=0) of a loop that turns at first touch",
         symbol: "F_a(d=0)", unit: "N", needs: Needs::Touch, of: |case| case.first_touch,
     }
     FirstTouchAdhesionShare {
@@ -101,7 +102,7 @@ quantities! {
     }
     ZeroForceAdhesionForce {
         name: "zero_force_adhesion_force",
-        meaning: "adhesion force turned at zero force",
+        meaning: "adhesion force F_a(F=0) of a loop that turns at zero force",
         symbol: "F_a(F=0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
     }
     ZeroForceAdhesionShare {
@@ -140,12 +141,12 @@ quantities! {
         symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {
-        name: "tabor_number", meaning: "Tabor number, which is small if the attraction is long-ranged",
+        name: "tabor_number", meaning: "Tabor number, small for long-ranged attraction",
         symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
         name: "contact_fraction",
-        meaning: "total length in contact, largest value on the loading, divided by the length L of the profile",
+        meaning: "largest contact length on the loading, divided by the length L of the profile",
         bounds: SHARE, of: |case| case.contact_fraction(),
     }
     Fragments {
@@ -162,12 +163,12 @@ quantities! {
     }
     StiffnessExponent {
         name: "stiffness_exponent",
-        meaning: "exponent of the stiffness without adhesion, k ∝ F^α",
+        meaning: "exponent α of the stiffness k without adhesion, k ∝ F^α",
         symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.0),
     }
     ForceExponent {
         name: "force_exponent",
-        meaning: "exponent of the force without adhesion, F ∝ dⁿ",
+        meaning: "exponent n of the force F without adhesion, F ∝ dⁿ",
         symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.1),
     }
     RmsHeight {

@@ -39,8 +39,8 @@ pub struct Merged {
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
-    /// First few of the records that cannot be computed, each with the number of the cell, the seed of the profile and the
-    /// reason.
+    /// First few of the records that cannot be computed, each with the number of the [cell](Plan), the seed of the profile and
+    /// the reason.
     pub first_failed: Vec<(u64, u64, String)>,
     /// Number of records that the study has once it is complete.
     pub total: u64,
@@ -48,9 +48,9 @@ pub struct Merged {
     pub duplicates: u64,
     /// Number of incomplete or damaged lines in the files. These lines are left out.
     pub damaged: u64,
-    /// Number of cells that lack the records of some profiles.
+    /// Number of [cells](Plan) that lack the records of some profiles.
     pub missing_cells: u64,
-    /// Numbers of the first few cells that lack the records of some profiles.
+    /// Numbers of the first few [cells](Plan) that lack the records of some profiles.
     pub first_missing: Vec<u64>,
     /// Number of files that have at least one record.
     pub files: usize,
@@ -308,15 +308,15 @@ impl Results {
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
-    /// Returns the value of a quantity in a cell on the profile with the index `line`, in its SI unit. `None` if the quantity
-    /// is not recorded or has no value.
+    /// Returns the value of a quantity in a [cell](Plan) on the profile with the index `line`, in its SI unit. `None` if the
+    /// quantity is not recorded or has no value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
         self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
     }
 
-    /// Returns the regime of adhesion of a cell on the profile with the index `line`; `None` if it is not recorded or not
-    /// known. `regime` is one of [`Quantity::REGIMES`].
+    /// Returns the regime of adhesion of a [cell](Plan) on the profile with the index `line`; `None` if it is not recorded or
+    /// not known. `regime` is one of [`Quantity::REGIMES`].
     pub fn regime(&self, cell: u64, line: u64, regime: Quantity) -> Option<Regime> {
         regime_of(self.value(cell, line, regime)?)
     }
@@ -337,13 +337,13 @@ impl Results {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// Returns the values of a quantity in a cell in its SI unit, on all profiles that have one.
+    /// Returns the values of a quantity in a [cell](Plan) in its SI unit, on all profiles that have one.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else { return Vec::new() };
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
     }
 
-    /// Returns the statistics of a quantity over the profiles of a cell; `None` if no profile has a value.
+    /// Returns the statistics of a quantity over the profiles of a [cell](Plan); `None` if no profile has a value.
     ///
     /// ```
     /// use asperity_data::Control;
@@ -361,8 +361,8 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a cell in each regime of adhesion. The first numbers are for the regime that follows
-    /// from F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles of a [cell](Plan) in each regime of adhesion. The first numbers are for the regime that
+    /// follows from F_a(d=0), the second for the regime that follows from F_a(F=0).
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))

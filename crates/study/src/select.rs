@@ -17,9 +17,11 @@ const MOST_NAMED: usize = 12;
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Quantity of each panel; default: F_a(d=0) and F_a/F_n
+    /// Quantity of each panel; default: F_a(d=0)/F_a,max and F_a/F_n
     ///
-    /// Without F_a/F_n: F_a(d=0) and F_a(F=0); without any of these: the first quantity.
+    /// If the study did not record F_a/F_n, the default is F_a(d=0)/F_a,max and
+    /// F_a(F=0)/F_a,max. Of each pair, only recorded quantities are drawn. If none is recorded,
+    /// the first recorded quantity is drawn.
     #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME"))]
     pub quantities: Vec<String>,
     /// Horizontal axis
@@ -70,7 +72,8 @@ impl Selection {
     ///
     /// # Errors
     /// Returns an error if the study lacks a chosen quantity, axis or value. The error lists the quantities, axes or values of
-    /// the study. It is also an error if more than two axes have neither one value only nor a value fixed by [`Selection::at`].
+    /// the study. It is also an error if more than two axes have several values of which [`Selection::at`] fixes none. An axis
+    /// of preloads that is not named then has its first value.
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
