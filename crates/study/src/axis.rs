@@ -63,8 +63,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Names of the quantities that an axis may vary although a scene has no field for them. They are the preload in units of
-    /// E*hL, the preload in N, and the number of springs per shortest wave. E* is the effective modulus, h the rms height and L
+    /// Names of the quantities that an axis may vary although a scene has no field for them. They are the preload in units of E*
+    /// h L, the preload in N, and the number of springs per shortest wave. E* is the effective modulus, h the rms height and L
     /// the length of the profile.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 

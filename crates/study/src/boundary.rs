@@ -43,10 +43,11 @@ pub struct AdhesionBoundary {
 /// [`AdhesionBoundary::level`]. The mean is taken over the random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Value of κ or e_el/γ at the boundary. If the boundary lies beyond the studied range, it is the nearer end of the range.
+    /// Value of κ or e_el/γ at the boundary. If the boundary lies beyond the studied range, the value is the end of the range
+    /// that is nearer to the boundary.
     pub value: f64,
-    /// Side of the studied range on which the boundary lies: `Equal` within the range, `Less` below its smallest value,
-    /// `Greater` above its largest value.
+    /// Position of the boundary: `Equal` within the studied range of κ or e_el/γ, `Less` below this range, `Greater` above this
+    /// range.
     pub side: Ordering,
     /// Ends of the 95 % confidence interval of [`Crossing::value`]. They follow from the values for many random selections of
     /// the profiles. `None` if there are fewer than two profiles, or if the value for all profiles or for any selection lies
@@ -70,8 +71,8 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes. For the same values, loadings that turn at first touch come first,
-    /// and then loadings that turn at zero force. The shares of F_a,max follow in the order in which they were given.
+    /// Boundaries, sorted by the values on the other axes. For the same values, the boundaries for F_a(d=0) come before the
+    /// boundaries for F_a(F=0), each in the order of the given shares of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -111,21 +112,19 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns the place at which the loading turns, `first touch` or `zero force`, according to
-    /// [`AdhesionBoundary::protocol`].
+    /// Returns where the loading turns: `first touch` or `zero force`. [`AdhesionBoundary::protocol`] decides.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
     }
 }
 
 impl Boundaries {
-    /// Shares of F_a,max for which boundaries are computed unless others are given.
+    /// Usual shares of F_a,max below which adhesion counts as vanished.
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
     /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. The folder `path` contains a study with an
     /// axis of κ or e_el/γ, and [`merge`](crate::merge) has written the tables of this study. `over` is the parameter, κ or
-    /// e_el/γ, in which the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as
-    /// vanished.
+    /// e_el/γ, in which the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor

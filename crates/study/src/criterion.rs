@@ -16,7 +16,7 @@ pub struct Criterion {
     pub reference: &'static str,
     /// Value of the number that is compared with the threshold; `None` if the scene does not determine this number.
     pub value: Option<f64>,
-    /// Value of the number at which the verdict changes.
+    /// Value of [`Criterion::value`] at which the verdict changes.
     pub threshold: f64,
     /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory are not met, or if the
     /// number alone decides nothing.
@@ -41,8 +41,8 @@ impl Criterion {
         Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
     }
 
-    /// Returns one line of text with the number, the threshold and the verdict. If there is no verdict, the text has the reason
-    /// instead.
+    /// Returns one line of text with the number, the threshold and the verdict. If there is no verdict, the line has the reason
+    /// instead of the verdict.
     pub fn words(&self) -> String {
         let behind =
             |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));

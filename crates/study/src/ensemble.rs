@@ -24,7 +24,7 @@ impl Ensemble {
     pub const FIXED: &str =
         "The profile of this scene is fixed, so there is no scatter over random profiles.";
 
-    /// Quantities that each ensemble records and whose statistics the summary of `asperity run` shows.
+    /// Quantities that are recorded in each ensemble. The summary of `asperity run` shows their statistics.
     pub const NUMBERS: [Quantity; 5] = [
         Quantity::AdhesionForce,
         Quantity::AdhesionShare,
@@ -98,8 +98,8 @@ impl Ensemble {
         &self.results
     }
 
-    /// Returns median, quartiles, range and mean of a quantity over the computed profiles that have a value; `None` if no
-    /// profile has one.
+    /// Returns the statistics of a quantity over the computed profiles on which it has a value; `None` if it has a value on none
+    /// of them.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }

@@ -15,8 +15,7 @@ use asperity_scene::{Document, Simulation};
 /// error by the number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
-/// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which a quantity reaches a
-/// target.
+/// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which a quantity reaches a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Question that was asked.

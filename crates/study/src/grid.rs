@@ -22,9 +22,8 @@ pub struct GridCell {
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime of adhesion. If `quantity` is [`Quantity::RegimeAfterZeroForce`], they
-    /// are for the regime that follows from F_a(F=0). For any other quantity they are for the regime that follows from
-    /// F_a(d=0).
+    /// Returns the numbers of profiles in each regime of adhesion. If `quantity` is [`Quantity::RegimeAfterZeroForce`], they are
+    /// for the regime that follows from F_a(F=0). For any other quantity they are for the regime that follows from F_a(d=0).
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -66,8 +65,7 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
 /// grid without a vertical axis.
 pub type GridPlace = (f64, Option<f64>);
 
-/// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each combination of values on these
-/// axes.
+/// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each combination of values on these axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Horizontal axis, with an ascending value for each column.
@@ -86,8 +84,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid. A [cell](GridCell) that is not computed yet is shown as missing, and not by the results of a cell
-    /// nearby.
+    /// Creates a grid. A [cell](GridCell) that is not computed yet is shown as missing, and not by the results of a cell nearby.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -138,11 +135,10 @@ impl Grid {
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
 
-    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is true, a cell that is not
-    /// computed yet has the statistics of the cell that [`Grid::shown`] returns for it. If the quantity is a regime, its value
-    /// in a cell is the most frequent regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If less
-    /// than three quarters of the profiles have this regime, the value is the mean of the values of the two most frequent
-    /// regimes.
+    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is true, a cell that is not computed
+    /// yet has the statistics of the cell that [`Grid::shown`] returns for it. If the quantity is a regime, its value in a cell
+    /// is the most frequent regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If less than three
+    /// quarters of the profiles have this regime, the value is the mean of the values of the two most frequent regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;

@@ -6,16 +6,16 @@
 //!
 //! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record; [`Changes`] to a plan.
 //! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of a plan, a [`Shard`], in a
-//!   [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes the tables from all parts. A [`Stop`] ends a
-//!   computation.
+//!   [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes the tables from all parts. A [`Stop`] ends a computation.
 //! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and [`RegimeCounts`].
 //! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`]. [`find`](find()) answers a [`Question`] by
 //!   [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force as a function
 //!   of the preload. [`Sensitivity`] has an [`Influence`] for each number of the scene: the [`Changed`] results for a smaller
 //!   and a larger value of this number.
-//! * Errors: [`StudyError`].
+//! * Errors of all these functions: [`StudyError`].
 //!
-//! These modules serve programs with figures and tables: [`folders`], [`maps`], [`checks`], [`half_space`] and [`trust`].
+//! Programs with figures and tables use further names in the modules [`folders`], [`maps`], [`checks`], [`half_space`] and
+//! [`trust`].
 
 mod axis;
 mod boundary;

@@ -128,9 +128,8 @@ impl MeasuredAdhesion {
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `line`
-    /// replaces the measured surface of the scene. The options with which the scene reads and analyses its surface are not
-    /// used.
+    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `line` replaces
+    /// the measured surface of the scene. The options of the scene for reading and analysing its surface are not used.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed. If several profiles fail, the error is the one of the first profile.

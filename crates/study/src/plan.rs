@@ -41,13 +41,12 @@ pub struct Plan {
     /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
     /// Axes of the study. Cells are numbered so that the value on the last axis changes first. If the plan has preloads, their
-    /// axis is the last one, and each preload replaces the loading of the scene. Preloads are in N or in units of E*hL, with
+    /// axis is the last one, and each preload replaces the loading of the scene. Preloads are in N or in units of E* h L, with
     /// the effective modulus E*, the rms height h and the length L.
     pub axes: Vec<Axis>,
-    /// Number of random profiles that are computed for each [cell](Plan), which is one combination of values on the axes.
+    /// Number of random profiles for each [cell](Plan), which is one combination of values on the axes.
     pub lines: u64,
-    /// Seed of the first profile. The other profiles have the seeds that follow. All [cells](Plan) are computed on the profiles
-    /// with the same seeds.
+    /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the same in all [cells](Plan).
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) and profile.
     pub record: Vec<Quantity>,
@@ -59,8 +58,8 @@ pub struct Plan {
     pub measured_sha256: Option<String>,
 }
 
-/// Forces at which the contact without adhesion is computed, to fit the exponents of force and stiffness. The forces are in
-/// units of E*hL, with the effective modulus E*, the rms height h and the length L of the profile.
+/// Forces at which the contact without adhesion is computed, to fit the exponents of force and stiffness. The forces are in units
+/// of E* h L, with the effective modulus E*, the rms height h and the length L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -109,8 +108,7 @@ impl Plan {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Returns the number of [cells](Plan): of combinations of values on the axes. It is the product of the numbers of values
-    /// on all axes.
+    /// Returns the number of [cells](Plan), which is the product of the numbers of values on all axes.
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }

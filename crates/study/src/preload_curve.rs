@@ -34,8 +34,8 @@ pub struct PreloadCurve {
     pub axis: Axis,
     /// Adhesion force of the scene's own profile as a function of the preload, with the preload of each step.
     pub staircase: Staircase,
-    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own. If the profile of the scene
-    /// is fixed, it is the only one.
+    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own. If the profile of the scene is
+    /// fixed, there are no other profiles.
     pub results: Results,
 }
 
@@ -43,13 +43,13 @@ impl PreloadCurve {
     /// Number of random profiles of a complete curve. The scene's own profile is one of them.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a scene from the scene and its outcome, over preloads on a linear or logarithmic scale. A curve
-    /// that was begun on the same scale is continued. Each time that a part is computed, `report` receives the curve so far.
+    /// Computes the adhesion force of a scene at preloads on a linear or logarithmic `scale`. The scene and its outcome are
+    /// given. If `begun` is an incomplete curve on the same scale, only the missing parts are computed. After each part `report`
+    /// receives the curve so far.
     ///
     /// # Errors
-    /// Returns the reason in words if the scene has no adhesion or no stage that presses the bodies together, or if its solver
-    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned
-    /// true.
+    /// Returns an error if the scene has no adhesion or no stage that presses the bodies together, or if the solver of the scene
+    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,

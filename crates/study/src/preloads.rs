@@ -134,9 +134,9 @@ pub struct Staircase {
 
 impl Staircase {
     /// Computes the staircase of a checked scene at the preloads in N of an axis. If the adhesion force rises between two
-    /// neighbouring preloads, it is also computed halfway between them. This is repeated until neighbours with a rise are at
-    /// most 1/2048 of the axis apart, on the scale of the axis. `report` receives the staircase at the preloads of the axis,
-    /// and again after each halving.
+    /// neighbouring preloads, it is computed for the preload halfway between them too, until neighbours with a rise are at most
+    /// 1/2048 of the axis apart, on the scale of the axis. `report` receives the staircase at the preloads of the axis, and again
+    /// after each halving.
     ///
     /// # Errors
     /// Returns an error if a preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.

@@ -61,7 +61,7 @@ pub struct Answer {
     /// Two flags that are true if the quantity is at least the target. The first is for the smallest searched number, the
     /// second for the largest.
     pub reached: [bool; 2],
-    /// True if the preload for an adhesion force is sought, and a loading that turns at first touch reaches the target already.
+    /// True if a preload is sought after which the adhesion force reaches the target, and F_a(d=0) reaches the target already.
     pub at_touch: bool,
     /// Smallest and largest value of the quantity at the numbers that were computed first, spread over the searched range.
     /// `None` if the quantity has no value at any of these numbers.
@@ -73,8 +73,7 @@ impl Question {
     /// a [`Quantity`]. The right side is a value with a unit, and the unit may have a prefix.
     ///
     /// # Errors
-    /// Returns an error if the text has another form, or if the quantity cannot have this value. The error says what is
-    /// allowed.
+    /// Returns an error if the text has another form, or if the quantity cannot have this value. The error says what is allowed.
     ///
     /// ```
     /// use asperity_study::Quantity;
@@ -105,11 +104,11 @@ impl Question {
         Ok((quantity, target))
     }
 
-    /// Makes the question at which value of the number at `path` a quantity has a given value, for `profiles` random profiles
-    /// of a checked scene. If `path` is `preload`, the question is at which preload. The search goes from a hundredth to a
-    /// hundred times the value in the scene. For a number whose allowed range is at most 2 wide, such as the Hurst exponent,
-    /// nearly this whole range is searched. Preloads are searched from 0 N to a hundred times the largest force to which the
-    /// scene is loaded.
+    /// Makes the question at which value of the number at `path` a quantity has a given value, for `profiles` random profiles of
+    /// a checked scene. If `path` is `preload`, the question is after which preload the quantity has this value. Numbers from a
+    /// hundredth to a hundred times the value in the scene are searched. For a number whose allowed range is at most 2 wide, such
+    /// as the Hurst exponent, nearly this whole range is searched. Preloads are searched from 0 N to a hundred times the largest
+    /// force to which the scene is loaded.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the profile of the scene is

@@ -82,8 +82,8 @@ pub struct Loaded {
     pub area: f64,
 }
 
-/// Comparison of the contact of a scene on random profiles with its contact on random squares in three dimensions. A square is
-/// a rigid rough body of the side L on an elastic half-space.
+/// Comparison of a scene on random profiles with the same scene on random squares in three dimensions. A square is a rigid rough
+/// body of the side L on an elastic half-space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Options of the comparison.
@@ -95,7 +95,7 @@ pub struct Reference {
     /// Number of periods over L of the shortest wave of the scene, if the grid of the squares is too coarse for this wave;
     /// otherwise `None`. Neither profiles nor squares then have waves shorter than the shortest one in [`Reference::waves`].
     pub omitted: Option<u64>,
-    /// Preload of the scene on its own profile, N. The squares are pressed to this force.
+    /// Preload in N of the scene on the profile with the seed of the scene. The squares are pressed to this force.
     pub preload: f64,
     /// Comparison without adhesion at several forces, from a hundredth of the preload to the preload.
     pub loading: Vec<Loaded>,
@@ -103,9 +103,9 @@ pub struct Reference {
     pub adhesion_force: Option<Compared>,
     /// Adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for a scene without adhesion.
     pub first_touch_adhesion_force: Option<Compared>,
-    /// Dissipated energy of the loop, J; `None` for a scene without adhesion.
+    /// Energy in J that the contact loses in the loop; `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// Errors of the comparison by their sources.
+    /// Errors of the comparison, one for each source of errors.
     pub budget: ReferenceBudget,
     /// Number of convolutions that were computed for all squares together. Convolutions take most of the computing time of the
     /// squares.
@@ -116,8 +116,8 @@ pub struct Reference {
     pub seconds_of_square: f64,
 }
 
-/// Errors of a [`Reference`] by their sources. The errors `grid`, `sample` and `model` are relative errors of the adhesion
-/// force, or of the indentation at the preload if the scene has no adhesion.
+/// Errors of a [`Reference`], one for each source of errors. The errors `grid`, `sample` and `model` are relative errors of the
+/// adhesion force, or of the indentation at the preload if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
     /// Largest error of the gap at any grid cell of any square, in the contacts without adhesion. It is divided by the rms

@@ -19,7 +19,8 @@ use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
-/// Results of a study: the recorded quantities of each [cell](Plan) on each random profile, as far as they are computed.
+/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random profile. Values that are not
+/// computed yet are missing.
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
@@ -308,8 +309,8 @@ impl Results {
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
-    /// Returns the value of a quantity in a [cell](Plan) on the profile with the index `line`, in its SI unit. `None` if the
-    /// quantity is not recorded or has no value.
+    /// Returns the value of a quantity in a [cell](Plan) on the profile with the index `line`, in the SI unit of the quantity.
+    /// `None` if the quantity is not recorded or has no value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
         self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
@@ -337,7 +338,7 @@ impl Results {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// Returns the values of a quantity in a [cell](Plan) in its SI unit, on all profiles that have one.
+    /// Returns the values of a quantity in a [cell](Plan), in the SI unit of the quantity, on all profiles with a value.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else { return Vec::new() };
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()

@@ -22,7 +22,7 @@ pub struct Selection {
     /// If the study did not record F_a/F_n, the default is F_a(d=0)/F_a,max and
     /// F_a(F=0)/F_a,max. Of each pair, only recorded quantities are drawn. If none is recorded,
     /// the first recorded quantity is drawn.
-    #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME"))]
+    #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME", verbatim_doc_comment))]
     pub quantities: Vec<String>,
     /// Horizontal axis
     #[cfg_attr(feature = "clap", arg(long = "x", value_name = "AXIS"))]

@@ -171,8 +171,7 @@ pub struct RegimeCounts {
 }
 
 impl RegimeCounts {
-    /// Counts the profiles in each regime. `regimes` has the regime of each profile; `None` is counted in
-    /// [`RegimeCounts::none`].
+    /// Counts the profiles in each regime. `regimes` has the regime of each profile; `None` is counted in [`RegimeCounts::none`].
     pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
         let mut counts = [0; 4];
         regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);

@@ -45,7 +45,7 @@ pub struct Folder {
     plan: Plan,
 }
 
-/// First line of a [`ShardFile`]. It states which process computes which part of which plan.
+/// Header of a [`ShardFile`], the first line of the file. It states which process computes which part of which plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
     /// Version of the format of shard files.
@@ -71,7 +71,7 @@ pub struct ShardFile {
     pub path: PathBuf,
     /// Header of the file.
     pub header: ShardHeader,
-    /// Time of the last write, in s since 1970.
+    /// Time at which the file was last written, in s since 1970.
     pub written: f64,
 }
 

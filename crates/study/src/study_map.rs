@@ -34,7 +34,7 @@ impl StudyMap {
         StudyMap::of(Results::open(folder)?, folder)
     }
 
-    /// Makes the maps of a study. `folder` is the folder from which `study` was read.
+    /// Makes the maps of the study whose results are `study`. `folder` is the folder from which the results were read.
     ///
     /// # Errors
     /// Returns an error if no axis of the study has two values.
@@ -83,7 +83,7 @@ impl StudyMap {
         self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
     }
 
-    /// Returns map number `slice`, counted from 0.
+    /// Returns map number `slice`. The first map has the number 0.
     pub fn grid(&self, slice: u64) -> Grid {
         self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
     }
@@ -118,8 +118,7 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// Returns the scene of the first map as a scene file for the explorer. The name of the scene file is the path of the
-    /// folder.
+    /// Returns the scene of the first map as a scene file for the explorer. The name of the scene file is the path of the folder.
     ///
     /// # Errors
     /// Returns an error if the scene is invalid.
@@ -145,8 +144,7 @@ impl StudyMap {
         }
     }
 
-    /// Returns a copy of a scene file with the values that map number `slice` has on the axes over which the maps do not
-    /// extend.
+    /// Returns a copy of a scene file with the values that map number `slice` has on the axes over which the maps do not extend.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow these values.

@@ -182,10 +182,11 @@ impl Results {
         self.with_reasons(table, |row| row.2)
     }
 
-    /// Reads the results of a study from its folder, in which [`merge`] has written the tables.
+    /// Reads the results of a study from the folder of the study, in which [`merge`] has written the tables.
     ///
     /// # Errors
-    /// Returns an error if the folder contains no study, or if its table is missing, was changed or belongs to another plan.
+    /// Returns an error if the folder contains no study. It is also an error if the table [`Merged::RESULTS`] is missing, was
+    /// changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(Merged::RESULTS);

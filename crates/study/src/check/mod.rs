@@ -43,7 +43,7 @@ impl Check {
         Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
     }
 
-    /// Computes the case and measures the error of its result.
+    /// Computes the case and measures the error of [`Case::error_of`].
     pub fn judge(self) -> Verdict {
         let (clock, edges) = (Instant::now(), self.edges);
         let error = match self.case.subject {
