@@ -198,8 +198,8 @@ impl Axis {
     }
 
     /// Returns the value that is `steps` places above `value` on an axis with ascending values, or below `value` if `steps` is
-    /// negative. A step beyond an end of the axis stops at the value there. Returns `None` if the axis has no value in this
-    /// direction.
+    /// negative. A step beyond an end of the axis stops at the last value before this end. Returns `None` if the axis has no
+    /// value in this direction.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;

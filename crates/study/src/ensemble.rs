@@ -104,7 +104,8 @@ impl Ensemble {
         self.results.statistics(0, quantity)
     }
 
-    /// Returns the values of a quantity on all profiles, in the order of their seeds; `None` for a profile without a value.
+    /// Returns the values of a quantity on all profiles, sorted by the seeds of the profiles; `None` for a profile without a
+    /// value.
     pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }

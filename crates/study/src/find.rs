@@ -20,7 +20,7 @@ const STILL: f64 = 1e-3;
 pub struct Found {
     /// Question that was asked.
     pub question: Question,
-    /// Answers of the profiles, in the order of their seeds.
+    /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
     /// Reason why the scene could not be computed with one of the searched numbers. It is the first such reason; `None` if all
     /// numbers could be computed.
@@ -122,9 +122,9 @@ impl Found {
         Ok(())
     }
 
-    /// Returns for each profile the number, in its SI unit, at which the quantity reaches the target. This is the smallest of
-    /// [`Answer::crossings`]. If a preload is sought and the smallest searched preload reaches the target already, it is this
-    /// preload. A profile without either has `None`.
+    /// Returns for each profile the number, in its SI unit, at which the quantity reaches the target. It is the smallest of
+    /// [`Answer::crossings`]. If a preload is sought and the quantity is at least the target after the smallest searched preload,
+    /// it is the smallest searched preload. On any other profile without crossings it is `None`.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers.iter().map(|answer| answer.value(&self.question)).collect()
     }

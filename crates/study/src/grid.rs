@@ -120,9 +120,9 @@ impl Grid {
         self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. As long
-    /// as the cell of a [`LiveMap`](crate::maps::LiveMap) in this column and row is not computed, a computed cell nearby is
-    /// shown. `None` if no cell is shown.
+    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. As long as
+    /// the cell of a [`LiveMap`](crate::maps::LiveMap) in this column and row is not computed, a computed cell nearby is shown.
+    /// `None` if the map shows no cell there.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;

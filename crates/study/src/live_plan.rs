@@ -45,7 +45,7 @@ impl Plan {
     /// have the same plan.
     ///
     /// # Errors
-    /// Returns the reason in words if the scene has no map, for example because it is smooth.
+    /// Returns an error with the reason if the scene has no map, for example because the body is smooth.
     ///
     /// ```
     /// use asperity_study::Plan;

@@ -75,7 +75,7 @@ impl ProfileAdhesion {
 /// Adhesion of several random profiles with the spectrum of one measured surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredAdhesion {
-    /// Results on the profiles, in the order of their seeds.
+    /// Results, one for each profile, sorted by the seeds of the profiles.
     pub profiles: Vec<ProfileAdhesion>,
 }
 
@@ -163,8 +163,9 @@ impl MeasuredAdhesion {
     }
 
     /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for fewer
-    /// than two profiles. Its ends are the median divided by a factor and the median times this factor. The logarithm of the
-    /// factor is the root mean square of the relative changes of the adhesion force.
+    /// than two profiles. The ends of the interval are the median divided by a factor and the median times this factor. The
+    /// logarithm of the factor is the root mean square over the profiles of [`ProfileAdhesion::fit_change`] divided by the
+    /// adhesion force of the same profile.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)

@@ -58,8 +58,9 @@ pub struct Plan {
     pub measured_sha256: Option<String>,
 }
 
-/// Forces at which the contact without adhesion is computed, to fit the exponents of force and stiffness. The forces are in units
-/// of E* h L, with the effective modulus E*, the rms height h and the length L of the profile.
+/// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
+/// [`Quantity::ForceExponent`]. The forces are in units of E* h L, with the effective modulus E*, the rms height h and the length
+/// L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {

@@ -20,7 +20,7 @@ pub const PLAN_VERSION: u32 = 1;
 /// Changes that [`Plan::open`] makes to a plan after it has read the file. The file stays as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Fields of the scene that get another value, each as path and value in the form of a scene file.
+    /// Fields of the scene that get a new value. Each has the path of the field and the new value, written as in a scene file.
     pub set: Vec<(String, String)>,
     /// Number of random profiles for each [cell](Plan); `None` keeps the number in the plan.
     pub lines: Option<u64>,

@@ -25,9 +25,9 @@ fn failed(error: RunError) -> StudyError {
     StudyError::Run { place: String::new(), error }
 }
 
-/// Adhesion force of a scene as a function of the preload. The scene's own profile, which has the seed of the scene, is
-/// computed with all steps of the force. Further random profiles are computed at fixed preloads. While it is computed, a curve
-/// lacks some of its steps or profiles.
+/// Adhesion force of a scene as a function of the preload. The scene's own profile, which has the seed of the scene, is computed
+/// with all steps of the force. Further random profiles are computed at fixed preloads. A curve whose computation is not finished
+/// lacks steps or profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     /// Preloads in N at which the random profiles are computed, as an axis.

@@ -238,7 +238,7 @@ impl Results {
     }
 
     /// For a study whose axis has preloads in N, returns the preload of the axis that is nearest to `preload`, and the adhesion
-    /// force in N after it on each computed profile.
+    /// force in N after this preload on each computed profile.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));

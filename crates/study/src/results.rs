@@ -55,7 +55,7 @@ pub struct Merged {
     pub first_missing: Vec<u64>,
     /// Number of files that have at least one record.
     pub files: usize,
-    /// Versions of the program that wrote the records.
+    /// Versions of the program with which the processes wrote the records.
     pub programs: Vec<String>,
 }
 

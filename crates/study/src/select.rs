@@ -68,7 +68,7 @@ pub struct Selected {
 type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
 
 impl Selection {
-    /// Returns the part of a study that these options choose.
+    /// Returns the part of a study that the fields of this selection choose.
     ///
     /// # Errors
     /// Returns an error if the study lacks a chosen quantity, axis or value. The error lists the quantities, axes or values of

@@ -40,7 +40,7 @@ pub struct Influence {
     pub sides: [(f64, Option<Changed>); 2],
 }
 
-/// How much the results of a scene change if each of its numbers is changed by a tenth, one at a time.
+/// How much the results of a scene change if one number of the scene is changed by a tenth, for each number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
     /// Number of random profiles computed so far. The first profile has the seed of the scene.
@@ -67,8 +67,8 @@ impl Sensitivity {
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
     /// Computes a checked scene, and scenes with one number changed, on the same random profiles. There are as many profiles as
-    /// [`Ensemble::profiles_of`] returns. All other numbers of the scene stay. If the scene has κ instead of a work of
-    /// adhesion, the work of adhesion follows from κ again after each change.
+    /// [`Ensemble::profiles_of`] returns. All other numbers of the scene keep their values. If the scene has κ instead of a work
+    /// of adhesion, the work of adhesion follows from κ again after each change.
     ///
     /// `jobs` threads share the profiles, and the first thread computes with `simulation`. The results do not depend on the
     /// number of threads. After each profile `report` receives the sensitivity over the profiles so far.
@@ -160,8 +160,8 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative change of each result from its median for the unchanged scene to its value in `values`. A change is
-    /// `None` if the value is missing, or if the median is missing or zero.
+    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if one of both is
+    /// missing, or if the result in [`Sensitivity::present`] is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }

@@ -17,7 +17,7 @@ pub struct Status {
     pub done: u64,
     /// Number of records that the study has once it is complete.
     pub total: u64,
-    /// Number of missing records.
+    /// Number of records of the complete study that do not exist yet.
     pub missing: u64,
     /// Number of existing records that have no values because they cannot be computed.
     pub failed: u64,
@@ -36,7 +36,7 @@ pub struct ShardStatus {
     pub total: u64,
     /// Number of records of the shard that exist. It does not matter which process computed them.
     pub done: u64,
-    /// Processes that have worked on the shard.
+    /// Processes that have worked on the shard, each with the records that it wrote.
     pub attempts: Vec<Attempt>,
 }
 

@@ -69,7 +69,7 @@ pub struct ShardHeader {
 pub struct ShardFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Header of the file.
+    /// First line of the file. It states which process wrote the file.
     pub header: ShardHeader,
     /// Time at which the file was last written, in s since 1970.
     pub written: f64,

@@ -67,7 +67,7 @@ impl Case {
     }
 }
 
-/// Result of a [`Check`]: the measured error and the computing time.
+/// Result of a [`Check`]: the measured error of the case and the computing time.
 #[derive(Debug)]
 pub struct Verdict {
     /// Check that was computed.
