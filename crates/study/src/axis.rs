@@ -42,7 +42,7 @@ pub enum Spacing {
     List,
 }
 
-/// Axis of a study: one quantity that varies from [cell](crate::Plan) to cell, and the values that it takes.
+/// Axis of a study: one quantity of the scene that the study varies, and the values that the study gives to this quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Path of the field of the scene that varies, such as `roughness.hurst`, or one of the names in [`Axis::DERIVED`].
@@ -53,7 +53,7 @@ pub struct Axis {
     pub symbol: &'static str,
     /// SI unit of the values; `1` for numbers without a unit.
     pub unit: &'static str,
-    /// Whether the values have equal differences, equal ratios, or any distances.
+    /// How the values are spaced: by equal differences, by equal ratios, or at any distances.
     pub spacing: Spacing,
     /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) they ascend.
     pub values: Vec<f64>,
@@ -61,11 +61,13 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Names of the quantities that an axis may vary although a scene has no field for them. They are the preload in units of
-    /// E* h L with the rms height h, the preload in N, and the number of springs per shortest wave.
+    /// Names of the quantities that an axis may vary although a scene has no field for them. They are the preload in units of E*
+    /// h L, the preload in N, and the number of springs per shortest wave. E* is the effective modulus, h the rms height and L
+    /// the length of the profile.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
-    /// Creates an axis over the number that a scene has at `path`. The `values` are in the SI unit of this number.
+    /// Creates an axis that varies the number of a scene at `path`, such as `roughness.hurst`. The `values` are in the SI unit
+    /// of this number.
     ///
     /// # Errors
     /// Returns an error if no scene has a number at this path. The error names the nearest path.
@@ -150,12 +152,12 @@ impl Axis {
         std::iter::once(from).chain(inner).chain([to]).collect()
     }
 
-    /// Returns true if the quantity takes only whole numbers, such as a number of springs.
+    /// Returns true if the quantity has only whole numbers as values, such as a number of springs.
     pub fn is_whole(&self) -> bool {
         self.target.is_whole()
     }
 
-    /// Returns true for an axis of preloads. Each of its preloads replaces the loading of the scene.
+    /// Returns true if the values are preloads. The scene is then loaded to each preload instead of by its own loading.
     pub fn is_of_preloads(&self) -> bool {
         matches!(self.target, Target::Preload { .. })
     }
@@ -193,8 +195,9 @@ impl Axis {
         format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
     }
 
-    /// Returns the value of an ascending axis that lies `steps` values above `value`, or below it if `steps` is negative. A
-    /// step beyond the end of the axis stops at its last or first value. Returns `None` if no value lies in this direction.
+    /// Returns the value that is `steps` places above `value` on an axis with ascending values, or below `value` if `steps` is
+    /// negative. A step beyond an end of the axis stops at the last value before this end. Returns `None` if the axis has no
+    /// value in this direction.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;

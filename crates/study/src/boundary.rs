@@ -23,32 +23,35 @@ const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It belongs to one combination of values on the
-/// other axes, to one place where the loading turns, and to one share of F_a,max below which adhesion counts as vanished.
+/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. This value depends on three choices: the
+/// values on the other axes, whether the loading turns at first touch or at zero force, and the share of the ideal adhesion
+/// force F_a,max below which adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// Recorded quantity that falls with κ: F_a(d=0)/F_a,max if the loading turns at first touch, F_a(F=0)/F_a,max if it turns
-    /// at zero force.
+    /// Recorded quantity that falls when κ grows: F_a(d=0)/F_a,max if the loading turns at first touch, F_a(F=0)/F_a,max if the
+    /// loading turns at zero force.
     pub protocol: Quantity,
-    /// Share of F_a,max below which adhesion counts as vanished.
+    /// Share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
     pub level: f64,
     /// Value of κ or e_el/γ at which adhesion vanishes, with its confidence interval.
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ above which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, stays below a share. The mean is
-/// taken over the random profiles.
+/// Value of κ or e_el/γ above which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, stays below
+/// [`AdhesionBoundary::level`]. The mean is taken over the random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Value of κ or e_el/γ at the boundary. If the boundary lies beyond the studied range, it is the nearer end of the range.
+    /// Value of κ or e_el/γ at the boundary. If the boundary lies beyond the studied range, the value is the end of the range
+    /// that is nearer to the boundary.
     pub value: f64,
-    /// Side of the studied range on which the boundary lies: `Equal` within the range, `Less` below its smallest value,
-    /// `Greater` above its largest value.
+    /// Position of the boundary: `Equal` within the studied range of κ or e_el/γ, `Less` below this range, `Greater` above this
+    /// range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of the value, from repeated random selections of the profiles. `None` if there are
-    /// fewer than two profiles, or if the boundary of the study or of any selection lies beyond the studied range.
+    /// Ends of the 95 % confidence interval of [`Crossing::value`]. They follow from the values for many random selections of
+    /// the profiles. `None` if there are fewer than two profiles, or if the value for all profiles or for any selection lies
+    /// beyond the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -66,10 +69,10 @@ pub struct Boundaries {
     pub over: RoughnessParameter,
     /// Axes of the study other than κ or e_el/γ.
     pub others: Vec<Axis>,
-    /// Number of random profiles for each combination of values on the axes.
+    /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes. For the same values, loadings that turn at first touch come first,
-    /// and then loadings that turn at zero force. The shares of F_a,max follow in the order in which they were given.
+    /// Boundaries, sorted by the values on the other axes. For the same values, the boundaries for F_a(d=0) come before the
+    /// boundaries for F_a(F=0), each in the order of the given shares of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -109,19 +112,19 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns where the loading turns for this boundary: `first touch` or `zero force`.
+    /// Returns where the loading turns: `first touch` or `zero force`. [`AdhesionBoundary::protocol`] decides.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
     }
 }
 
 impl Boundaries {
-    /// Shares of F_a,max for which boundaries are computed unless others are given.
+    /// Usual shares of F_a,max below which adhesion counts as vanished.
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
-    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. The study is in the folder `path`, in
-    /// which [`merge`](crate::merge) has written its tables, and has an axis of κ or e_el/γ. `over` is the parameter in which
-    /// the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
+    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. The folder `path` contains a study with an
+    /// axis of κ or e_el/γ, and [`merge`](crate::merge) has written the tables of this study. `over` is the parameter, κ or
+    /// e_el/γ, in which the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor
@@ -172,7 +175,7 @@ impl Boundaries {
         Ok(Boundaries { over, others, lines: plan.lines, found })
     }
 
-    /// Returns the symbol of a boundary: `κ*` or `(e_el/γ)*`.
+    /// Returns the symbol of the value at a boundary: `κ*` or `(e_el/γ)*`, according to [`Boundaries::over`].
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",

@@ -13,8 +13,9 @@ const FEWEST: usize = 4;
 /// approximation of the binomial distribution for 95 of 100 cases.
 const HALF: f64 = 0.98;
 
-/// Errors of the adhesion force of a scene by their sources, each divided by the adhesion force. The true error due to a source
-/// exceeds its number in about 5 of 100 cases. An error is `None` if it is unknown.
+/// Errors of the adhesion force of a scene, one for each source of errors. They are relative: the error `grid` is divided by
+/// the adhesion force on the scene's own profile, and `sample` and `surface` by the median over random profiles. In about 5 of
+/// 100 cases the true error is larger. `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
     /// Error due to the finite number of springs, for the profile with the seed of the scene.
@@ -23,16 +24,17 @@ pub struct Budget {
     pub sample: Option<f64>,
     /// Error of the median over random profiles, due to the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
-    /// Error of the profile as a model, found by comparison with the same bodies in three dimensions.
+    /// Error of the model, which replaces a surface by a one-dimensional profile. It is found by comparison with the same
+    /// bodies in three dimensions.
     pub model: Option<f64>,
     /// Name of the source with the largest known error: `grid`, `sample`, `surface` or `model`.
     pub largest: Option<&'static str>,
 }
 
 impl Budget {
-    /// Collects the errors of a computed scene; `None` if its adhesion force is not above zero. `estimate` has the error due to
-    /// the number of springs. `ensemble` has the results on random profiles. `deviation` is the standard deviation of the
-    /// adhesion force in N due to the uncertainty of the spectrum of a measured surface.
+    /// Collects the errors of a computed scene; `None` if the adhesion force of the scene is not above zero. `estimate` has the
+    /// error due to the number of springs. `ensemble` has the results on random profiles. `deviation` is the standard deviation
+    /// of the adhesion force in N due to the uncertainty of the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,
@@ -54,7 +56,7 @@ impl Budget {
         Some(Budget { grid, sample, surface, model: None, largest })
     }
 
-    /// Returns these errors with `share` as the error of the model, divided by the adhesion force.
+    /// Returns these errors with `share` as [`Budget::model`]. `share` is the error of the model divided by the adhesion force.
     pub fn with_model(self, share: f64) -> Budget {
         let known = [self.grid, self.sample, self.surface].into_iter().flatten();
         let is_largest = known.fold(0.0, f64::max) <= share;

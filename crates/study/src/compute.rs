@@ -72,13 +72,13 @@ impl Streaks<'_> {
     }
 }
 
-/// Computes a plan in memory: the recorded quantities of each [cell](Plan) on each random profile. If a cell cannot be computed
-/// on a profile, [`Results::failed`] has the reason. The progress that `control` reports is the number of computed pairs of
-/// cell and profile.
+/// Computes a plan in memory: the recorded quantities for each combination of values on the axes (a [cell](Plan)), on each
+/// random profile. If a cell cannot be computed on a profile, [`Results::failed`] has the reason. `control` reports how many
+/// pairs of a cell and a profile are computed.
 ///
 /// # Errors
-/// Returns an error if a measured file cannot be read, if the memory does not suffice, if no thread is allowed or can be
-/// started, or if `control` stops the computation.
+/// Returns an error if a measured file cannot be read, if the memory does not suffice, or if `control` stops the computation.
+/// It is also an error if `control` allows zero threads, or if the system cannot start a thread.
 ///
 /// ```
 /// use asperity_data::Control;

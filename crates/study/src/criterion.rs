@@ -3,7 +3,8 @@
 use asperity_data::{format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Criterion of one theory for whether bodies adhere without a preload: a number of the scene, a threshold, and the verdict.
+/// Criterion by which one theory decides whether bodies adhere without a preload. A number of the scene is compared with a
+/// threshold, and the verdict follows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {
@@ -13,20 +14,21 @@ pub struct Criterion {
     pub symbol: &'static str,
     /// Publication that states the criterion.
     pub reference: &'static str,
-    /// Value of the number; `None` if the scene does not determine it.
+    /// Value of the number that is compared with the threshold; `None` if the scene does not determine this number.
     pub value: Option<f64>,
-    /// Value of the number at which the verdict changes.
+    /// Value of [`Criterion::value`] at which the verdict changes.
     pub threshold: f64,
     /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory are not met, or if the
     /// number alone decides nothing.
     pub sticks: Option<bool>,
-    /// Reason why there is no verdict. If this program gives a verdict, the text states instead where the loading turns and
-    /// over how many profiles the median is taken.
+    /// Reason why there is no verdict. If the criterion is the one of this program and there is a verdict, the text states
+    /// where the loading turns and over how many profiles the median is taken.
     pub reason: Option<String>,
 }
 
 impl Criterion {
-    /// Tabor number below which JKR theory and the rule of Hess do not apply.
+    /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the rule of Hess for the largest
+    /// stretch of a spring applies.
     pub const LEAST_TABOR_NUMBER: f64 = 1.0;
 
     /// Makes a criterion without a number.
@@ -39,7 +41,8 @@ impl Criterion {
         Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
     }
 
-    /// Returns one line of text with the number, its threshold and the verdict.
+    /// Returns one line of text with the number, the threshold and the verdict. If there is no verdict, the line has the reason
+    /// instead of the verdict.
     pub fn words(&self) -> String {
         let behind =
             |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));

@@ -17,14 +17,14 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// Number of random profiles unless another number is requested.
+    /// Usual number of random profiles, for a caller that requests no other number.
     pub const PROFILES: u64 = 16;
 
     /// Sentence that is shown for a scene with a fixed profile.
     pub const FIXED: &str =
         "The profile of this scene is fixed, so there is no scatter over random profiles.";
 
-    /// Quantities that each ensemble records and whose statistics the summary of `asperity run` shows.
+    /// Quantities that are recorded in each ensemble. The summary of `asperity run` shows their statistics.
     pub const NUMBERS: [Quantity; 5] = [
         Quantity::AdhesionForce,
         Quantity::AdhesionShare,
@@ -33,7 +33,7 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Quantities that a table with one row for each profile has in addition to [`Ensemble::NUMBERS`].
+    /// Quantities that are recorded in addition to [`Ensemble::NUMBERS`] for a table with one row for each profile.
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -42,8 +42,8 @@ impl Ensemble {
         Quantity::TaborNumber,
     ];
 
-    /// Returns the number of profiles on which a scene is computed unless another number is requested. It is
-    /// [`Ensemble::PROFILES`], but 1 for a fixed profile and for the solver [`Solver::Stepwise`], which takes long.
+    /// Returns the usual number of profiles for a scene. It is 1 if the profile of the scene is fixed or the solver is the slow
+    /// [`Solver::Stepwise`]. For all other scenes it is [`Ensemble::PROFILES`].
     pub fn profiles_of(scene: &Scene) -> u64 {
         let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
         if several { Ensemble::PROFILES } else { 1 }
@@ -54,7 +54,7 @@ impl Ensemble {
     ///
     /// `workers` is a pair: the simulation with which the first thread computes, and the number of threads that share the
     /// profiles. The results do not depend on the number of threads. After each profile `report` receives the number of
-    /// profiles so far, and a function that returns a copy of the ensemble so far.
+    /// computed profiles, and a function that returns a copy of the ensemble with the computed profiles.
     ///
     /// # Errors
     /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the memory does not
@@ -93,18 +93,19 @@ impl Ensemble {
         self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
 
-    /// Returns the values on all profiles, as results of a study whose only cell is the scene itself.
+    /// Returns the values on all profiles as the results of a study without axes.
     pub fn results(&self) -> &Results {
         &self.results
     }
 
-    /// Returns median, quartiles, range and mean of a quantity over the computed profiles that have a value; `None` if no
-    /// profile has one.
+    /// Returns the statistics of a quantity over the computed profiles on which it has a value; `None` if it has a value on none
+    /// of them.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }
 
-    /// Returns the values of a quantity on all profiles, in the order of their seeds; `None` for a profile without a value.
+    /// Returns the values of a quantity on all profiles, sorted by the seeds of the profiles; `None` for a profile without a
+    /// value.
     pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }

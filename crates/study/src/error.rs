@@ -38,7 +38,8 @@ pub enum StudyError {
     /// A scene of the study could not be computed.
     #[error("{place}{error}")]
     Run {
-        /// Values on the axes and seed of the profile that failed, followed by a colon; empty for a single profile.
+        /// Place of the failure as text: the values on the axes and the seed of the profile, followed by a colon. Empty if a
+        /// single profile is computed.
         place: String,
         /// Reason why the computation failed.
         error: RunError,
@@ -49,7 +50,8 @@ pub enum StudyError {
     /// A value or a request is not allowed.
     #[error("{}{found}; allowed: {allowed}", place.as_ref().map_or_else(String::new, |place| format!("{place}: ")))]
     Refused {
-        /// Path of the number of the scene, or name of the argument; `None` if the request as a whole is not allowed.
+        /// Path of the number of the scene whose value is not allowed, or name of the argument. `None` if the request as a
+        /// whole is not allowed.
         place: Option<String>,
         /// Value or request that was found, in words.
         found: String,
@@ -63,15 +65,16 @@ pub enum StudyError {
         path_name(&files[1])
     )]
     Conflict {
-        /// Values on the axes and seed of the profile.
+        /// Values on the axes and seed of the profile, as text.
         place: String,
-        /// Both files that hold the results.
+        /// The two files whose results differ.
         files: [PathBuf; 2],
     },
-    /// The memory does not suffice for a table with this number of rows. A table has one row for each cell and profile.
+    /// The memory does not suffice for a table with this number of rows. A table has one row for each combination of values on
+    /// the axes (a [cell](crate::Plan)) and each random profile.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
-    /// On this number of threads the study needs more memory than the system provides.
+    /// The study needs more memory on the requested number of threads than the system provides.
     #[error(
         "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
         memory_size(*bytes)
@@ -119,7 +122,8 @@ impl StudyError {
         if threads > 0 { Ok(()) } else { Err(StudyError::refused(None, "0 threads", "at least one")) }
     }
 
-    /// Returns true if the computation ended because it was asked to stop, and false if it failed.
+    /// Returns true if the computation ended because its [`Stop`](crate::Stop) returned true. Returns false if the computation
+    /// failed.
     pub fn is_interruption(&self) -> bool {
         match self {
             StudyError::Run { error, .. } => error.is_interruption(),

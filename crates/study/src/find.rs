@@ -15,21 +15,22 @@ use asperity_scene::{Document, Simulation};
 /// error by the number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
-/// For each random profile of a scene, the value of a number at which a quantity reaches its target: the answers to a
-/// [`Question`].
+/// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which a quantity reaches a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Question that was asked.
     pub question: Question,
-    /// Answers of the profiles, in the order of their seeds.
+    /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// First reason why the scene could not be computed with a number of the searched range; `None` if there was none.
+    /// Reason why the scene could not be computed with one of the searched numbers. It is the first such reason; `None` if all
+    /// numbers could be computed.
     pub refused: Option<String>,
 }
 
 /// Finds the value of a number of a scene at which a quantity has a given value, on each of `profiles` random profiles. `path`
-/// is the path of the number, or `preload`. `condition` is the quantity with its value in its SI unit. The search begins with
-/// the range of [`Question::new`]. The progress that `control` reports is the number of finished profiles.
+/// is the path of the number, or `preload`. `condition` is the quantity and the wanted value of the quantity in its SI unit.
+/// The numbers in the range that [`Question::new`] chooses are searched. The progress that `control` reports is the number of
+/// finished profiles.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested. The errors of [`Question::new`] and [`Found::of`] are possible too.
@@ -65,8 +66,8 @@ impl Found {
     /// profiles.
     ///
     /// # Errors
-    /// Returns an error if the searched range is not allowed, if the scene does not have the quantity, or if the number does
-    /// not change the quantity. It is also an error if a profile cannot be computed, or if `stop` returned true.
+    /// Returns an error if [`Question::searched`] is not a finite range, if the scene does not have the quantity, or if the
+    /// number does not change the quantity. It is also an error if a profile cannot be computed, or if `stop` returned true.
     pub fn of(
         question: Question,
         (simulation, jobs): (Simulation, usize),
@@ -121,14 +122,15 @@ impl Found {
         Ok(())
     }
 
-    /// Returns for each profile the number at which the quantity reaches the target, in its SI unit. It is the smallest of
-    /// [`Answer::crossings`], or the smallest searched preload if the target is reached there already. `None` for a profile on
-    /// which the quantity does not cross the target.
+    /// Returns for each profile the number, in its SI unit, at which the quantity reaches the target. It is the smallest of
+    /// [`Answer::crossings`]. If a preload is sought and the quantity is at least the target after the smallest searched preload,
+    /// it is the smallest searched preload. On any other profile without crossings it is `None`.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers.iter().map(|answer| answer.value(&self.question)).collect()
     }
 
-    /// Returns the smallest and the largest of [`Answer::reachable`] over all profiles; `None` if no profile has one.
+    /// Returns the smallest and the largest value of the quantity in [`Answer::reachable`] of all profiles; `None` if the
+    /// quantity has no value on any profile.
     pub fn reachable(&self) -> Option<(f64, f64)> {
         let all = || self.answers.iter().filter_map(|answer| answer.reachable);
         let least = all().map(|ends| ends.0).reduce(f64::min)?;
@@ -148,8 +150,8 @@ impl Found {
         places
     }
 
-    /// Returns a quantile of the found numbers over all profiles, such as the median for a `share` of 0.5. A profile without a
-    /// found number counts as beyond the searched range. `None` if the quantile itself lies beyond this range.
+    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. On a profile without
+    /// a value, the number is taken as beyond the searched range. `None` if the quantile lies beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let places = self.ascending();
         let place = share * places.len().checked_sub(1)? as f64;
@@ -159,7 +161,7 @@ impl Found {
         Some(value).filter(|value| value.is_finite())
     }
 
-    /// Returns the smallest and the largest of [`Found::values`]; `None` if no profile has a value.
+    /// Returns the smallest and the largest number in [`Found::values`]; `None` if no profile has a value.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = || self.values().into_iter().flatten();
         values().reduce(f64::min).zip(values().reduce(f64::max))

@@ -8,34 +8,36 @@ use asperity_scene::{Regime, RoughnessParameter};
 
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// Results of a study for one value on each axis of a [`Grid`].
+/// Results of a study in one cell of a [`Grid`]. A cell is the combination of one value on the horizontal axis and one value on
+/// the vertical axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridCell {
     /// Statistics over the random profiles for the quantity of each layer, in the order of [`Grid::layers`]; `None` if no
     /// profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime: first for the regime that follows from F_a(d=0), then for the one that follows from
-    /// F_a(F=0).
+    /// Numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from F_a(d=0), the
+    /// second for the regime that follows from F_a(F=0).
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime. The regime follows from F_a(F=0) if `quantity` is
-    /// [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other quantity.
+    /// Returns the numbers of profiles in each regime of adhesion. If `quantity` is [`Quantity::RegimeAfterZeroForce`], they are
+    /// for the regime that follows from F_a(F=0). For any other quantity they are for the regime that follows from F_a(d=0).
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
 }
 
-/// Quantity that a [`Grid`] shows, and the scale on which it is shown.
+/// Quantity that a [`Grid`] shows, with the scale on which its means are shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridLayer {
     /// Quantity that the layer shows.
     pub quantity: Quantity,
     /// Scale of the quantity, linear or logarithmic.
     pub scale: AxisScale,
-    /// Smallest and largest mean in a cell, over all grids that share this scale. Means that the scale cannot show, such as
-    /// zero on a logarithmic scale, do not count. `None` if no mean remains.
+    /// Ends of the scale: the smallest and the largest mean of the quantity over the profiles of a [cell](GridCell), among all
+    /// cells of all grids with this scale. Means that the scale cannot show, such as zero on a logarithmic scale, do not count.
+    /// `None` if no mean remains.
     pub range: Option<(f64, f64)>,
 }
 
@@ -58,29 +60,30 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
-/// Place on a grid: value on the horizontal axis, and value on the vertical axis if the grid has one.
+/// Place on a [`Grid`]: the value on the horizontal axis, and the value on the vertical axis. The second value is `None` on a
+/// grid without a vertical axis.
 pub type GridPlace = (f64, Option<f64>);
 
-/// Results of a study over one or two of its axes, with a cell for each combination of their values.
+/// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each combination of values on these axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Horizontal axis, with an ascending value for each column.
     pub across: Axis,
     /// Vertical axis, with an ascending value for each row; `None` for a grid along one axis.
     pub up: Option<Axis>,
-    /// Values of the other axes of the study in words, such as `H = 0.3`.
+    /// Values on all other axes of the study, which are the same in the whole grid, as text such as `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities that the grid shows, except regimes, which are counted in [`GridCell::regimes`].
+    /// Quantities that the grid shows. Regimes are not among them: [`GridCell::regimes`] counts the profiles in each regime.
     pub layers: Vec<GridLayer>,
-    /// Cells row by row, beginning with the lowest row. A cell is `None` until it is computed. An error is the reason why the
-    /// cell cannot be computed.
+    /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is computed. An error is the
+    /// reason why the cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
     /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
 impl Grid {
-    /// Creates a grid. A cell that is not computed yet is shown as missing, and not by the results of a cell nearby.
+    /// Creates a grid. A [cell](GridCell) that is not computed yet is shown as missing, and not by the results of a cell nearby.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -97,7 +100,7 @@ impl Grid {
         (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
     }
 
-    /// Returns the layer that shows a quantity; `None` if the grid has no such layer.
+    /// Returns the layer of [`Grid::layers`] that shows a quantity; `None` if the grid does not show the quantity.
     pub fn layer(&self, quantity: Quantity) -> Option<&GridLayer> {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
@@ -110,14 +113,15 @@ impl Grid {
         touch.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).chain(zero_force).collect()
     }
 
-    /// Returns true if there is a cell in which less than three quarters of the profiles agree on one regime. `regime` is one
-    /// of [`Quantity::REGIMES`].
+    /// Returns true if there is a [cell](GridCell) in which less than three quarters of the profiles have the same regime of
+    /// adhesion. `regime` is one of [`Quantity::REGIMES`].
     pub fn is_split(&self, regime: Quantity) -> bool {
         self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// Returns the cell that is shown in a column and a row, with the column and the row to which its results belong. Until a
-    /// cell of a [`LiveMap`](crate::maps::LiveMap) is computed, a computed cell nearby is shown. `None` if there is none.
+    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. As long as
+    /// the cell of a [`LiveMap`](crate::maps::LiveMap) in this column and row is not computed, a computed cell nearby is shown.
+    /// `None` if the map shows no cell there.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
@@ -130,10 +134,10 @@ impl Grid {
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
 
-    /// Returns the statistics of a quantity in all cells, row by row. If `whole` is true, a cell that is not computed yet has
-    /// the statistics of the cell that [`Grid::shown`] returns for it. A regime counts as 0 (non-adhesive), ½ or 1
-    /// (pressure-insensitive). Where less than three quarters of the profiles agree, it is the mean of the two most frequent
-    /// regimes.
+    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is true, a cell that is not computed
+    /// yet has the statistics of the cell that [`Grid::shown`] returns for it. If the quantity is a regime, its value in a cell
+    /// is the most frequent regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If less than three
+    /// quarters of the profiles have this regime, the value is the mean of the values of the two most frequent regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
@@ -150,16 +154,17 @@ impl Grid {
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
-    /// Returns the most frequent regime of each cell, row by row; empty if no regime is known. The regime follows from F_a(d=0)
-    /// or F_a(F=0), as in [`GridCell::regimes_of`]. If `whole` is true, a cell that is not computed yet has the regime of the
-    /// cell that [`Grid::shown`] returns for it.
+    /// Returns the most frequent regime of each [cell](GridCell), row by row; empty if no regime is known in any cell.
+    /// `quantity` chooses the regime that follows from F_a(d=0) or from F_a(F=0), as in [`GridCell::regimes_of`]. If `whole` is
+    /// true, a cell that is not computed yet has the regime of the cell that [`Grid::shown`] returns for it.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 
-    /// Returns true if a place lies on the grid. The grid extends half a cell beyond the first and the last value of an axis.
+    /// Returns true if a place lies on the grid. Along each axis the grid begins half a [cell](GridCell) before the first value
+    /// and ends half a cell behind the last value.
     pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
@@ -176,8 +181,8 @@ impl Grid {
         )
     }
 
-    /// Returns what [`Grid::shown`] returns for the cell nearest to a place. For a place beyond the grid it is a cell at the
-    /// edge.
+    /// Returns what [`Grid::shown`] returns for the [cell](GridCell) nearest to a place. If the place lies beyond the grid,
+    /// this cell is at the edge of the grid.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;

@@ -5,15 +5,17 @@
 //! # Names by task
 //!
 //! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record; [`Changes`] to a plan.
-//! * Computing: [`compute`](compute()) in memory, or [`run_study`] in a [`Folder`]. There each process computes a [`Shard`],
-//!   reports its [`StudyProgress`], and [`merge`] makes the tables afterwards. A [`Stop`] ends a computation.
-//! * Results: [`Results`] with [`Statistics`], their [`Spread`], and [`RegimeCounts`].
+//! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of a plan, a [`Shard`], in a
+//!   [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes the tables from all parts. A [`Stop`] ends a computation.
+//! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and [`RegimeCounts`].
 //! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`]. [`find`](find()) answers a [`Question`] by
-//!   [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force over the
-//!   preload. [`Sensitivity`] has an [`Influence`] for each number of the scene, with the [`Changed`] results.
-//! * Errors: [`StudyError`].
+//!   [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force as a function
+//!   of the preload. [`Sensitivity`] has an [`Influence`] for each number of the scene: the [`Changed`] results for a smaller
+//!   and a larger value of this number.
+//! * Errors of all these functions: [`StudyError`].
 //!
-//! These modules serve programs with figures and tables: [`folders`], [`maps`], [`checks`], [`half_space`] and [`trust`].
+//! Programs with figures and tables use further names in the modules [`folders`], [`maps`], [`checks`], [`half_space`] and
+//! [`trust`].
 
 mod axis;
 mod boundary;
@@ -78,15 +80,15 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Files in the folder of a study, for programs that show how far its processes are or what they wrote.
+/// Progress of a study in a folder: what the processes that compute the study have written to its files.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Maps of results over two axes, read from a study or computed for display, and the values of κ or e_el/γ at which
-/// adhesion without a preload vanishes.
+/// Maps of results over two axes of a study. The module also has the values of κ or e_el/γ at which adhesion without a preload
+/// vanishes.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
@@ -95,14 +97,14 @@ pub mod maps {
     pub use crate::study_map::StudyMap;
 }
 
-/// Statements with known results, which `asperity check` computes and compares.
+/// Cases with known results. `asperity check` computes each case and compares its result with the known one.
 pub mod checks {
     pub use crate::check::case::Case;
     pub use crate::check::{Check, Verdict};
 }
 
-/// Comparison of the contact of a scene on profiles with the same contact in three dimensions. It shows the error of the
-/// profile as a model.
+/// Comparison of a scene computed on one-dimensional profiles with the same scene computed in three dimensions. The difference
+/// is the error of the model.
 pub mod half_space {
     pub use crate::reference::{
         Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,
@@ -110,7 +112,7 @@ pub mod half_space {
     pub use crate::square_loops::SquareLoops;
 }
 
-/// How far to trust a result: its errors by their sources, and criteria of adhesion of other theories.
+/// Errors of an adhesion force, one for each source, and criteria by which other theories decide whether bodies adhere.
 pub mod trust {
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;

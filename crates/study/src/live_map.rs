@@ -15,7 +15,8 @@ use std::collections::BTreeMap;
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// How many cells of a [`LiveMap`] are computed, from few to all. Each level contains the cells of the level before it.
+/// Resolution of a [`LiveMap`]: the values on the two axes for which the map is computed. Each level contains all values of the
+/// level before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 values of κ or e_el/γ and 5 values of H.
@@ -50,8 +51,8 @@ impl Level {
     }
 }
 
-/// Map of a scene over κ or e_el/γ and the Hurst exponent H, with a cell for each combination of their values. It is computed
-/// from coarse to fine, and can be shown meanwhile.
+/// Map of a scene over κ or e_el/γ and the Hurst exponent H. It has a [cell](Plan) for each combination of values of both. The
+/// map is computed from coarse to fine, and can be shown while it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -67,13 +68,13 @@ impl LiveMap {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
 
-    /// Returns the plan whose cells are the cells of the map.
+    /// Returns the plan of the map. Each [cell](Plan) of the plan is a cell of the map.
     pub fn plan(&self) -> &Plan {
         self.results.plan()
     }
 
-    /// Returns the numbers that the cells of a level have in the plan. The cells are in groups: each group has one value of H
-    /// and all values of κ or e_el/γ on this level.
+    /// Returns the [cells](Plan) of a level, each by its number in the plan. The cells are in groups: each group has one value
+    /// of H and all values of κ or e_el/γ of this level.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
@@ -87,7 +88,7 @@ impl LiveMap {
         self.failed.contains_key(&cell) || self.results.is_whole(cell)
     }
 
-    /// Sets the results of one cell on the random profile with the index `line`. The values are in the order of
+    /// Sets the results of one [cell](Plan) on the random profile with the index `line`. The values are in the order of
     /// [`Plan::record`].
     pub fn set(&mut self, cell: u64, line: u64, values: &[f64]) {
         self.results.set(cell * self.plan().lines + line, values);
@@ -102,20 +103,21 @@ impl LiveMap {
         self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
     }
 
-    /// Returns the finest level of which all cells are computed or cannot be computed; `None` if there is no such level.
+    /// Returns the finest level that is complete: each of its [cells](Plan) is computed or cannot be computed. `None` if no
+    /// level is complete.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true if no cell is left to compute. On a map with many springs, only a coarser level than [`Level::Whole`] is
-    /// computed.
+    /// Returns true if no [cell](Plan) is left to compute. If the scene has many springs, only the cells of a coarser level
+    /// than [`Level::Whole`] are computed.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing cells from coarse to fine, first all cells of a level with one H, then those with the next H.
-    /// `report` receives the map after each H. If `stop` returns true, the computation ends and the map keeps its results. For
-    /// a cell that cannot be computed the map keeps the reason.
+    /// Computes the missing [cells](Plan) from coarse to fine. Within a level, all cells with one value of H come before the
+    /// cells with the next value. `report` receives the map after each value of H. If `stop` returns true, the computation ends
+    /// and the map keeps its results. For a cell that cannot be computed the map keeps the reason.
     pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
@@ -141,8 +143,9 @@ impl LiveMap {
         }
     }
 
-    /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis, as in the paper. The
-    /// statistics of its cells have no confidence interval, because the profiles are too few.
+    /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis. Without H the map has
+    /// only a horizontal axis, κ or e_el/γ. The statistics of the [cells](Plan) have no confidence interval, because the
+    /// profiles are too few.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =

@@ -36,15 +36,16 @@ fn kappas() -> Vec<f64> {
 }
 
 impl Plan {
-    /// Number of random profiles in each cell of a map of self-affine roughness. The map of a measured surface has one profile.
+    /// Number of random profiles for each [cell](crate::Plan) of a map of self-affine roughness. On the map of a measured
+    /// surface each cell has one profile.
     pub const PROFILES_OF_MAP: u64 = 4;
 
-    /// Returns the plan of the map of a checked scene, for a [`LiveMap`](crate::maps::LiveMap). One axis is κ, and a second
-    /// axis is the Hurst exponent H if the roughness has one. Scenes that differ only in κ, H or the number of curve points
-    /// have the same map.
+    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. The first axis is κ. If the roughness has a
+    /// Hurst exponent H, the second axis is H. Scenes that differ only in κ, in H or in the number of points of the force curve
+    /// have the same plan.
     ///
     /// # Errors
-    /// Returns the reason in words if the scene has no map, for example because it is smooth.
+    /// Returns an error with the reason if the scene has no map, for example because the body is smooth.
     ///
     /// ```
     /// use asperity_study::Plan;

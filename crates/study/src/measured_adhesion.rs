@@ -25,14 +25,15 @@ const SHARE: f64 = 1.0 / 32.0;
 pub struct ProfileAdhesion {
     /// Seed of the random phases of the profile.
     pub seed: u64,
-    /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the body never pulls.
+    /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the force of the unloading is
+    /// never negative.
     pub adhesion_force: Option<f64>,
     /// Change of F_a in N if the spectrum changes at random within the uncertainty of its fit. F_a is computed for a small part
-    /// of this change and extrapolated in proportion.
+    /// of the change of the spectrum, and the change of F_a is extrapolated in proportion.
     pub fit_change: Option<f64>,
-    /// Regime that follows from F_a(d=0), for the fitted spectrum.
+    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum.
     pub regime: Option<Regime>,
-    /// Regime that follows from F_a(F=0), for the fitted spectrum.
+    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum.
     pub regime_after_zero_force: Option<Regime>,
 }
 
@@ -71,7 +72,7 @@ impl ProfileAdhesion {
 /// Adhesion of several random profiles with the spectrum of one measured surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredAdhesion {
-    /// Results on the profiles, in the order of their seeds.
+    /// Results, one for each profile, sorted by the seeds of the profiles.
     pub profiles: Vec<ProfileAdhesion>,
 }
 
@@ -83,7 +84,7 @@ impl MeasuredAdhesion {
     ///
     /// # Errors
     /// Returns an error if the scene does not make random profiles from a measured surface, if a file cannot be read, or if a
-    /// profile cannot be computed. If several profiles fail, the error is that of the first one.
+    /// profile cannot be computed. If several profiles fail, the error is the one of the first profile.
     ///
     /// ```
     /// let folder = tempfile::tempdir()?;
@@ -112,21 +113,23 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::of_line(scene, &line, count, jobs)
     }
 
-    /// Largest number of springs for which [`MeasuredAdhesion::quick_deviation`] computes forces. They then take some seconds.
+    /// Largest number of springs for which [`MeasuredAdhesion::quick_deviation`] computes forces. With so many springs it takes
+    /// some seconds.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
-    /// Returns [`MeasuredAdhesion::fit_deviation`] of a scene in N. `None` if the scene has more than
-    /// [`MeasuredAdhesion::MOST_SPRINGS`] springs, or does not make random profiles from a measured surface.
+    /// Computes a scene on `count` random profiles, as [`MeasuredAdhesion::of`] does, and returns
+    /// [`MeasuredAdhesion::fit_deviation`] in N. `None` if the scene has more than [`MeasuredAdhesion::MOST_SPRINGS`] springs,
+    /// or does not make random profiles from a measured surface.
     pub fn quick_deviation(document: &Document, count: u64, jobs: usize) -> Option<f64> {
         let is_quick = document.scene().numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Computes a scene on `count` profiles of this equivalent line, as [`MeasuredAdhesion::of`] does. The line replaces the
-    /// measured surface of the scene, whose options of reading and analysis are not used.
+    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `line` replaces
+    /// the measured surface of the scene. The options of the scene for reading and analysing its surface are not used.
     ///
     /// # Errors
-    /// A profile fails: the first one.
+    /// Returns an error if a profile cannot be computed. If several profiles fail, the error is the one of the first profile.
     pub fn of_line(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -157,8 +160,9 @@ impl MeasuredAdhesion {
     }
 
     /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for fewer
-    /// than two profiles. Its ends are the median divided by a factor and the median times this factor. The logarithm of the
-    /// factor is the root mean square of the relative changes of the adhesion force.
+    /// than two profiles. The ends of the interval are the median divided by a factor and the median times this factor. The
+    /// logarithm of the factor is the root mean square over the profiles of [`ProfileAdhesion::fit_change`] divided by the
+    /// adhesion force of the same profile.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)

@@ -14,8 +14,8 @@ const LONGEST_KEPT: u64 = 1 << 22;
 const REVERSED: u64 = 192;
 
 impl Plan {
-    /// Returns the largest memory in bytes that a study of this plan needs on `jobs` threads, if each thread computes the scene
-    /// of the plan that needs the most.
+    /// Returns the memory in bytes that a study of this plan needs at most on `jobs` threads. This is the memory if each thread
+    /// computes the scene of the plan that needs the most memory.
     ///
     /// # Errors
     /// Returns an error if the study needs more memory than the system provides now.

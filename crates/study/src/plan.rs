@@ -14,7 +14,7 @@ pub(super) const PRELOAD: &str = "preload";
 
 /// Largest number of profiles of a plan.
 pub const MOST_LINES: u64 = 1_000_000;
-/// Largest number of records of a plan, which is cells times profiles.
+/// Largest number of records of a plan, which is [cells](Plan) times profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
 /// Largest number of scenes that are all checked. Of more scenes, only the scenes at the ends of all axes are checked.
@@ -40,15 +40,15 @@ pub struct Plan {
     pub notice: String,
     /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
-    /// Axes of the study. From one cell to the next, the value on the last axis changes first. An axis of preloads is the last
-    /// axis, and each of its preloads replaces the loading of the scene. The preloads are in N or in units of E* h L, with the
-    /// rms height h and the length L.
+    /// Axes of the study. Cells are numbered so that the value on the last axis changes first. If the plan has preloads, their
+    /// axis is the last one, and each preload replaces the loading of the scene. Preloads are in N or in units of E* h L, with
+    /// the effective modulus E*, the rms height h and the length L.
     pub axes: Vec<Axis>,
-    /// Number of random profiles on which each cell is computed.
+    /// Number of random profiles for each [cell](Plan), which is one combination of values on the axes.
     pub lines: u64,
-    /// Seed of the first profile. The other profiles have the seeds that follow. All cells have the same seeds.
+    /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the same in all [cells](Plan).
     pub seed: u64,
-    /// Quantities that are recorded for each cell and profile.
+    /// Quantities that are recorded for each [cell](Plan) and profile.
     pub record: Vec<Quantity>,
     /// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
     /// [`Quantity::ForceExponent`].
@@ -58,8 +58,9 @@ pub struct Plan {
     pub measured_sha256: Option<String>,
 }
 
-/// Forces at which the contact without adhesion is computed, to fit the exponents of force and stiffness. The forces are in
-/// units of E* h L, with the rms height h and the length L of the profile.
+/// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
+/// [`Quantity::ForceExponent`]. The forces are in units of E* h L, with the effective modulus E*, the rms height h and the length
+/// L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -67,7 +68,7 @@ pub struct StiffnessRange {
     pub from: f64,
     /// Largest force of the range.
     pub to: f64,
-    /// Number of forces in the range, at least 2. The ratio of neighbouring forces is constant.
+    /// Number of forces in the range, at least 2. All neighbouring forces have the same ratio.
     pub count: u64,
 }
 
@@ -79,7 +80,7 @@ impl Default for StiffnessRange {
 }
 
 impl Plan {
-    /// Largest number of cells of a plan.
+    /// Largest number of [cells](Plan) of a plan.
     pub const MOST_CELLS: u64 = 10_000_000;
 
     /// Makes the plan of a checked scene without axes: one cell on `lines` profiles, whose seeds begin with the seed of the
@@ -108,12 +109,12 @@ impl Plan {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Returns the number of cells, which is the product of the numbers of values on all axes.
+    /// Returns the number of [cells](Plan), which is the product of the numbers of values on all axes.
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }
 
-    /// Returns the number of records of the complete study, which is cells times profiles.
+    /// Returns the number of records of the complete study: the number of [cells](Plan) times the number of profiles.
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }
@@ -143,19 +144,20 @@ impl Plan {
         self.axes[axis].values[(cell / faster % self.axes[axis].count()) as usize]
     }
 
-    /// Returns the values on all axes in cell number `cell`, in the order of the axes.
+    /// Returns the values on all axes in [cell](Plan) number `cell`, in the order of the axes.
     pub fn values(&self, cell: u64) -> Vec<f64> {
         (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
     }
 
-    /// Returns the values on all axes in cell number `cell` as text, such as `adhesion.kappa = 6.0`.
+    /// Returns the values on all axes in [cell](Plan) number `cell` as text, such as `adhesion.kappa = 6.0`.
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// Returns the scene of cell number `cell`. It keeps the loading of the plan's scene, even if the cell has a preload.
+    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the axes. It keeps the loading of
+    /// the plan's scene, even if one of the axes is the preload.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number of an axis, or if a value is out of its range.

@@ -17,12 +17,12 @@ use std::path::Path;
 /// Version of the plan file. No other version is supported.
 pub const PLAN_VERSION: u32 = 1;
 
-/// Changes to a plan for one study, which leave the file of the plan as it is.
+/// Changes that [`Plan::open`] makes to a plan after it has read the file. The file stays as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Fields of the scene that get another value, each as path and value in the form of a scene file.
+    /// Fields of the scene that get a new value. Each has the path of the field and the new value, written as in a scene file.
     pub set: Vec<(String, String)>,
-    /// Number of random profiles of each cell; `None` keeps the number in the plan.
+    /// Number of random profiles for each [cell](Plan); `None` keeps the number in the plan.
     pub lines: Option<u64>,
 }
 
@@ -72,8 +72,8 @@ impl Plan {
     /// file is relative to the folder of the plan. `changes` are made before the plan is checked.
     ///
     /// # Errors
-    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a cell has an error. All errors of
-    /// the plan are listed, or the errors of the first cells.
+    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a [cell](Plan) has an error. The
+    /// error lists all errors of the plan. If the plan itself has none, it lists the errors of the first few cells.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};
@@ -94,12 +94,12 @@ impl Plan {
         Plan::parse(plan.text, plan.name, changes)
     }
 
-    /// Makes a plan in which numbers of a scene vary. Each of the `axes` is the path of a number with its values in SI units.
-    /// Each cell has `profiles` random profiles, on which the quantities in `record` are recorded.
+    /// Makes a plan in which numbers of a scene vary. Each of the `axes` is the path of a number and the values, in SI units,
+    /// that it gets. The quantities in `record` are recorded on `profiles` random profiles for each combination of values.
     ///
     /// # Errors
-    /// Returns an error if the plan or the scene of a cell has an error. All errors of the plan are listed, or the errors of
-    /// the first cells.
+    /// Returns an error if the plan or the scene of a [cell](Plan) has an error. The error lists all errors of the plan. If the
+    /// plan itself has none, it lists the errors of the first few cells.
     ///
     /// ```
     /// use asperity_study::{Plan, Quantity};
@@ -144,8 +144,8 @@ impl Plan {
         })
     }
 
-    /// Reads and checks the text of a plan. `name` is usually its file: errors name it, and the path of a scene is relative to
-    /// it.
+    /// Reads and checks the text of a plan. `name` is usually the path of the file of the plan. Errors begin with `name`, and
+    /// the path of a scene file in the plan is relative to the folder of `name`.
     ///
     /// # Errors
     /// The errors are the same as those of [`Plan::open`].
@@ -214,7 +214,7 @@ impl Plan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
-    /// Returns the plan with its scene as text in RON. [`Plan::parse`] makes the same plan from this text.
+    /// Returns the plan as text in RON, with the scene written into it. [`Plan::parse`] makes the same plan from this text.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};

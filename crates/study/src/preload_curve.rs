@@ -24,30 +24,31 @@ fn failed(error: RunError) -> StudyError {
     StudyError::Run { place: String::new(), error }
 }
 
-/// Adhesion force of a scene as a function of the preload: on the scene's own profile with all steps, and on random profiles.
-/// The own profile is the one with the seed of the scene. A curve may be incomplete.
+/// Adhesion force of a scene as a function of the preload. The scene's own profile, which has the seed of the scene, is computed
+/// with all steps of the force. Further random profiles are computed at fixed preloads. A curve whose computation is not finished
+/// lacks steps or profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    /// Preloads of the random profiles in N, as an axis.
+    /// Preloads in N at which the random profiles are computed, as an axis.
     pub axis: Axis,
-    /// Adhesion force of the scene's own profile as a function of the preload, with each step located.
+    /// Adhesion force of the scene's own profile as a function of the preload, with the preload of each step.
     pub staircase: Staircase,
-    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own. If the profile of the scene
-    /// is fixed, it is the only one.
+    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own. If the profile of the scene is
+    /// fixed, there are no other profiles.
     pub results: Results,
 }
 
 impl PreloadCurve {
-    /// Number of random profiles of a complete curve, with the scene's own profile.
+    /// Number of random profiles of a complete curve. The scene's own profile is one of them.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a scene from the scene and its outcome, over preloads on a linear or logarithmic scale. A curve
-    /// that was begun on the same scale is continued. Each time that a part is computed, `report` receives the curve so far.
+    /// Computes the adhesion force of a scene at preloads on a linear or logarithmic `scale`. The scene and its outcome are
+    /// given. If `begun` is an incomplete curve on the same scale, only the missing parts are computed. After each part `report`
+    /// receives the curve so far.
     ///
     /// # Errors
-    /// Returns the reason in words if the scene has no adhesion or no stage that presses the bodies together, or if its solver
-    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned
-    /// true.
+    /// Returns an error if the scene has no adhesion or no stage that presses the bodies together, or if the solver of the scene
+    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
@@ -115,7 +116,7 @@ impl PreloadCurve {
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results: results? })
     }
 
-    /// Returns true if the curve has all steps of the scene's own profile, and all random profiles.
+    /// Returns true if the curve is complete: it has all steps on the scene's own profile, and all random profiles.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
@@ -125,8 +126,8 @@ impl PreloadCurve {
         self.results.records_of(0).count()
     }
 
-    /// Returns the statistics of the adhesion force in N over the computed profiles after a preload in N. `None` if the preload
-    /// is not on the axis, or for fewer than two profiles.
+    /// Returns the statistics over the computed profiles of the adhesion force in N after a preload in N. `None` if the preload
+    /// is not on [`PreloadCurve::axis`], or if fewer than two profiles are computed.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         let spread = self.results.spread_of_adhesion().into_iter();
         let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();

@@ -25,11 +25,11 @@ const FINEST: f64 = 1.0 / 2048.0;
 const SAME: f64 = 1e-9;
 
 impl Axis {
-    /// Smallest and largest number of preloads on an axis that is made from two forces.
+    /// Smallest and largest number of preloads that [`Axis::of_preloads`] and [`Axis::parse_preloads`] allow on an axis.
     pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
     /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the number of preloads, and `log`
-    /// for equal ratios between neighbours. The number and `log` may be omitted.
+    /// for equal ratios of neighbouring preloads. The number and `log` may be omitted.
     ///
     /// # Errors
     /// Returns an error if the text has another form or if a number is not allowed. The error says what is allowed.
@@ -59,7 +59,7 @@ impl Axis {
         Axis::of_preloads(ends, count, scale)
     }
 
-    /// Reads two numbers with the SI unit `unit`, the smaller one first, from text such as `1uN..20uN`.
+    /// Reads two numbers from text such as `1uN..20uN`, the smaller number first. `unit` is their SI unit, here `N`.
     ///
     /// # Errors
     /// Returns an error if the text has another form or another unit. The error says what is allowed.
@@ -74,8 +74,8 @@ impl Axis {
         Ok((number(from)?, number(to)?))
     }
 
-    /// Creates an axis of `count` preloads from the first to the second force in N. Neighbours have equal differences on a
-    /// linear scale and equal ratios on a logarithmic scale.
+    /// Creates an axis of `count` preloads in N, from the first to the second of two forces. Neighbouring preloads have equal
+    /// differences on a linear scale and equal ratios on a logarithmic scale.
     ///
     /// # Errors
     /// Returns an error if a force or the number of preloads is not allowed. The error says what is allowed.
@@ -114,25 +114,27 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile as a function of the preload. The force rises in steps. At a step, the loading closes a patch
-/// on which the pull-off force depends. If closing has a smaller work of adhesion than opening, the force also rises between
-/// the steps.
+/// Adhesion force of one profile as a function of the preload. The force rises in steps. At each step, the loading closes a
+/// patch on which the pull-off force depends. If the work of adhesion is smaller for closing than for opening, the force also
+/// rises between the steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
     /// Scale of the preloads, linear or logarithmic.
     pub scale: AxisScale,
-    /// Force at first touch, and F_a(d=0), the adhesion force if the loading turns there. Both are in N.
+    /// Force at first touch in N, and adhesion force F_a(d=0) in N of a loop that turns at first touch.
     pub touch: (f64, f64),
-    /// F_a(F=0) in N, the adhesion force if the loading turns where the force is back at zero.
+    /// Adhesion force F_a(F=0) in N of a loop that turns at zero force.
     pub zero_force: f64,
-    /// Ascending preloads in N, each with the adhesion force in N after it. This force is 0 if the body never pulls.
+    /// Ascending preloads in N, each with the adhesion force in N after this preload. The adhesion force is 0 if the force of
+    /// the unloading is never negative.
     pub forces: Vec<(f64, f64)>,
 }
 
 impl Staircase {
-    /// Computes the staircase of a checked scene over an axis of preloads in N. Intervals between preloads that contain a step
-    /// are halved until they are at most 1/2048 of the axis. `report` receives the staircase at the preloads of the axis, and
-    /// again after each halving.
+    /// Computes the staircase of a checked scene at the preloads in N of an axis. If the adhesion force rises between two
+    /// neighbouring preloads, it is computed for the preload halfway between them too, until neighbours with a rise are at most
+    /// 1/2048 of the axis apart, on the scale of the axis. `report` receives the staircase at the preloads of the axis, and again
+    /// after each halving.
     ///
     /// # Errors
     /// Returns an error if a preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.
@@ -184,7 +186,8 @@ impl Staircase {
         Ok(all)
     }
 
-    /// Returns true if each step is located within 1/2048 of the axis of preloads.
+    /// Returns true if every step is known to lie between two preloads that are at most 1/2048 of the axis of preloads apart,
+    /// on the scale of the axis.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }
@@ -203,8 +206,8 @@ impl Staircase {
         self.forces.windows(2).filter_map(middle).collect()
     }
 
-    /// Returns the corners of the staircase as pairs of preload and adhesion force in N, to draw it as a line. Up to the next
-    /// preload the line is horizontal, and there it is vertical.
+    /// Returns the corners of a line that shows the staircase, as pairs of preload and adhesion force in N. From each preload
+    /// the line is horizontal up to the next preload, and at the next preload it is vertical.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
         self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()
@@ -212,7 +215,7 @@ impl Staircase {
 }
 
 impl Results {
-    /// Quantities that a study of the adhesion force over the preload records.
+    /// Quantities that are recorded in a study of the adhesion force as a function of the preload.
     pub const OF_PRELOADS: [Quantity; 4] = [
         Quantity::PreloadIndentation,
         Quantity::AdhesionForce,
@@ -220,8 +223,9 @@ impl Results {
         Quantity::DissipatedEnergy,
     ];
 
-    /// For a study whose axis has preloads in N, returns each preload with the statistics of the adhesion force in N over the
-    /// profiles. A preload with fewer than two profiles is left out. A profile that never pulls counts as 0 N.
+    /// For a study whose axis has preloads in N, returns each preload with the statistics over the profiles of the adhesion
+    /// force in N. A preload with fewer than two computed profiles is left out. A profile on which the force is never negative
+    /// has the adhesion force 0 N.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let spread = |cell| {
             let (preload, forces) = self.forces_in(cell);
@@ -231,8 +235,8 @@ impl Results {
         (0..self.plan.cells()).filter_map(spread).collect()
     }
 
-    /// For a study whose axis has preloads in N, returns the one nearest to `preload`, and the adhesion force in N of each
-    /// computed profile after it.
+    /// For a study whose axis has preloads in N, returns the preload of the axis that is nearest to `preload`, and the adhesion
+    /// force in N after this preload on each computed profile.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));

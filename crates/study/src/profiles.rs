@@ -9,7 +9,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-/// Function that a computation asks repeatedly whether to stop. Once it returns true, the computation ends.
+/// Function that a computation calls repeatedly. Once the function returns true, the computation ends.
 pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
 /// Solves profiles of a plan, given by their indices, on at most `jobs` threads, or on fewer if the memory does not

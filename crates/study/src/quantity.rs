@@ -90,7 +90,8 @@ quantities! {
         symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
     }
     FirstTouchAdhesionForce {
-        name: "first_touch_adhesion_force", meaning: "adhesion force turned at first touch",
+        name: "first_touch_adhesion_force",
+        meaning: "adhesion force F_a(d=0) of a loop that turns at first touch",
         symbol: "F_a(d=0)", unit: "N", needs: Needs::Touch, of: |case| case.first_touch,
     }
     FirstTouchAdhesionShare {
@@ -101,7 +102,7 @@ quantities! {
     }
     ZeroForceAdhesionForce {
         name: "zero_force_adhesion_force",
-        meaning: "adhesion force turned at zero force",
+        meaning: "adhesion force F_a(F=0) of a loop that turns at zero force",
         symbol: "F_a(F=0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
     }
     ZeroForceAdhesionShare {
@@ -140,12 +141,12 @@ quantities! {
         symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {
-        name: "tabor_number", meaning: "Tabor number, which is small if the attraction is long-ranged",
+        name: "tabor_number", meaning: "Tabor number, small for long-ranged attraction",
         symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
         name: "contact_fraction",
-        meaning: "total length in contact, largest value on the loading, divided by the length L of the profile",
+        meaning: "largest contact length on the loading, divided by the length L of the profile",
         bounds: SHARE, of: |case| case.contact_fraction(),
     }
     Fragments {
@@ -162,12 +163,12 @@ quantities! {
     }
     StiffnessExponent {
         name: "stiffness_exponent",
-        meaning: "exponent of the stiffness without adhesion, k ∝ F^α",
+        meaning: "exponent α of the stiffness k without adhesion, k ∝ F^α",
         symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.0),
     }
     ForceExponent {
         name: "force_exponent",
-        meaning: "exponent of the force without adhesion, F ∝ dⁿ",
+        meaning: "exponent n of the force F without adhesion, F ∝ dⁿ",
         symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.1),
     }
     RmsHeight {
@@ -190,20 +191,20 @@ quantities! {
 }
 
 impl Quantity {
-    /// F_a(d=0)/F_a,max and F_a(F=0)/F_a,max: both adhesion forces without a preload, divided by the ideal adhesion force.
+    /// Both adhesion forces without a preload, F_a(d=0) and F_a(F=0), each divided by the ideal adhesion force F_a,max.
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
     /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns in words which regimes a map of this quantity shows: `turned at zero force` for
-    /// [`Quantity::RegimeAfterZeroForce`], `turned at first touch` for any other quantity.
+    /// Returns the loop from which the regimes on a map of this quantity follow: `turned at zero force` for
+    /// [`Quantity::RegimeAfterZeroForce`], and `turned at first touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }
     }
 
-    /// Returns the same as [`Quantity::protocol`] in short, for a title or a legend: `F=0` or `d=0`.
+    /// Returns the turning point of the loop that [`Quantity::protocol`] names: `F=0` for zero force, `d=0` for first touch.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "d=0" }
     }
@@ -272,12 +273,12 @@ impl Quantity {
         }
     }
 
-    /// Returns what the quantity is, in one line.
+    /// Returns the meaning of the quantity as one line of text, such as `adhesion force after the preload`.
     pub const fn meaning(self) -> &'static str {
         self.row().meaning
     }
 
-    /// Returns the smallest and the largest value that the quantity can have, in its SI unit. Both may be infinite.
+    /// Returns the smallest and the largest value that the quantity can have, in its SI unit. A missing bound is −∞ or ∞.
     pub const fn bounds(self) -> (f64, f64) {
         self.row().bounds
     }

@@ -28,18 +28,19 @@ const MARGIN: f64 = 0.01;
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
 
-/// Question at which value of one number of a scene a quantity reaches a target, on each of several random profiles.
-/// [`find`](crate::find()) asks and answers it.
+/// Question: at which value of one number of a scene does a quantity reach a target? It is asked for each of several random
+/// profiles. [`find`](crate::find()) makes and answers such a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Number whose value is sought, as an axis without values. A preload is sought in N.
+    /// Number whose value is sought. It is an axis without values, which has the path, the name and the unit of the number. The
+    /// unit of a preload is N.
     pub axis: Axis,
     /// Quantity that must reach the target.
     pub quantity: Quantity,
     /// Target value of the quantity in its SI unit.
     pub target: f64,
-    /// Smallest and largest value of the number that are tried, in SI units. Both are NaN if the number is not above zero in
-    /// the scene. Then the range must be set before the question is answered.
+    /// Smallest and largest value of the number that are tried, in SI units. If the number is not above zero in the scene,
+    /// [`Question::new`] sets both to NaN, and the caller must set the range before the question is answered.
     pub searched: (f64, f64),
     /// Scale of the searched number.
     scale: AxisScale,
@@ -53,24 +54,26 @@ pub struct Question {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// All found values of the number at which the quantity crosses the target, ascending. Each is found between two values
-    /// that differ by at most 1e-9 of their size, or by 1 for whole numbers. The list has the one of both at which the quantity
-    /// is at least the target.
+    /// Ascending values of the number at which the quantity crosses the target. Each crossing lies between two values that
+    /// differ by at most 1e-9 of their size, or by 1 for whole numbers. The list has the value of these two at which the
+    /// quantity is at least the target.
     pub crossings: Vec<f64>,
-    /// Whether the quantity is at least the target: first at the smallest searched number, then at the largest.
+    /// Two flags that are true if the quantity is at least the target. The first is for the smallest searched number, the
+    /// second for the largest.
     pub reached: [bool; 2],
-    /// True if the preload for an adhesion force is sought, and a loading that turns at first touch reaches the target already.
+    /// True if a preload is sought after which the adhesion force reaches the target, and F_a(d=0) reaches the target already.
     pub at_touch: bool,
-    /// Smallest and largest value of the quantity at the numbers with which the search began; `None` if it has no value there.
+    /// Smallest and largest value of the quantity at the numbers that were computed first, spread over the searched range.
+    /// `None` if the quantity has no value at any of these numbers.
     pub reachable: Option<(f64, f64)>,
 }
 
 impl Question {
-    /// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side is the symbol of a quantity
-    /// or its name in tables of studies. The right side is a value with its unit, which may have a prefix.
+    /// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side is the symbol or the name of
+    /// a [`Quantity`]. The right side is a value with a unit, and the unit may have a prefix.
     ///
     /// # Errors
-    /// Returns an error if the text is no condition, or if the quantity cannot have this value. The error says what is allowed.
+    /// Returns an error if the text has another form, or if the quantity cannot have this value. The error says what is allowed.
     ///
     /// ```
     /// use asperity_study::Quantity;
@@ -101,10 +104,11 @@ impl Question {
         Ok((quantity, target))
     }
 
-    /// Asks at which value of the number at `path` a quantity has a given value, on `profiles` random profiles of a checked
-    /// scene. If `path` is `preload`, asks for the preload. The search goes from a hundredth to a hundred times the value in
-    /// the scene. For a number whose allowed range is at most 2 wide, such as the Hurst exponent, nearly this whole range is
-    /// searched. Preloads are searched from 0 N to a hundred times the largest force of the loading.
+    /// Makes the question at which value of the number at `path` a quantity has a given value, for `profiles` random profiles of
+    /// a checked scene. If `path` is `preload`, the question is after which preload the quantity has this value. Numbers from a
+    /// hundredth to a hundred times the value in the scene are searched. For a number whose allowed range is at most 2 wide, such
+    /// as the Hurst exponent, nearly this whole range is searched. Preloads are searched from 0 N to a hundred times the largest
+    /// force to which the scene is loaded.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the profile of the scene is

@@ -30,11 +30,11 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 const LONGEST: f64 = 86_400.0;
 
-/// Options of a [`Reference`]: numbers of random profiles and of random squares, and number of cells along the side of a
-/// square.
+/// Options of a [`Reference`]: the number of random profiles, the number of random squares, and the number of grid cells along
+/// the side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
-    /// Number of cells along the side of a square, a power of two.
+    /// Number of grid cells along the side of a square, a power of two.
     pub cells: usize,
     /// Number of random squares.
     pub maps: u64,
@@ -46,16 +46,16 @@ pub struct ReferenceOptions {
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
-    /// Returns the usual options for a scene: 64 cells along the side of a square, and 16 random profiles for each square.
-    /// `maps` is the number of squares. Without it there are 24 squares for a scene without adhesion, and 12 squares for a
-    /// scene with adhesion, where each takes about ten times as long.
+    /// Returns the usual options for a scene: 64 grid cells along the side of a square, and 16 random profiles for each square.
+    /// `maps` is the number of squares. If it is `None`, there are 24 squares for a scene without adhesion. For a scene with
+    /// adhesion there are 12 squares, because a square with adhesion takes about ten times as long.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
     }
 }
 
-/// One quantity, computed on random profiles and on random squares in three dimensions.
+/// Comparison of one quantity between random profiles and random squares in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Compared {
     /// Statistics of the quantity over the profiles.
@@ -64,69 +64,72 @@ pub struct Compared {
     pub half_space: Statistics,
     /// Mean over the profiles divided by the mean over the squares.
     pub ratio: f64,
-    /// Half the width of the 95 % confidence interval of the ratio, from the standard errors of both means; `None` for fewer
-    /// than two profiles or squares.
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], from the standard errors of both means; `None`
+    /// for fewer than two profiles or squares.
     pub error: Option<f64>,
 }
 
-/// Contacts of the profiles and of the squares without adhesion, at one force.
+/// Comparison of the profiles with the squares at one force, without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
-    /// Force, N.
+    /// Force on each profile and on each square, N.
     pub force: f64,
-    /// Indentation from first touch, m.
+    /// Indentation in m at this force, counted from first touch.
     pub indentation: Compared,
-    /// Stiffness dF/dd of the contact, N/m.
+    /// Stiffness of the contact in N/m at this force: the change of force divided by the change of indentation.
     pub stiffness: Compared,
-    /// Mean area of contact in three dimensions, m².
+    /// Mean area of contact of the squares at this force, m².
     pub area: f64,
 }
 
-/// Comparison of the contact of a scene on random profiles with its contact on random squares in three dimensions. A square is
-/// a rigid rough body of the side L on an elastic half-space.
+/// Comparison of a scene on random profiles with the same scene on random squares in three dimensions. A square is a rigid rough
+/// body of the side L on an elastic half-space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Options of the comparison.
     #[serde(flatten)]
     pub options: ReferenceOptions,
-    /// Longest and shortest wave of profiles and squares, as numbers of periods over the length L; `None` for a smooth body.
+    /// Longest and shortest wave of the roughness on profiles and squares, each as its number of periods over the length L;
+    /// `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Shortest wave of the scene as a number of periods over L, if the squares are too coarse for it. Profiles and squares
-    /// then both leave out the waves that are shorter than those in `waves`. Otherwise `None`.
+    /// Number of periods over L of the shortest wave of the scene, if the grid of the squares is too coarse for this wave;
+    /// otherwise `None`. Neither profiles nor squares then have waves shorter than the shortest one in [`Reference::waves`].
     pub omitted: Option<u64>,
-    /// Preload of the scene on its own profile, N. The squares are pressed to this force.
+    /// Preload in N of the scene on the profile with the seed of the scene. The squares are pressed to this force.
     pub preload: f64,
-    /// Contacts without adhesion at several forces, from a hundredth of the preload to the preload.
+    /// Comparison without adhesion at several forces, from a hundredth of the preload to the preload.
     pub loading: Vec<Loaded>,
     /// Adhesion force F_a after the preload, N; `None` for a scene without adhesion.
     pub adhesion_force: Option<Compared>,
-    /// Adhesion force F_a(d=0), turned at first touch, N; `None` for a scene without adhesion.
+    /// Adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for a scene without adhesion.
     pub first_touch_adhesion_force: Option<Compared>,
-    /// Dissipated energy of the loop, J; `None` for a scene without adhesion.
+    /// Energy in J that the contact loses in the loop; `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// Errors of the comparison by their sources.
+    /// Errors of the comparison, one for each source of errors.
     pub budget: ReferenceBudget,
-    /// Number of convolutions computed on the squares. They take most of the time of the squares.
+    /// Number of convolutions that were computed for all squares together. Convolutions take most of the computing time of the
+    /// squares.
     pub convolutions: u64,
-    /// Computing time of all profiles, and computing time of all squares, s.
+    /// Computing time in s: first of all profiles together, then of all squares together.
     pub seconds: [f64; 2],
     /// Mean computing time of one square, s.
     pub seconds_of_square: f64,
 }
 
-/// Errors of a [`Reference`] by their sources. The errors `grid`, `sample` and `model` are relative errors of the adhesion
-/// force, or of the indentation at the preload if the scene has no adhesion.
+/// Errors of a [`Reference`], one for each source of errors. The errors `grid`, `sample` and `model` are relative errors of the
+/// adhesion force, or of the indentation at the preload if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest violation of the conditions on the gap in contacts of squares without adhesion, in units of the rms height.
+    /// Largest error of the gap at any grid cell of any square, in the contacts without adhesion. It is divided by the rms
+    /// height of the square. Without error the gap is zero in contact and at least zero elsewhere.
     pub solver: f64,
-    /// Relative difference between the mean over the squares and the mean over the same squares with half as many cells along
-    /// the side; `None` if the latter have too few cells.
+    /// Relative difference between the mean over the squares and the mean over the same squares with half as many grid cells
+    /// along the side; `None` if half as many cells are too few.
     pub grid: Option<f64>,
-    /// Half the width of the 95 % interval of [`Compared::ratio`] over this ratio, due to the finite numbers of squares and
-    /// profiles.
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this ratio. It is due to the finite
+    /// numbers of squares and profiles.
     pub sample: Option<f64>,
-    /// Difference between 1 and [`Compared::ratio`], without sign.
+    /// Difference between [`Compared::ratio`] and 1, without its sign.
     pub model: f64,
     /// Name of the source with the largest error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,
@@ -141,7 +144,7 @@ pub enum ReferenceEvent {
         maps: u64,
         /// Number of threads that share the squares. It is smaller than the requested number if the memory does not suffice.
         threads: usize,
-        /// Memory that all threads need together, in bytes.
+        /// Memory in bytes that all threads need together.
         bytes: u64,
         /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
@@ -168,20 +171,20 @@ struct OfSquare {
 }
 
 impl Reference {
-    /// Returns the main quantity of the comparison: the adhesion force, or the indentation at the preload if the scene has no
-    /// adhesion.
+    /// Returns the comparison of the main quantity: of the adhesion force, or of the indentation at the preload if the scene
+    /// has no adhesion.
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
     }
 
     /// Compares the contact of a checked scene on random profiles with its contact on random squares in three dimensions.
-    /// `simulation` finds the measured files of the scene. `jobs` threads share the profiles and then the squares. Only the
-    /// computing times depend on the number of threads. `report` receives each event.
+    /// `simulation` knows the folder of the measured files of the scene. `jobs` threads share the profiles and then the
+    /// squares. Only the computing times depend on the number of threads. `report` receives each event.
     ///
     /// # Errors
-    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of cells is not
-    /// allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, or if `stop`
-    /// returned true.
+    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of grid cells is
+    /// not allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, or if
+    /// `stop` returned true.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,

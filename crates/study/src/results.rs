@@ -17,7 +17,8 @@ use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
-/// Results of a study: the recorded quantities of each [cell](Plan) on each random profile, as far as they are computed.
+/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random profile. Values that are not
+/// computed yet are missing.
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
@@ -28,30 +29,31 @@ pub struct Results {
     failed: BTreeMap<u64, String>,
 }
 
-/// What [`merge`](crate::merge) found in the files of a study, each of which one process has written. A record has the values
-/// of one [cell](Plan) on one random profile.
+/// What [`merge`](crate::merge) found in the files of a study. Each file was written by one process. A record has the values of
+/// one [cell](Plan) on one random profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of records in the files, without repetitions.
+    /// Number of different records in the files. A record that occurs again is not counted again.
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
-    /// First records without values, each with the number of the cell, the seed of the profile and the reason.
+    /// First few of the records that cannot be computed, each with the number of the [cell](Plan), the seed of the profile and
+    /// the reason.
     pub first_failed: Vec<(u64, u64, String)>,
-    /// Number of records of the complete study.
+    /// Number of records that the study has once it is complete.
     pub total: u64,
-    /// Number of records that occur again with exactly the same values.
+    /// Number of repetitions: records that occur again with exactly the same values.
     pub duplicates: u64,
     /// Number of incomplete or damaged lines in the files. These lines are left out.
     pub damaged: u64,
-    /// Number of cells that lack the records of some profiles.
+    /// Number of [cells](Plan) that lack the records of some profiles.
     pub missing_cells: u64,
-    /// Numbers of the first cells that lack the records of some profiles.
+    /// Numbers of the first few [cells](Plan) that lack the records of some profiles.
     pub first_missing: Vec<u64>,
     /// Number of files that have at least one record.
     pub files: usize,
-    /// Versions of the program that wrote the records.
+    /// Versions of the program with which the processes wrote the records.
     pub programs: Vec<String>,
 }
 
@@ -94,8 +96,9 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// Makes a study in memory that has no values yet. Its only cell is a checked scene on `lines` random profiles, with the
-    /// quantities `record`. With an axis of `preloads` in N it has a cell for each preload, which replaces the loading.
+    /// Makes a study in memory that has no values yet. The study has no axis: it is a checked scene on `lines` random profiles,
+    /// with the recorded quantities `record`. If `preloads` is an axis of preloads in N, the study has this axis, and each
+    /// preload replaces the loading of the scene.
     ///
     /// # Errors
     /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an error if `preloads` are
@@ -135,8 +138,8 @@ impl Results {
     }
 
     /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` is a pair: the simulation with which
-    /// the first thread computes, and the number of threads. After each profile `report` is called on this thread, with the
-    /// results so far.
+    /// the first thread computes, and the number of threads. After each profile `report` receives the results so far, on the
+    /// calling thread.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
@@ -267,7 +270,8 @@ impl Results {
         }
     }
 
-    /// Returns what cannot be computed: number of the cell, index of the profile, and reason.
+    /// Returns the cells that cannot be computed on a profile: the number of the [cell](Plan), the index of the profile, and
+    /// the reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
         self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
@@ -290,9 +294,9 @@ impl Results {
         &self.plan
     }
 
-    /// Returns the values of a cell on the profile with the index `line`, in the order of [`Plan::record`]. `None` if the
-    /// profile is not computed or cannot be computed. A quantity without a value is NaN. A regime is an index into
-    /// [`asperity_scene::Regime::ALL`].
+    /// Returns the values of the quantities in a [cell](Plan) on the profile with the index `line`, in the order of
+    /// [`Plan::record`]. `None` if they are not computed or cannot be computed. A quantity without a value is NaN. A regime is
+    /// an index into [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -303,20 +307,21 @@ impl Results {
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
-    /// Returns the value of a quantity in a cell on the profile with the index `line`, in its SI unit. `None` if the quantity
-    /// is not recorded or has no value.
+    /// Returns the value of a quantity in a [cell](Plan) on the profile with the index `line`, in the SI unit of the quantity.
+    /// `None` if the quantity is not recorded or has no value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
         self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
     }
 
-    /// Returns the regime of adhesion of a cell on the profile with the index `line`; `None` if it is not recorded or not
-    /// known. `regime` is one of [`Quantity::REGIMES`].
+    /// Returns the regime of adhesion of a [cell](Plan) on the profile with the index `line`; `None` if it is not recorded or
+    /// not known. `regime` is one of [`Quantity::REGIMES`].
     pub fn regime(&self, cell: u64, line: u64, regime: Quantity) -> Option<Regime> {
         regime_of(self.value(cell, line, regime)?)
     }
 
-    /// Returns the values of a cell on all profiles that have values, each with the index of the profile.
+    /// Returns the index of each profile on which a [cell](Plan) is computed, with the values of the quantities in the order of
+    /// [`Plan::record`].
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
@@ -325,18 +330,19 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true if the cell is computed, or cannot be computed, on each profile.
+    /// Returns true if there is nothing left to compute in a [cell](Plan): on each profile it is either computed or cannot be
+    /// computed.
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// Returns the values of a quantity in a cell in its SI unit, on all profiles that have one.
+    /// Returns the values of a quantity in a [cell](Plan), in the SI unit of the quantity, on all profiles with a value.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else { return Vec::new() };
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
     }
 
-    /// Returns the statistics of a quantity over the profiles of a cell; `None` if no profile has a value.
+    /// Returns the statistics of a quantity over the profiles of a [cell](Plan); `None` if no profile has a value.
     ///
     /// ```
     /// use asperity_data::Control;
@@ -354,8 +360,8 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a cell in each regime of adhesion. The first numbers are for the regime that follows
-    /// from F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles of a [cell](Plan) in each regime of adhesion. The first numbers are for the regime that
+    /// follows from F_a(d=0), the second for the regime that follows from F_a(F=0).
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))

@@ -36,7 +36,7 @@ pub struct StudyProgress {
     pub before: u64,
     /// Number of records of the shard once it is complete.
     pub total: u64,
-    /// Time from the moment at which the run created its file to the last records in the file.
+    /// Time from the moment at which the run created the file of its results to the moment at which it wrote the last records.
     pub elapsed: Duration,
 }
 
@@ -46,7 +46,7 @@ impl StudyProgress {
         self.done == self.total
     }
 
-    /// Returns how many records this run computes per second; `None` before the first record.
+    /// Returns how many records this run has computed per second so far; `None` before the first record.
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
@@ -58,9 +58,9 @@ impl StudyProgress {
     }
 }
 
-/// Computes the missing records of a shard of the study in a folder, on `threads` threads, and writes them to a new file in the
-/// folder. `stop` is asked after each loading. If it returns true, the run ends without an error. `report` receives the
-/// progress several times a second and at the end.
+/// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new file in the folder.
+/// `threads` is the number of threads. `stop` is called after each loading. If it returns true, the computation ends without an
+/// error. `report` receives the progress several times a second and at the end.
 ///
 /// # Errors
 /// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file cannot be read or written.

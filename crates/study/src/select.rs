@@ -12,14 +12,16 @@ use asperity_data::{AxisScale, format_quantity, parse_quantity};
 const MOST_CURVES: usize = 5;
 const MOST_NAMED: usize = 12;
 
-/// Selection of a figure by the user. Each field is an option of `asperity sweep plot`.
+/// Choice of the quantities, axes and values of a study that a figure shows. Each field is an option of `asperity sweep plot`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Quantity of each panel; default: F_a(d=0) and F_a/F_n
+    /// Quantity of each panel; default: F_a(d=0)/F_a,max and F_a/F_n
     ///
-    /// Without F_a/F_n: F_a(d=0) and F_a(F=0); without any of these: the first quantity.
-    #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME"))]
+    /// If the study did not record F_a/F_n, the default is F_a(d=0)/F_a,max and
+    /// F_a(F=0)/F_a,max. Of each pair, only recorded quantities are drawn. If none is recorded,
+    /// the first recorded quantity is drawn.
+    #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME", verbatim_doc_comment))]
     pub quantities: Vec<String>,
     /// Horizontal axis
     #[cfg_attr(feature = "clap", arg(long = "x", value_name = "AXIS"))]
@@ -48,13 +50,15 @@ fn axis_and_value(text: &str) -> Result<(String, String), String> {
 /// Part of a study that a [`Selection`] has chosen for a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selected {
-    /// Cells of the chosen part, over one or two axes.
+    /// Results of the chosen part of the study, over one or two axes.
     pub grid: Grid,
     /// Quantities of the figure, one for each panel.
     pub quantities: Vec<Quantity>,
-    /// True if the figure has several curves over the horizontal axis, one for each row of the grid; false for a map.
+    /// True if the figure shows each row of a grid with two axes as a curve over the horizontal axis. False if it shows the
+    /// grid as a map, or if the grid has one axis.
     pub curves: bool,
-    /// Sentence that names the preload of the figure, if the study has several and the user chose none; otherwise `None`.
+    /// Sentence that states the preload of the figure, if the study has several preloads and the figure shows the first one
+    /// because the user chose none; otherwise `None`.
     pub note: Option<String>,
 }
 
@@ -63,11 +67,12 @@ pub struct Selected {
 type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
 
 impl Selection {
-    /// Chooses the part of a study that these options describe.
+    /// Returns the part of a study that the fields of this selection choose.
     ///
     /// # Errors
-    /// Returns an error if the study lacks a chosen quantity, axis or value. The error lists those that the study has. It is
-    /// also an error if more than two axes have no fixed value.
+    /// Returns an error if the study lacks a chosen quantity, axis or value. The error lists the quantities, axes or values of
+    /// the study. It is also an error if more than two axes have several values of which [`Selection::at`] fixes none. An axis
+    /// of preloads that is not named then has its first value.
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;

@@ -21,9 +21,10 @@ type Values = [Option<f64>; 3];
 /// Results of a scene in which one number is changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed {
-    /// Medians over the profiles in SI units, in the order of [`Sensitivity::RESULTS`].
+    /// Medians of the results over the profiles in SI units, in the order of [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// Smallest and largest relative change that a result has on a single profile, for each result; `None` for a fixed profile.
+    /// For each result, the smallest and the largest relative change among the profiles; `None` if the profile of the scene is
+    /// fixed.
     pub range: [Option<(f64, f64)>; 3],
 }
 
@@ -34,21 +35,23 @@ pub struct Influence {
     pub axis: Axis,
     /// Value of the number in the scene.
     pub value: f64,
-    /// First the smaller, then the larger value of the number, each with its results; `None` if the scene does not allow the
-    /// value.
+    /// First the smaller, then the larger value of the number, each with the results for this value; `None` if the scene does
+    /// not allow the value.
     pub sides: [(f64, Option<Changed>); 2],
 }
 
-/// How much the results of a scene change if each of its numbers is changed by a tenth, one at a time.
+/// How much the results of a scene change if one number of the scene is changed by a tenth, for each number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
     /// Number of random profiles computed so far. The first profile has the seed of the scene.
     pub profiles: u64,
-    /// Medians over the profiles for the unchanged scene in SI units, in the order of [`Sensitivity::RESULTS`].
+    /// Medians over the profiles of the results of the unchanged scene in SI units, in the order of [`Sensitivity::RESULTS`].
     pub present: Values,
-    /// Smallest, then largest results over the profiles for the unchanged scene, in the same order; `None` for a fixed profile.
+    /// Smallest results, then largest results of the unchanged scene among the profiles, in SI units and in the order of
+    /// [`Sensitivity::RESULTS`]; `None` if the profile of the scene is fixed.
     pub range: Option<[Values; 2]>,
-    /// Results for changes of each number of the scene. Numbers that are zero or count something are left out.
+    /// Results for changes of each number of the scene. Numbers that are zero and numbers of things, such as springs, are left
+    /// out.
     pub influences: Vec<Influence>,
 }
 
@@ -56,7 +59,7 @@ pub struct Sensitivity {
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
-    /// Relative change by which each number is made smaller and larger. A whole number changes by at least 1.
+    /// Relative change by which each number of the scene is made smaller and larger. A whole number changes by at least 1.
     pub const STEP: f64 = 0.1;
 
     /// Quantities whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
@@ -64,8 +67,8 @@ impl Sensitivity {
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
     /// Computes a checked scene, and scenes with one number changed, on the same random profiles. There are as many profiles as
-    /// [`Ensemble::profiles_of`] returns. All other numbers of the scene stay. If the scene has κ instead of a work of
-    /// adhesion, the work of adhesion follows from κ again after each change.
+    /// [`Ensemble::profiles_of`] returns. All other numbers of the scene keep their values. If the scene has κ instead of a work
+    /// of adhesion, the work of adhesion follows from κ again after each change.
     ///
     /// `jobs` threads share the profiles, and the first thread computes with `simulation`. The results do not depend on the
     /// number of threads. After each profile `report` receives the sensitivity over the profiles so far.
@@ -157,21 +160,22 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative changes of results from the medians of the unchanged scene to `values`. A change is `None` if a
-    /// value is missing, or if the median is missing or zero.
+    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if one of both is
+    /// missing, or if the result in [`Sensitivity::present`] is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// Returns a sentence that says why no change of the adhesion force is known; `None` if the scene has an adhesion force.
+    /// Returns a sentence for users which states why no change of the adhesion force is known; `None` if the scene has an
+    /// adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known)
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// Returns the influences in the order of their largest relative change of one result, the largest first. `result` is the
-    /// index of this result in [`Sensitivity::RESULTS`].
+    /// Returns the influences, sorted by how much each changes one result: the influence with the largest relative change comes
+    /// first. `result` is the index of this result in [`Sensitivity::RESULTS`].
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {

@@ -6,7 +6,8 @@ use std::str::FromStr;
 
 const MOST: u32 = 1_000_000;
 
-/// Part of a plan that one process computes: part `number` of `count` parts of about the same size.
+/// Part of a plan that one process computes. The plan is divided into `count` parts of about the same size, and this is part
+/// number `number`.
 ///
 /// ```
 /// use asperity_study::Shard;
@@ -24,7 +25,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// The whole plan as its only part.
+    /// Shard that is the whole plan, for a study that is not divided.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
     /// Creates a part of a plan.

@@ -7,26 +7,28 @@ use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Force curves of the random squares of a [`Reference`], as far as they are computed. A figure shows them beside the force
-/// curve of the profile.
+/// Force curves of the random squares of a [`Reference`]. They are for a figure that shows them beside the force curve of the
+/// profile while the squares are computed.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
-    /// Number of squares when all are computed.
+    /// Number of squares of the complete comparison.
     pub maps: u64,
     /// Force curve of each computed square from first touch on: points with indentation in m and force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force of each random profile in N. If the scene has no adhesion, it is the indentation at the preload in m.
+    /// Adhesion force in N of each random profile. If the scene has no adhesion, the values are the indentations in m at the
+    /// preload.
     pub lines: Vec<f64>,
-    /// Adhesion force of each computed square in N. If the scene has no adhesion, it is the indentation at the preload in m.
+    /// Adhesion force in N of each computed square. If the scene has no adhesion, the values are the indentations in m at the
+    /// preload.
     pub squares: Vec<f64>,
     /// Comparison of all squares with the random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
 }
 
 impl SquareLoops {
-    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` is a pair: the
-    /// simulation that finds the measured files of the scene, and the number of threads. `report` receives the curves so far at
-    /// the beginning and after each square.
+    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` is a pair: a
+    /// simulation that knows the folder of the measured files of the scene, and the number of threads. `report` receives the
+    /// curves so far at the beginning and after each square.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].
@@ -52,15 +54,15 @@ impl SquareLoops {
         Ok(SquareLoops { reference: Some(reference), ..loops })
     }
 
-    /// Compares the adhesion force of the profiles with that of the squares so far, or their indentation at the preload if the
-    /// scene has no adhesion. `None` before the first square.
+    /// Compares the adhesion force of the profiles with the adhesion force of the computed squares. If the scene has no
+    /// adhesion, the indentations at the preload are compared. `None` before the first square is computed.
     pub fn headline(&self) -> Option<Compared> {
         compared(self.lines.iter().copied(), self.squares.iter().copied())
     }
 
-    /// Returns the mean force of the squares so far over the indentation, as a band for loading and, with adhesion, a band for
-    /// unloading. A band is three curves: mean force minus standard deviation, mean force, and mean force plus standard
-    /// deviation. Each band ends at the indentation that all squares reach.
+    /// Returns the mean and the scatter of the force of the computed squares as a function of the indentation. There is one band
+    /// for loading, and a second band for unloading if the scene has adhesion. A band is three curves: mean force minus standard
+    /// deviation, mean force, and mean force plus standard deviation. Each band ends at the indentation that all squares reach.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let stages = |curve: &Vec<(f64, f64)>| {
             let deepest = (0..curve.len()).max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0)).unwrap_or(0);

@@ -13,7 +13,7 @@ const AGREEING_SHARE: f64 = 0.75;
 /// Share of one profile in a mean above which a warning is given.
 const MOST_OF_ONE: f64 = 0.5;
 
-/// Statistics of a quantity over random profiles, in its SI unit.
+/// Statistics over random profiles of one quantity, in the SI unit of the quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of profiles with a value. Profiles without a value are left out.
@@ -32,12 +32,12 @@ pub struct Statistics {
 /// Spread of several values, and confidence interval of their mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Sample standard deviation of the values, with the divisor n − 1.
+    /// Sample standard deviation of the values. The sum of squares is divided by the number of values minus 1.
     pub standard_deviation: f64,
-    /// Standard error of the mean: the standard deviation over the root of the number of values.
+    /// Standard error of the mean: the standard deviation divided by the square root of the number of values.
     pub standard_error: f64,
     /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. If the quantity has a bound, such as 0
-    /// for a force, the interval does not reach it.
+    /// for a force, the interval does not reach this bound.
     pub confidence_interval: (f64, f64),
 }
 
@@ -79,7 +79,8 @@ impl Statistics {
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
     }
 
-    /// Columns of a table with statistics: end of the name of each column, and function that returns its value.
+    /// Columns of a table with statistics. Each column has the end of its name, such as `median`, and the function that returns
+    /// its value.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -92,7 +93,8 @@ impl Statistics {
         ("max", |all| Some(all.range.1)),
     ];
 
-    /// Returns median, quartiles and range as text with two digits, or the value itself if there is only one.
+    /// Returns text with the median, the quartiles and the range, each with two digits. If there is only one value, the text
+    /// has this value. `unit` is the SI unit of the quantity.
     ///
     /// ```
     /// let all = asperity_study::Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
@@ -108,7 +110,7 @@ impl Statistics {
         format!("median {median} (quartiles {quartiles}, range {range})")
     }
 
-    /// Returns a sentence of warning if there are at least three values and the largest is more than half of their sum;
+    /// Returns a warning if there are at least three values and the largest value is more than half of the sum of all values;
     /// otherwise `None`. `what` is the name of the quantity in the sentence.
     pub fn warning(&self, what: &str) -> Option<String> {
         let share = self.share_of_largest().filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
@@ -122,7 +124,8 @@ impl Statistics {
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Returns the ends of the 95 % confidence interval of the mean. Without an interval both ends are the mean.
+    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a single value, which has no
+    /// interval, both ends are the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
@@ -162,12 +165,12 @@ pub struct RegimeCounts {
     pub pressure_sensitive: usize,
     /// Number of non-adhesive profiles.
     pub non_adhesive: usize,
-    /// Number of profiles whose regime is unknown because they never pull.
+    /// Number of profiles whose regime is unknown because the force on the body is never negative.
     pub none: usize,
 }
 
 impl RegimeCounts {
-    /// Counts profiles by their regimes. A profile without a regime is counted in `none`.
+    /// Counts the profiles in each regime. `regimes` has the regime of each profile; `None` is counted in [`RegimeCounts::none`].
     pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
         let mut counts = [0; 4];
         regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
@@ -180,13 +183,13 @@ impl RegimeCounts {
         [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
     }
 
-    /// Returns the number of all profiles, with those of unknown regime.
+    /// Returns the number of all profiles. Profiles of unknown regime are included.
     pub fn profiles(self) -> usize {
         self.known().iter().sum::<usize>() + self.none
     }
 
-    /// Returns the most frequent regime, with its number of profiles. If two regimes are equally frequent, it is the one with
-    /// more adhesion. `None` if no regime is known.
+    /// Returns the most frequent regime and the number of profiles in this regime. If two regimes are equally frequent, the
+    /// regime with more adhesion is returned. `None` if no regime is known.
     ///
     /// ```
     /// use asperity_scene::Regime;
@@ -200,8 +203,8 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Returns the second most frequent regime if less than three quarters of the profiles of known regime have the most
-    /// frequent one; otherwise `None`.
+    /// Returns the second most frequent regime if less than three quarters of the profiles of known regime are in the most
+    /// frequent regime; otherwise `None`.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
@@ -224,8 +227,8 @@ impl RegimeCounts {
         names.zip(counts).filter(|(_, count)| *count > 0)
     }
 
-    /// Returns the share of each regime in the order of [`Regime::ALL`]. Profiles of unknown regime do not count; `None` if
-    /// there are no others.
+    /// Returns for each regime, in the order of [`Regime::ALL`], the share of the profiles of known regime that are in it;
+    /// `None` if no regime is known.
     pub fn shares(self) -> Option<[f64; 3]> {
         let all: usize = self.known().iter().sum();
         (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))

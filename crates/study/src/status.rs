@@ -13,11 +13,11 @@ use std::path::Path;
 /// profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Number of records that exist, without repetitions.
+    /// Number of different records that exist. A record that occurs again is not counted again.
     pub done: u64,
-    /// Number of records of the complete study.
+    /// Number of records that the study has once it is complete.
     pub total: u64,
-    /// Number of missing records.
+    /// Number of records of the complete study that do not exist yet.
     pub missing: u64,
     /// Number of existing records that have no values because they cannot be computed.
     pub failed: u64,
@@ -34,13 +34,13 @@ pub struct ShardStatus {
     pub shard: String,
     /// Number of records of the shard once it is complete.
     pub total: u64,
-    /// Number of records of the shard that exist, whichever process computed them.
+    /// Number of records of the shard that exist. It does not matter which process computed them.
     pub done: u64,
-    /// Processes that have worked on the shard.
+    /// Processes that have worked on the shard, each with the records that it wrote.
     pub attempts: Vec<Attempt>,
 }
 
-/// One process that has worked on a [`Shard`], as the file shows that it wrote.
+/// One process that has worked on a [`Shard`], with the records in the file that the process wrote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
     /// Name of the file that the process wrote.

@@ -37,14 +37,15 @@ const FAILED: &str = ",:";
 /// Number of characters of the checksum and the comma after it.
 const CHECKSUM: usize = 9;
 
-/// Folder of a study on disk. It has the plan, and a file with the results of each process that has worked on the study.
+/// Folder of a study on disk. It has the plan of the study and, for each process that has worked on the study, a file with the
+/// results of the process.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
     plan: Plan,
 }
 
-/// First line of a [`ShardFile`]. It states which process computes which part of which plan.
+/// Header of a [`ShardFile`], the first line of the file. It states which process computes which part of which plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
     /// Version of the format of shard files.
@@ -59,7 +60,7 @@ pub struct ShardHeader {
     pub process: u32,
     /// Time at which the process began, in s since 1970.
     pub begun: f64,
-    /// Version of the program that wrote the file.
+    /// Version of the program with which the process wrote the file.
     pub program: String,
 }
 
@@ -68,9 +69,9 @@ pub struct ShardHeader {
 pub struct ShardFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Header of the file.
+    /// First line of the file. It states which process wrote the file.
     pub header: ShardHeader,
-    /// Time of the last write, in s since 1970.
+    /// Time at which the file was last written, in s since 1970.
     pub written: f64,
 }
 
@@ -79,7 +80,7 @@ pub struct ShardFile {
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
-    /// Creates the folder of a study with this plan. If the folder has the same plan already, the folder is opened.
+    /// Creates the folder of a study with a plan. If the folder exists with the same plan, it is opened as it is.
     ///
     /// # Errors
     /// Returns an error if the folder has another plan or cannot be written, or if a measured file has changed or cannot be
@@ -129,12 +130,12 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan })
     }
 
-    /// Returns true if `path` is the folder of a study, even if its plan has errors.
+    /// Returns true if `path` is the folder of a study, even if the plan in the folder has errors.
     pub fn is_at(path: &Path) -> bool {
         path.join(PLAN_FILE).is_file()
     }
 
-    /// Opens the folder of a study that exists. The scenes of its cells are not checked again.
+    /// Opens an existing folder of a study. The scenes that follow from the plan are not checked again.
     ///
     /// # Errors
     /// Returns an error if the folder contains no study, or if its plan cannot be read.

@@ -10,8 +10,8 @@ use super::results::Results;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
-/// Results of a study as maps over two of its axes, or as curves if it has only one. There is a map for each combination of
-/// values on the other axes.
+/// Results of a study as maps over two of its axes. There is a map for each combination of values on the other axes. If the
+/// study has only one axis, each map is a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
@@ -28,16 +28,16 @@ impl StudyMap {
     /// Reads the maps of a study from its folder.
     ///
     /// # Errors
-    /// Returns an error if the shards in the folder are not merged yet (`asperity sweep merge`). It is also an error if the
-    /// study has one cell, so that no axis has two values.
+    /// Returns an error if [`merge`](crate::merge) has not written the tables of the study yet, or if no axis of the study has
+    /// two values.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyError> {
         StudyMap::of(Results::open(folder)?, folder)
     }
 
-    /// Makes the maps of a study. `folder` is the folder from which `study` was read.
+    /// Makes the maps of the study whose results are `study`. `folder` is the folder from which the results were read.
     ///
     /// # Errors
-    /// Returns an error if the study has one cell, so that no axis has two values.
+    /// Returns an error if no axis of the study has two values.
     pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyError> {
         let axes = &study.plan().axes;
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
@@ -56,7 +56,7 @@ impl StudyMap {
         &self.folder
     }
 
-    /// Returns the last part of the path of the folder, which names the study.
+    /// Returns the name of the study, which is the last part of the path of the folder.
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()
@@ -67,7 +67,7 @@ impl StudyMap {
         self.study.plan()
     }
 
-    /// Returns the number of maps: the number of combinations of values on the axes that the maps do not have.
+    /// Returns the number of maps, one for each combination of values on the axes over which the maps do not extend.
     pub fn slices(&self) -> u64 {
         self.others.iter().map(|&other| self.plan().axes[other].count()).product()
     }
@@ -83,7 +83,7 @@ impl StudyMap {
         self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
     }
 
-    /// Returns map number `slice`, counted from 0.
+    /// Returns map number `slice`. The first map has the number 0.
     pub fn grid(&self, slice: u64) -> Grid {
         self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
     }
@@ -118,7 +118,7 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// Returns the scene of the first map as a scene file for the explorer, named by the folder of the study.
+    /// Returns the scene of the first map as a scene file for the explorer. The name of the scene file is the path of the folder.
     ///
     /// # Errors
     /// Returns an error if the scene is invalid.
@@ -127,8 +127,8 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` is the scene of map number `slice`. It may have other values on the axes of the map, and another
-    /// number of points of the force curve.
+    /// Returns true if `scene` is the scene of map number `slice`. The values on the axes of the map and the number of points
+    /// of the force curve may differ.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
@@ -144,7 +144,7 @@ impl StudyMap {
         }
     }
 
-    /// Returns a copy of a scene file with the values of map number `slice` on the axes that the maps do not have.
+    /// Returns a copy of a scene file with the values that map number `slice` has on the axes over which the maps do not extend.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow these values.

@@ -26,9 +26,9 @@ const REASON: &str = "reason";
 const LONGEST_SIDECAR: usize = 1 << 26;
 
 impl Merged {
-    /// Name of the file with the table of all results, which has one row for each cell and profile.
+    /// Name of the file with the table of all results. The table has one row for each [cell](Plan) and profile.
     pub const RESULTS: &str = "results.csv";
-    /// Name of the file with the table of statistics over the profiles, which has one row for each cell.
+    /// Name of the file with the table of statistics over the profiles. The table has one row for each [cell](Plan).
     pub const SUMMARY: &str = "summary.csv";
     /// Name of the file that describes the columns of both tables.
     pub const SIDECAR: &str = "results.json";
@@ -39,7 +39,8 @@ impl Merged {
 /// results are missing, the tables have the existing ones, and the returned [`Merged`] counts the cells that lack results.
 ///
 /// # Errors
-/// Returns an error if two results for the same cell and profile differ, or if a file cannot be read or written.
+/// Returns an error if two files have different results for the same [cell](Plan) and profile, or if a file cannot be read or
+/// written.
 pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     let plan = results.plan();
@@ -115,8 +116,8 @@ fn recorded_hash(folder: &Path) -> Option<String> {
 }
 
 impl Results {
-    /// Returns a table with a row for each computed cell and profile. Its columns are the values on the axes, the seed of the
-    /// profile, and the recorded quantities.
+    /// Returns a table with a row for each [cell](Plan) and each profile on which the cell is computed. Its columns are the
+    /// values on the axes, the seed of the profile, and the recorded quantities.
     pub fn table(&self) -> Table<'_> {
         let rows = || {
             let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
@@ -181,10 +182,11 @@ impl Results {
         self.with_reasons(table, |row| row.2)
     }
 
-    /// Reads the results of a study from its folder, in which [`merge`] has written the tables.
+    /// Reads the results of a study from the folder of the study, in which [`merge`] has written the tables.
     ///
     /// # Errors
-    /// Returns an error if the folder contains no study, or if its table is missing, was changed or belongs to another plan.
+    /// Returns an error if the folder contains no study. It is also an error if the table [`Merged::RESULTS`] is missing, was
+    /// changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(Merged::RESULTS);

@@ -20,7 +20,7 @@ pub(super) enum Subject {
     Bodies(fn(&Body) -> Measured),
 }
 
-/// Statement with a known result, by which the program is checked.
+/// Case with a known result, by which the program is checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Name of the case, such as `jkr-sphere`.
@@ -28,11 +28,11 @@ pub struct Case {
     /// Family of the case: `closed-forms` for bodies with a known force curve, `laws` for laws that hold for every body, or
     /// `hard-cases` for input at the limits of numbers and rules.
     pub family: &'static str,
-    /// Statement that must hold, as a sentence.
+    /// Statement that must hold for the result, as a sentence.
     pub holds: &'static str,
     /// How the result is known: `closed form`, `independent computation` or `self-consistency`.
     pub evidence: &'static str,
-    /// Quantity whose error must not exceed the bound of a [`Check`](crate::checks::Check).
+    /// Name of the quantity whose error must not exceed the bound of a [`Check`](crate::checks::Check).
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
     pub(super) subject: Subject,

@@ -16,19 +16,20 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// Check of the program: a [`Case`], computed with one rule for the edges of patches, and the largest allowed error.
+/// Check of the program by a [`Case`]. The case is computed with one rule for the edges of patches of contact, and its error is
+/// compared with a bound.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// Case that is checked.
     pub case: Case,
-    /// Whether the edge of a patch lies at a spring or may lie between two springs.
+    /// Rule for the edges of patches of contact: an edge lies at a spring, or may lie between two springs.
     pub edges: Edges,
     /// Largest error with which the check passes.
     pub bound: f64,
 }
 
 impl Check {
-    /// Returns the checks of the cases for which `choose` returns true. A case that is checked with both kinds of [`Edges`] has
+    /// Returns the checks of all cases for which `choose` returns true. A case that is checked with both rules in [`Edges`] has
     /// two checks.
     ///
     /// ```
@@ -42,7 +43,7 @@ impl Check {
         Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
     }
 
-    /// Computes the case and measures the error of its result.
+    /// Computes the case and measures the error of [`Case::error_of`].
     pub fn judge(self) -> Verdict {
         let (clock, edges) = (Instant::now(), self.edges);
         let error = match self.case.subject {
@@ -66,7 +67,7 @@ impl Case {
     }
 }
 
-/// Result of a [`Check`]: whether it passes, with its error and its computing time.
+/// Result of a [`Check`]: the measured error of the case and the computing time.
 #[derive(Debug)]
 pub struct Verdict {
     /// Check that was computed.
