@@ -1,11 +1,12 @@
 //! The loading of a contact and its result: force curve, figures and patches.
 
-use super::body::{Body, MovingBody, Reversal, load_body};
+use super::body::{Body, Reversal};
 use super::contact::Contact;
 use super::error::{ContactError, LARGEST, check};
 use super::figures::Figures;
 use super::history::{CurvePoint, History, LegRecord};
 use super::leg::{Leg, PatchState};
+use super::moving_body::{MovingBody, load_body};
 use super::target::Move;
 
 /// Number of samples of the force curve of a stage, if none is given.

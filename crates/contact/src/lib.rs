@@ -49,6 +49,7 @@ mod history;
 mod interval;
 mod leg;
 mod modulus;
+mod moving_body;
 mod profile;
 mod stepwise;
 mod target;
@@ -72,7 +73,8 @@ pub use target::Move;
 /// the exact solver. [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check the exact one.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
-    pub use crate::body::{Body, Motion, MovingBody, load_body};
+    pub use crate::body::{Body, Motion};
     pub use crate::leg::{Leg, PatchState};
+    pub use crate::moving_body::{MovingBody, load_body};
     pub use crate::stepwise::Stepwise;
 }

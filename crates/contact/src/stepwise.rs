@@ -5,13 +5,13 @@
 //! the rules and the sums with the exact solver.
 
 use super::adhesive::levels::EdgeCells;
-use super::body::MovingBody;
 use super::contact::Contact;
 use super::contact_state::{ContactState, Grid};
 use super::error::{ContactError, STEP_LIMIT};
 use super::history::{CurvePoint, Direction, LegRecord, Work};
 use super::history::{Goal, plan};
 use super::leg::Leg;
+use super::moving_body::MovingBody;
 use super::target::Move;
 use super::totals::ContactTotals;
 use asperity_data::resized;

@@ -1,0 +1,81 @@
+//! What the exact and the stepwise solver have in common: a body that moves from target to target, and its history.
+
+use super::error::ContactError;
+use super::history::{History, LegRecord, Work};
+use super::leg::Leg;
+use super::target::Move;
+
+/// A rigid body that moves from target to target on its springs. [`Body`] is the exact solver with this trait, and
+/// [`Stepwise`](crate::motion::Stepwise) the stepwise one. A new body is separated, at the indentation d = 0 just before first
+/// touch.
+///
+/// ```
+/// use asperity_contact::motion::{Body, MovingBody};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let mut body = Body::new(&contact, 64);
+/// let pressed = body.advance(Move::ToForce(1.0e-4))?;
+/// // A target out of reach is refused, and the body stays in place.
+/// assert!(body.advance(Move::ToForce(-1.0)).is_err());
+/// assert_eq!(body.point().indentation, pressed.end());
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+pub trait MovingBody {
+    /// Moves the body to a target. Returns the [`LegRecord`] of this motion, with its force curve and its energies.
+    ///
+    /// # Errors
+    /// Returns an error for a target that the contact cannot reach. The body then stays in place.
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
+
+    /// Returns the [`Leg`] of the present motion. It gives the contact at each indentation of the motion.
+    fn leg(&self) -> Leg;
+
+    /// Returns counts of the computing work for this body since it was created.
+    fn work(&self) -> Work;
+
+    /// Returns the computing time in s for force curves and their extremes since the body was created. The time in which the
+    /// patches were found is not included.
+    fn curve_seconds(&self) -> f64;
+}
+
+/// Moves the body `solver` through loading stages with these targets. `after` is called at the end of each stage with the
+/// record and the leg of the stage.
+///
+/// # Errors
+/// Returns the error of the first stage that fails, or the first error that `after` returns.
+///
+/// ```
+/// use asperity_contact::motion::{Body, load_body};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let mut forces = Vec::new();
+/// let stages = [Move::ToForce(1.0e-5), Move::ToForce(2.0e-5)];
+/// load_body(&mut Body::new(&contact, 16), &stages, |record, _| {
+///     forces.push(record.largest.force);
+///     Ok(())
+/// })?;
+/// assert!((forces[1] / forces[0] - 2.0).abs() < 1e-9);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+pub fn load_body(
+    solver: &mut dyn MovingBody,
+    targets: &[Move],
+    mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<History, ContactError> {
+    let mut history = History::default();
+    for (index, &target) in targets.iter().enumerate() {
+        let record = solver.advance(target).map_err(|reason| reason.in_stage(index, target))?;
+        after(&record, &solver.leg())?;
+        history.legs.push(record);
+    }
+    let end = history.legs.last().and_then(LegRecord::end_in_contact);
+    history.contacts = end.map_or_else(Vec::new, |point| solver.leg().patches(point.indentation));
+    history.work = solver.work();
+    Ok(history)
+}
