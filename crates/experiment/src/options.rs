@@ -118,7 +118,7 @@ pub struct CurveOptions {
     /// Measured force taken as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
-    /// Drift over time: keep (default), remove, or a change of force such as 3nN
+    /// Drift over time: keep (default), remove, or a force over the curve
     #[cfg_attr(
         feature = "clap",
         arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
