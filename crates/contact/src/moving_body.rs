@@ -5,7 +5,7 @@ use super::history::{History, LegRecord, Work};
 use super::leg::Leg;
 use super::target::Move;
 
-/// A rigid body that moves from target to target on its springs. [`Body`] is the exact solver with this trait, and
+/// A rigid body that moves from target to target on its springs. [`Body`](crate::motion::Body) is the exact solver with this trait, and
 /// [`Stepwise`](crate::motion::Stepwise) the stepwise one. A new body is separated, at the indentation d = 0 just before first
 /// touch.
 ///
