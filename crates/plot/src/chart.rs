@@ -425,7 +425,7 @@ pub enum Sample {
     Solid,
     /// A line across the chart, vertical or horizontal.
     Guide,
-    /// The line of a [`Contour`](crate::Contour).
+    /// The line of a [`Contour`].
     Contour,
     /// A cell of a heat map without a value.
     Empty,

@@ -185,7 +185,7 @@ static TABLE: &[Entry] = &[
     row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the kind of the stage", STAGES).rank(1).shown_if(is_stage),
 
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).words("ghost overlay keep").rank(2),
-    row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
+    row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the scene of the newest ghost", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
     row("D", EXPLORE, "toggle-squares", Do(compare::toggle_squares), "", "compare with the same contact in three dimensions", COMPARE).words("3D half-space model error boundary elements reference"),
     row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.edit.measured.is_some()),
