@@ -14,8 +14,7 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// The exact solver: a rigid body with its present indentation and the [`Leg`] of its present motion. Indentation and leg
-/// together are the whole state of the model.
+/// The exact solver: a rigid body with its present indentation and the [`Leg`] of its present motion.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -73,12 +72,10 @@ impl Body {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body in the middle of a motion: at this indentation in m, on the leg `leg`, with the contact that the leg has
-    /// there. The body can continue the motion or turn back.
+    /// Creates a body in the middle of the motion `leg`, at this indentation in m.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise). May also return
-    /// [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise).
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -230,16 +227,14 @@ impl Body {
         Ok(record)
     }
 
-    /// Computes the unloading to separation from several turning points. All turning points lie on one loading, which begins
-    /// separated at d = 0. There is one turning point for each target: where the loading reaches it. A target force is reached
-    /// where the loading first has at least this force. For a tensile force this is at first touch, or while adhesion draws the
-    /// bodies together. `see` is called with the index of each target and its [`Reversal`], in the order of growing indentation
-    /// at the turning point. The reversal has the forces at the indentations `points` in m, which ascend. The body itself stays
-    /// separated.
+    /// Computes the unloading to separation from several turning points. Each turning point is where a loading from
+    /// separation reaches one of the targets. `see` is called with the index of each target and its [`Reversal`], in the
+    /// order of growing indentation at the turning point. [`Reversal::forces`] are computed at the indentations `points`,
+    /// which are in m and in ascending order.
     ///
     /// # Errors
-    /// Returns an error for a target that the contact cannot reach, and for a target at which the body is not in contact. Also
-    /// returns the first error of `see`, and [`ContactError::OutOfMemory`].
+    /// Returns an error for a target that the contact cannot reach, and for a target at which the body is not in contact.
+    /// Also returns the first error of `see`.
     pub fn reversals(
         &mut self,
         targets: &[Move],
@@ -270,10 +265,9 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. For each of them a loading from separation is computed, and the
-    /// unloading that follows. The loading ends at first touch for F_a(d=0), and where the force is back at zero for F_a(F=0).
-    /// An adhesion force is `None` if the force of the unloading never falls to zero. F_a(F=0) is also `None` if the loading
-    /// never returns to zero force. The body itself stays in place.
+    /// Returns two adhesion forces in N: F_a(d=0) after a loading that ends at first touch, and F_a(F=0) after a loading
+    /// that ends where the force is back at zero. An adhesion force is `None` if the force of the unloading stays above
+    /// zero. F_a(F=0) is also `None` if the loading never returns to zero force.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -354,7 +348,7 @@ impl MovingBody for Body {
     }
 }
 
-/// The unloading from one turning point, the end of a loading, to separation. It is solved exactly, without load steps.
+/// The unloading from one turning point, the end of a loading, to separation.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};

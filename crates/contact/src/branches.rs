@@ -63,9 +63,8 @@ impl Branch {
         touching(legs, self.stages.clone(), self.direction)
     }
 
-    /// Finds the preload, the point of the largest force on loading, and the index of its stage. Only stages before the last
-    /// unloading count, and of these only the stages after the last separation. In a history without unloading all stages
-    /// count.
+    /// Finds the preload, the point of the largest force on loading before the last unloading, and the index of its stage.
+    /// An earlier contact that ended in separation does not count.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};

@@ -52,8 +52,7 @@ impl ClosedForm {
         (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
     }
 
-    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. The closed forms
-    /// also hold for a paraboloid with this radius of curvature at its summit.
+    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm { line_coefficient: radius.recip(), exponent: 2.0, effective_modulus, work_of_adhesion }
@@ -99,8 +98,7 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This is the
-    /// smallest force that the contact can have.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);

@@ -10,8 +10,7 @@ use super::modulus::Modulus;
 use super::profile::Profile;
 use std::sync::{Arc, OnceLock};
 
-/// A rigid profile on an elastic half-space, with or without adhesion. Its forces under any loading are solved exactly, without
-/// load steps.
+/// A rigid profile on an elastic half-space, with or without adhesion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -74,8 +73,7 @@ impl ContactBuilder {
         ContactBuilder { works, ..self }
     }
 
-    /// Sets the stiffness k of the instrument that moves the body, in N/m. The default is infinite, a rigid instrument. A stage
-    /// [`Move::ToDisplacement`](crate::Move::ToDisplacement) prescribes the displacement D = d + F/k of the instrument.
+    /// Sets the stiffness k of the instrument that moves the body, in N/m. The default is infinite, a rigid instrument.
     #[must_use]
     pub fn loading_stiffness(self, stiffness: f64) -> Self {
         ContactBuilder { loading_stiffness: stiffness, ..self }
@@ -108,8 +106,7 @@ impl ContactBuilder {
 }
 
 impl Contact {
-    /// Begins to build the contact of a profile with a half-space of this modulus. The defaults are no adhesion, edges between
-    /// springs and a rigid instrument.
+    /// Begins to build the contact of a profile with a half-space of this modulus.
     #[must_use]
     pub fn builder(profile: &Profile, modulus: Modulus) -> ContactBuilder {
         let (edges, loading_stiffness, profile) = (Edges::SubCell, f64::INFINITY, profile.clone());
@@ -143,8 +140,7 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force in N at which the contact would be full on loading without adhesion: the last spring then touches the
-    /// body.
+    /// Returns the force in N at which the last spring touches the body on loading without adhesion.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};
@@ -160,8 +156,8 @@ impl Contact {
         self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
     }
 
-    /// Returns the displacement D = d + F/k in m of the drive of the instrument of stiffness k that moves the body. The
-    /// indentation d is in m, the force F in N.
+    /// Returns the displacement D = d + F/k in m of the drive of the instrument, at the indentation d in m and the force F
+    /// in N. k is the stiffness of the instrument in N/m.
     pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
         indentation + force / self.loading_stiffness
     }

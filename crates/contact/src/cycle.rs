@@ -44,8 +44,7 @@ impl<'a> LoadOptions<'a> {
         LoadOptions { samples: Some(samples), ..self }
     }
 
-    /// Sets further indentations in m, in ascending order, at which the force curve is computed. [`Cycle::at`] returns the
-    /// points of a stage at the indentations that the stage passes.
+    /// Sets further indentations in m, in ascending order, at which forces are computed. [`Cycle::at`] returns the results.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions { indentations, ..self }
@@ -87,8 +86,8 @@ pub struct Cycle {
     leg: Leg,
 }
 
-/// Force curve of all loading stages as columns of equal length. The values with the same index in all columns describe one
-/// point of the curve. The points are in the order of the motion.
+/// Force curve of all loading stages as columns of equal length, with one value for each point. The points are in the order
+/// of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -111,8 +110,8 @@ pub struct Curve {
     pub indentation: Vec<f64>,
     /// Force F in N at each point; compression is positive.
     pub force: Vec<f64>,
-    /// Displacement D = d + F/k in m at each point. It is the position of the drive of the instrument that moves the body, and
-    /// k is the stiffness of the instrument. If the instrument is rigid, D equals d.
+    /// Displacement D = d + F/k in m at each point: the position of the drive of the instrument. k is the stiffness of the
+    /// instrument in N/m.
     pub displacement: Vec<f64>,
     /// Contact length in m at each point: the sum of the lengths of all contact patches.
     pub contact_length: Vec<f64>,
@@ -128,13 +127,12 @@ impl Contact {
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and [`ContactError::Stage`] for a
-    /// target that the contact cannot reach. May also return [`ContactError::OutOfMemory`].
+    /// target that the contact cannot reach.
     pub fn load(&self, stages: &[Move]) -> Result<Cycle, ContactError> {
         self.load_with(stages, LoadOptions::default())
     }
 
-    /// Moves the body as [`Contact::load`] does. The options set the points at which the force curve is computed, and may have
-    /// a function that stops the loading.
+    /// Moves the body as [`Contact::load`] does, with [`LoadOptions`] such as the number of points of the force curve.
     ///
     /// # Errors
     /// Returns the errors of [`Contact::load`], and [`ContactError::Value`] for an option out of its range. Returns
@@ -174,13 +172,10 @@ impl Contact {
         Ok(Cycle { figures: Figures::of(&history), history, at, leg: body.leg() })
     }
 
-    /// Computes the unloading to separation from each of several turning points. A turning point is the end of a loading from
-    /// separation to one of the targets `ends`. The results are the same as from [`Contact::load`] with this target and then
-    /// [`Move::ToSeparation`], but the loading is computed only once for all targets. A tensile target force is reached at
-    /// first touch, or while adhesion draws the bodies together.
+    /// Computes the unloading to separation from each of several turning points. A turning point is where a loading from
+    /// separation reaches one of the targets `ends`.
     ///
-    /// `indentations` are in m, in ascending order. [`Reversal::forces`] has the force on unloading at each of these
-    /// indentations that is not above the turning point.
+    /// [`Reversal::forces`] are computed at `indentations`, which are in m and in ascending order.
     ///
     /// ```
     /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -199,8 +194,8 @@ impl Contact {
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and for indentations that do not
-    /// ascend. Returns [`ContactError::Stage`] for a target that the contact cannot reach, and for a target at which the body
-    /// is not in contact. May also return [`ContactError::OutOfMemory`].
+    /// ascend. Returns [`ContactError::Stage`] for a target that the contact cannot reach, and for a target at which the
+    /// body is not in contact.
     pub fn reversals(&self, ends: &[Move], indentations: &[f64]) -> Result<Vec<Reversal>, ContactError> {
         check_targets(ends)?;
         check_ascending(indentations)?;
@@ -250,9 +245,8 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
 }
 
 impl Cycle {
-    /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite sign. The last unloading
-    /// may consist of several stages. Returns `None` if the smallest force is above zero, or if the unloading ends in contact
-    /// while the force still falls.
+    /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite sign. Returns `None` if
+    /// the smallest force is above zero, or if the unloading ends in contact while the force still falls.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
@@ -264,9 +258,8 @@ impl Cycle {
         self.figures.pull_off_indentation
     }
 
-    /// Returns the preload in N: the largest force on loading before the last unloading. If the body was separated before this
-    /// unloading, only stages after the last such separation count. In a history without unloading all stages count. Returns
-    /// `None` if none of the stages that count loads the body in contact.
+    /// Returns the preload in N: the largest force on loading before the last unloading. An earlier contact that ended in
+    /// separation does not count. Returns `None` if the body is not loaded in contact.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
@@ -278,8 +271,7 @@ impl Cycle {
         self.figures.dissipated_energy
     }
 
-    /// Returns all figures at once: the preload and the pull-off force, the indentations at which they act, the ratio of the
-    /// two forces, and the dissipated energy.
+    /// Returns the figures of the loading, such as the preload, the pull-off force and the dissipated energy.
     #[must_use]
     pub fn figures(&self) -> Figures {
         self.figures
@@ -309,23 +301,20 @@ impl Cycle {
         curve
     }
 
-    /// Returns the points of the force curve of a stage at those of the [`LoadOptions::indentations`] that the stage passes.
-    /// `stage` is the index of the stage, from 0. The points are in ascending order of the indentation, on unloading too. The
-    /// slice is empty for a stage that does not exist.
+    /// Returns the points of the force curve at the [`LoadOptions::indentations`] that a stage passes, in ascending order of
+    /// the indentation. `stage` is the index of the stage, from 0.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns a [`LegRecord`] for each loading stage: the force curve, the largest and the smallest force of the stage, and
-    /// the elastic energy that springs release during the stage.
+    /// Returns a [`LegRecord`] for each loading stage, with the force curve and the energies of the stage.
     #[must_use]
     pub fn stages(&self) -> &[LegRecord] {
         &self.history.legs
     }
 
-    /// Returns the state of each contact patch at the end of the last stage, such as its edges and its force. The patches are
-    /// in the order from left to right.
+    /// Returns the state of each contact patch at the end of the last stage, such as its force, from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
         let end = self.history.legs.last().and_then(LegRecord::end_in_contact);

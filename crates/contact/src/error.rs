@@ -37,7 +37,7 @@ pub enum ContactError {
         /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
-    /// A loading stage cannot be computed. The fields have the stage and the reason.
+    /// A loading stage cannot be computed.
     #[error("stage {}: {}", index + 1, reason.in_words(*target))]
     Stage {
         /// Index of the stage, from 0.
@@ -91,7 +91,8 @@ impl ContactError {
         if let ContactError::Stage { index, .. } = self { Some(*index) } else { None }
     }
 
-    /// Returns the smallest force in N that the contact bears, if a stage has a target force below it; `None` for other errors.
+    /// Returns the smallest force in N that the contact bears, if a target force lies below this force; `None` for other
+    /// errors.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() { Some(*smallest) } else { None }
     }
@@ -102,8 +103,7 @@ impl ContactError {
         matches!(self.reason(), NothingToPull | DetachesBefore { .. } | OutOfReach)
     }
 
-    /// Describes in words why a body does not move to a target. If the text names the smallest force within reach, this force
-    /// is rounded up, so that it is a target within reach.
+    /// Describes in words why a body does not move to a target.
     pub fn in_words(&self, target: Move) -> String {
         match (self, target) {
             (&ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {

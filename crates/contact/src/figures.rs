@@ -21,20 +21,18 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n in N: the largest force on loading before the last unloading. If the body was separated before this
-    /// unloading, only stages after the last such separation count. In a history without unloading all stages count. `None` if
-    /// none of the stages that count loads the body in contact.
+    /// Preload F_n in N: the largest force on loading before the last unloading. An earlier contact that ended in separation
+    /// does not count. `None` if the body is not loaded in contact.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign. The last unloading may
-    /// consist of several stages. `None` if the smallest force is above zero, or if the unloading ends in contact while the
-    /// force still falls.
+    /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign. `None` if the smallest
+    /// force is above zero, or if the unloading ends in contact while the force still falls.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n; `None` if there is no adhesion force, or if the preload is not compressive.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is `None`. The force hardly
-    /// changes near its minimum, so this indentation has a larger relative error than the smallest force.
+    /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is `None`. It has a larger
+    /// relative error than the adhesion force.
     pub pull_off_indentation: Option<f64>,
     /// Energy in J dissipated in the contact during all stages together; `None` if the last stage ends in contact.
     pub dissipated_energy: Option<f64>,
@@ -114,8 +112,8 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Finds the marked points of the loading history with the records `legs`. They are in the order of the variants of
-    /// [`Mark`].
+    /// Finds the marked points of a loading history, in the order of the variants of [`Mark`]. `legs` has the record of each
+    /// stage.
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
         let into_contact = |leg: &LegRecord| {
             let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;

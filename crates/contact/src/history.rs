@@ -28,28 +28,24 @@ pub struct LegRecord {
     pub target: Move,
     /// Direction of the motion. It is `Loading` for a stage in which the body stays in place.
     pub direction: Direction,
-    /// Points of the force curve, in the order of the motion. On unloading the points of the smallest force and of the smallest
-    /// displacement of the instrument are among them. A jump into or out of contact has one point before it and one point after
-    /// it.
+    /// Points of the force curve, in the order of the motion. A jump into or out of contact has two points, before and after
+    /// the jump.
     pub curve: Vec<CurvePoint>,
-    /// Point of the largest force of the motion. On loading this force is exact to rounding. On unloading the point is the
-    /// first of the motion.
+    /// Point of the largest force on loading, exact to rounding. On unloading it is the first point of the motion.
     pub largest: CurvePoint,
-    /// Point of the smallest force of the motion. On unloading this force is exact to rounding. On loading only the points in
-    /// `curve` are compared.
+    /// Point of the smallest force of the motion. On unloading this force is exact to rounding. On loading it is the
+    /// smallest force in `curve`.
     pub smallest: CurvePoint,
     /// Number of springs that attached in this stage.
     pub attached: u64,
     /// Number of springs that detached in this stage.
     pub detached: u64,
-    /// Elastic energy in J that springs release when they detach, minus the energy that they gain when they attach. A spring of
-    /// stiffness Δk that detaches or attaches with the stretch e counts with ½ Δk e². The released energy equals the work ∫F dd
-    /// of the motion minus the growth of the elastic energy stored in the springs. The sum of the released energies of all
-    /// stages of a closed loop is the dissipated energy.
+    /// Elastic energy in J that springs release when they detach, minus the elastic energy that springs gain when they
+    /// attach. The sum over all stages of a closed loop is the dissipated energy.
     pub released_energy: f64,
-    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. This energy is exact for any
-    /// number of points in `curve`. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over all
-    /// stages. Consecutive stages in one direction are taken as one motion when this energy is computed.
+    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. The loop area ∮F dD of a
+    /// history is the sum of `released_energy` and `jump_energy` over all stages. A jump may begin in one stage and continue
+    /// in the next stage of the same direction. Each of the two stages then has its own part of the energy.
     pub jump_energy: f64,
 }
 
@@ -183,7 +179,8 @@ pub struct Work {
     pub loading_passes: u64,
     /// Number of times that the solver passed over the contact tree to compute an unloading.
     pub unloading_passes: u64,
-    /// Number of times that the solver passed over the contact tree to compute the adhesion forces F_a(d=0) and F_a(F=0).
+    /// Number of times that the solver passed over the contact tree to compute the forces of
+    /// [`Body::adhesion_without_preload`](crate::motion::Body::adhesion_without_preload).
     pub passes_without_preload: u64,
     /// Number of times that the rule of Hess was evaluated for a patch.
     pub hess_evaluations: u64,
@@ -200,7 +197,7 @@ pub struct Work {
     pub steps: u64,
     /// Number of times that the stepwise solver swept over all springs to relax to equilibrium.
     pub relaxation_sweeps: u64,
-    /// Number of visits to springs by the stepwise solver, which moves in load steps. A spring counts again at each visit.
+    /// Number of visits of the stepwise solver to springs. A spring counts again at each visit.
     pub spring_updates: u64,
     /// Number of heights that were sorted into the bins of a histogram of heights.
     pub heights_binned: u64,
@@ -298,8 +295,7 @@ impl Patch {
         self.first..self.last + 1
     }
 
-    /// Returns the index of the spring in the middle of the patch. In a patch with an even number of springs it is the left one
-    /// of the two in the middle.
+    /// Returns the index of the spring in the middle of the patch. Of two springs in the middle it is the left one.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
     }

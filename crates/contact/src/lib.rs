@@ -28,11 +28,9 @@
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
-//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A
-//! [`Leg`](motion::Leg) describes a motion in one direction: which springs are in contact at each indentation. A
-//! [`Body`](motion::Body) is the exact solver. It has a present leg and a present indentation, and computes each leg from the
-//! rules in one pass over a [tree](motion::ContactTree). [`Stepwise`](motion::Stepwise) is the stepwise solver. It moves by
-//! small steps and relaxes to equilibrium after each step, as the paper does. Any function that allocates may return
+//! A [`Leg`](motion::Leg) describes a motion in one direction: which springs are in contact at each indentation. A
+//! [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise) is the stepwise solver: it moves by small
+//! steps and relaxes to equilibrium after each step, as Popov and Filippov (2012) do. Any function that allocates may return
 //! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 
 mod adhesive;

@@ -34,7 +34,7 @@ impl Modulus {
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] if Young's modulus is not from 1e-50 to 1e50 Pa. Returns the same error if Poisson's
-    /// ratio is not above −1 and at most 0.5.
+    /// ratio is −1 or less, or more than 0.5.
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
         check("Young's modulus", youngs_modulus, is_positive(youngs_modulus), PASCALS)?;
         let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;

@@ -5,9 +5,9 @@ use super::history::{History, LegRecord, Work};
 use super::leg::Leg;
 use super::target::Move;
 
-/// A rigid body that moves from target to target on its springs. [`Body`](crate::motion::Body) is the exact solver with this trait, and
-/// [`Stepwise`](crate::motion::Stepwise) the stepwise one. A new body is separated, at the indentation d = 0 just before first
-/// touch.
+/// A rigid body that moves from target to target on its springs. The exact solver [`Body`](crate::motion::Body) and the
+/// stepwise solver [`Stepwise`](crate::motion::Stepwise) have this trait. A new body is separated, at the indentation d = 0
+/// just before first touch.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -36,8 +36,8 @@ pub trait MovingBody {
     /// Returns counts of the computing work for this body since it was created.
     fn work(&self) -> Work;
 
-    /// Returns the computing time in s for force curves and their extremes since the body was created. The time in which the
-    /// patches were found is not included.
+    /// Returns the computing time in s for force curves and their extremes since the body was created, without the time to
+    /// find the patches.
     fn curve_seconds(&self) -> f64;
 }
 

@@ -12,9 +12,8 @@ const MOST_POINTS: usize = 1 << 28;
 /// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points. Heights are positive towards the
 /// half-space, so the highest point touches first.
 ///
-/// N points at a spacing Δx cover the length N Δx, and each point lies in the middle of a cell of the width Δx. Clones of a
-/// profile share their memory. All contacts of a profile share its [contact trees](ContactTree), from which the exact solver
-/// computes where patches merge.
+/// N points at a spacing Δx cover the length N Δx: half a spacing lies beyond the first and the last point. Clones of a
+/// profile share their memory.
 ///
 /// ```
 /// use asperity_contact::Profile;
@@ -46,8 +45,7 @@ pub struct Springs {
 }
 
 impl Profile {
-    /// Creates a profile from measured or computed heights in m at points with this spacing in m. The memory of a `Vec` is
-    /// reused; a slice is copied.
+    /// Creates a profile from measured or computed heights in m at points with this spacing in m.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height out of its range.
@@ -62,7 +60,7 @@ impl Profile {
     }
 
     /// Creates a profile from gaps in m at points with this spacing in m. A gap is the depth of a point below the highest
-    /// point, so at least one gap is 0. An `Arc` is shared, not copied.
+    /// point, so at least one gap is 0.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -92,9 +90,8 @@ impl Profile {
         Ok(Profile { springs, spacing, length, first: 0, summit: 0.0 })
     }
 
-    /// Places the profile on a foundation, a row of springs, that is longer than the profile. A flat punch, for example, covers
-    /// only a part of its foundation. The foundation has the length `length` in m, and `first` is the index of the leftmost
-    /// spring under the profile.
+    /// Places the profile on a foundation, a row of springs, of the length `length` in m. The foundation may be longer than
+    /// the profile. `first` is the index of the leftmost spring under the profile.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a length that is not from 1e-50 to 1e50 m, or if the profile would extend beyond the
@@ -146,7 +143,7 @@ impl Profile {
         &self.springs.gaps
     }
 
-    /// Returns the shared array of the gaps in m. To clone the `Arc` copies no gap.
+    /// Returns the gap of each point in m as a shared array.
     pub fn shared_gaps(&self) -> &Arc<Vec<f64>> {
         &self.springs.gaps
     }
@@ -156,8 +153,7 @@ impl Profile {
         self.springs.deepest
     }
 
-    /// Returns the height of each point in m, computed as the height of the highest point minus the gap. It may differ from the
-    /// height that was given by a rounding error.
+    /// Returns the height of each point in m. Rounding may change the last digit of a given height.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps().iter().map(|gap| self.summit - gap)
     }
@@ -172,9 +168,8 @@ impl Profile {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the [contact tree](ContactTree) that contacts with the edge model `edges` need, unless the profile has this tree
-    /// already. Without this call the first contact with adhesion builds the tree. `memory` is a tree that is no longer needed;
-    /// the new tree takes over its memory.
+    /// Builds the [contact tree](ContactTree) of the edge model `edges` in the memory of an old tree, `memory`. Without this
+    /// call, the first contact with adhesion builds the tree in new memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.

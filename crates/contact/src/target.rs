@@ -23,8 +23,8 @@ pub enum Move {
     ToForce(f64),
     /// Moves to this indentation in m; 0 is the first touch.
     ToIndentation(f64),
-    /// Moves until the displacement D = d + F/k of the drive of the instrument first reaches this value in m. The instrument,
-    /// of stiffness k, moves the body. For a rigid instrument D is the indentation.
+    /// Moves until the drive of the instrument first reaches this displacement D = d + F/k in m. k is the stiffness of the
+    /// instrument in N/m.
     ToDisplacement(f64),
     /// Moves to the indentation of first touch, d = 0.
     ToTouch,

@@ -23,11 +23,10 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
     /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie in the middle between two
-    /// springs. The error of forces and energies that results from the finite spacing Δx of the springs is proportional to Δx.
+    /// springs. Errors of forces and energies are proportional to the spacing Δx of the springs.
     Grid,
-    /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. The error of
-    /// forces and energies that results from the finite spacing Δx of the springs is proportional to Δx². Under a flat punch it
-    /// is proportional to Δx.
+    /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. Errors of
+    /// forces and energies are proportional to the square of the spacing Δx of the springs, or to Δx under a flat punch.
     SubCell,
 }
 

@@ -12,16 +12,11 @@ const BLOCK: usize = 4;
 /// Number of springs whose gaps are compared together.
 const LANES: usize = 64;
 
-/// Tree of the places where patches of a profile can merge, with prefix sums of the gaps.
-///
-/// Think of a level that rises from the smallest gap to the largest. The springs with gaps below the level form patches. A
-/// patch appears where the level passes a local minimum of the gap, and two patches merge where it passes a local maximum. So
-/// the tree has one node for each local maximum between the ends of the profile. The springs between a minimum and a maximum
-/// need no nodes. For random profiles of N springs whose waves end at a shortest wavelength, the tree has 0.11 N to 0.26 N
-/// nodes.
-///
-/// Nodes are in post-order: the subtree of node j, which has `size` nodes, consists of the nodes `j + 1 − size ..= j`. The tree
-/// depends on the gaps alone, not on the work of adhesion, the modulus or the loading.
+/// Tree of the places where patches of a profile can merge: one node for each local maximum of the gap inside the profile. For
+/// random profiles of N springs whose waves end at a shortest wavelength, the tree has 0.11 N to 0.26 N nodes.
+// Think of a level that rises from the smallest gap to the largest. The springs with gaps below the level form patches. A
+// patch appears where the level passes a local minimum of the gap, and two patches merge where it passes a local maximum.
+// Nodes are in post-order: the subtree of node j, which has `size` nodes, consists of the nodes `j + 1 − size ..= j`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
     /// Local minima and maxima of the gap in turn along the profile; the first and the last are minima.

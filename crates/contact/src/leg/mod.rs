@@ -15,8 +15,6 @@ use std::sync::Arc;
 
 /// A motion of a contact in one direction: the springs in contact, the force and the energy at each indentation.
 ///
-/// A leg remains valid after the body has moved on. All clones of a leg share the memory of the leg.
-///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Profile};
 /// use asperity_contact::motion::Leg;
@@ -157,12 +155,10 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Computes the leg of a body that turns back at the indentation `at` of this leg, in m, and moves in the opposite
-    /// direction.
+    /// Computes the leg in the opposite direction that begins at the indentation `at` in m of this leg.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise). May also return
-    /// [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise).
     pub fn turn(&self, at: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
@@ -247,7 +243,7 @@ impl Leg {
     }
 
     /// Returns the indentations above `low` and up to `high` (m) at which the force jumps by about `least` (N) or more, in
-    /// ascending order. The force of an adhesive contact jumps where patches jump in size, merge or split.
+    /// ascending order.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
         let Patches::Runs(_, runs) = &self.patches else { return Vec::new() };
         let springs = |[first, last]: [u32; 2]| f64::from(last - first + 1);
