@@ -259,7 +259,7 @@ impl Cycle {
     }
 
     /// Returns the preload in N: the largest force on loading before the last unloading. An earlier contact that ended in
-    /// separation does not count. Returns `None` if the body is not loaded in contact.
+    /// separation does not count. Returns `None` if there is no such force.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload

@@ -22,7 +22,7 @@ use super::target::Move;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// Preload F_n in N: the largest force on loading before the last unloading. An earlier contact that ended in separation
-    /// does not count. `None` if the body is not loaded in contact.
+    /// does not count. `None` if there is no such force.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,

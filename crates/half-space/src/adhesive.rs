@@ -110,9 +110,9 @@ impl AdhesiveSquare {
         self.grid.operators.convolutions
     }
 
-    /// Moves the square to an indentation in m from first touch. Cells then open and close until the contact is in equilibrium
-    /// at this indentation. Returns the state of the contact there. `stop` is called before each step of the solver. If `stop`
-    /// returns true, the solver ends with [`HalfSpaceError::Stopped`].
+    /// Moves the square to an indentation in m from first touch, and returns the state of the contact in equilibrium there.
+    /// `stop` is called before each step of the solver. If `stop` returns true, the solver ends with
+    /// [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
     /// Returns an error if the indentation is not finite, or if `stop` returned true.

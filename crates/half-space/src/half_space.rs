@@ -35,8 +35,8 @@ pub enum Load {
 pub struct Pressed {
     /// Pressure on each cell in Pa.
     pub pressure: Vec<f64>,
-    /// Gap between the square and the half-space at each cell in m. In contact its absolute value is at most `residual` times
-    /// the length by which [`Pressed::residual`] is divided, for a rough square its rms height.
+    /// Gap between the square and the half-space at each cell in m. [`Pressed::residual`] describes its error in contact,
+    /// where it should be zero.
     pub gap: Vec<f64>,
     /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is positive.
     pub force: f64,
@@ -46,9 +46,8 @@ pub struct Pressed {
     /// Contact area in m²: the sum of the areas of the cells in contact.
     pub area: f64,
     /// Largest error of the gap of any cell, divided by the rms height of the square. The error is the absolute value of the
-    /// gap of a cell in contact, and the depth of penetration of any other cell. For a flat square, whose rms height is zero,
-    /// the error is divided by the given indentation, or by F/(E* L) for a given force F. Here L is the side of the square and
-    /// E* the effective modulus.
+    /// gap of a cell in contact, and the depth of penetration of any other cell. For a flat square, whose rms height is
+    /// zero, the error is divided by the given indentation, or by F/(E* L) for a given force F and the side L.
     pub residual: f64,
     /// True if `residual` is at most the required tolerance and no pressure is negative. False if the solver used up its steps
     /// before.
@@ -57,8 +56,7 @@ pub struct Pressed {
     pub convolutions: u64,
 }
 
-/// Solver for contacts of squares that have a fixed number of cells. It solves a contact on a coarse grid first, and then on
-/// finer and finer grids. It keeps its planned Fourier transforms and its memory for the next contact.
+/// Solver for contacts of squares that have a fixed number of cells.
 pub struct HalfSpace {
     boundary: Boundary,
     /// Nested grids, the finest one last.

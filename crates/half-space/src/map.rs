@@ -7,12 +7,10 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
-/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. The surface is a sum of
-/// waves with k_x periods along one side and k_y periods along the other. Such a wave contributes `variance`(k) to the mean
-/// square height, with k = √(k_x² + k_y²). The surface has the waves with |k_x| and |k_y| below `cells`/2, except (0, 0), and
-/// their contributions sum to the mean square height. Heights are in m if contributions are in m². The phase of each wave is
-/// random and depends only on `seed`, k_x and k_y. With more cells, the same surface is computed at more points and has
-/// additional shorter waves.
+/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. The surface is a sum
+/// of waves with k_x periods along one side and k_y periods along the other. Such a wave contributes `variance`(k) to the
+/// mean square height, with k = √(k_x² + k_y²). Heights are in m if `variance` returns m². With more cells and the same
+/// `seed`, the surface has the same waves and additional shorter waves.
 ///
 /// # Errors
 /// Returns an error if the heights do not fit into memory.

@@ -64,8 +64,8 @@ impl Place {
     }
 }
 
-/// Reason why a surface, a form or a profile cannot be read, made or analysed. The message has no name of a file, unless the
-/// place is a [`Place::FileOf`], so callers write the name before it.
+/// Reason why a surface, a form or a profile cannot be read, made or analysed. The message names the file only if the place
+/// is a [`Place::FileOf`].
 ///
 /// ```
 /// let options = asperity_surface::ReadOptions { unit: Some("m".parse()?), ..Default::default() };
@@ -145,8 +145,7 @@ impl SurfaceError {
         self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
     }
 
-    /// Returns the same error with a longer place, such as the place in a file together with the file. `outer` makes the new
-    /// place from the present one.
+    /// Returns the same error with the place that `outer` makes from its present place.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }

@@ -61,9 +61,8 @@ impl EquivalentLine {
         Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Returns the line after a random change of the spectrum of each face. The changes of the logarithm of a spectrum are
-    /// drawn from the normal distribution of the errors of its fit, and multiplied by `share`. `number` is the seed: equal
-    /// numbers give equal changes.
+    /// Returns the line with a random error of the spectrum of each face, drawn from the distribution of the errors of its
+    /// fit and multiplied by `share`. `number` is the seed: equal numbers give equal errors.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
@@ -72,8 +71,7 @@ impl EquivalentLine {
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }
 
-    /// Computes the moments of the line, such as the rms height, with their standard errors. The moments include all wave
-    /// numbers from half of the first wave number of [`EquivalentLine::range`] to its last wave number.
+    /// Computes the moments of the line, such as the rms height, with their standard errors.
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
@@ -84,16 +82,16 @@ impl EquivalentLine {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// Returns the first and the last wave number of the line in rad/m. The first is the smallest wave number at which the
-    /// spectra of all faces are known. The last is the largest wave number of any face.
+    /// Returns the first and the last wave number of the line in rad/m. The first is the smallest wave number that the
+    /// spectra of all faces have, the last the largest of any face.
     pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
-    /// Returns the first and the last mode k of a line of the length L = `length` in m on `points` springs. Mode k is the wave
-    /// with the wave number q = 2πk/L. The modes are the waves of the spectrum that fit the line and that the springs resolve.
-    /// Waves longer than the measured surfaces are unknown and left out. Returns an error if no wave remains.
+    /// Returns the first and the last mode k of a line of the length L = `length` in m on `points` springs. Mode k is the
+    /// wave with the wave number q = 2πk/L. The modes are the waves of the spectrum that fit the line and that the springs
+    /// resolve. Returns an error if there is none.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -122,10 +120,9 @@ impl EquivalentLine {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Returns A_k²/(4πk) in m² with k = `waves`. This is the mean square height that one wave with k periods over the length
-    /// `side` in m adds to a square surface of this side. The surface has the spectra of the faces, and A_k is
-    /// [`EquivalentLine::amplitude`] with the length `side`. k need not be a whole number. The function returns 0 if k is more
-    /// than ½ below the first or more than ½ above the last wave of the spectra.
+    /// Returns the mean square height in m² that one wave adds to a square surface with the measured spectra. `side` is the
+    /// side of the square in m. `waves`, the number of periods over this side, need not be a whole number. Returns 0 if the
+    /// wave lies outside the measured spectra.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
         if waves < first - 0.5 || waves > last + 0.5 {

@@ -10,9 +10,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. Depths count downwards from the apex, and r is the distance
-/// from the axis. The axis of every form except a punch lies on the spring ⌊N/2⌋ of N springs, as [`Form::spring_on_axis`]
-/// explains.
+/// Macroscopic form of the rigid body: its shape without roughness. Depths count downwards from the apex, and r is the
+/// distance from the axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -61,10 +60,9 @@ pub enum Form {
 }
 
 impl Form {
-    /// Reads the file of a [`Form::Table`], unless it has been read already. `folder` is the folder of the scene file. Checks
-    /// that the radii of the table reach from the axis to the ends of a profile of this length in m. All clones of the form
-    /// then share the table. Other forms need no reading. Before its file is read, a [`Form::Table`] is flat. Returns an error
-    /// if the file holds no table, or if the table ends before the profile does.
+    /// Reads the file of a [`Form::Table`], unless it has been read already. Other forms need no reading. `folder` is the
+    /// folder of the scene file, and `length` the length of the profile in m. Returns an error if the file holds no table,
+    /// or if the table ends before the profile does.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let in_file = |error: SurfaceError| {
@@ -89,25 +87,22 @@ impl Form {
         if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
     }
 
-    /// Returns ⌊N/2⌋ for N = `points` springs, the index of the spring on the axis of every form except a punch. The axis of a
-    /// punch is at L/2. If the axis lay between two springs, no spring would be at the tip. The errors of force, indentation
-    /// and energy would then be proportional to the spacing Δx of the springs.
+    /// Returns the index ⌊N/2⌋ of the spring on the axis of the form, for N = `points` springs. For a punch the axis is in
+    /// the middle of the length instead.
     pub fn spring_on_axis(points: u64) -> u64 {
+        // With the axis between two springs no spring would be at the tip, and errors would be proportional to Δx.
         points / 2
     }
 
-    /// Returns the distance by which the body is displaced along the springs, in spring spacings. The displacement moves the
-    /// axis from L/2 onto a spring. This distance is ½ for an even number of springs, and 0 for an odd one. Form and roughness
-    /// are displaced together, so that their relative position does not depend on the number of springs. A punch has no tip and
-    /// is not displaced.
+    /// Returns the distance, in spring spacings, from the middle of the length to the axis of the form. It is ½ for an even
+    /// number of springs, and 0 for an odd number and for a punch.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 
-    /// Returns the range of indices of the springs under the form, for `points` springs on the length `length` in m. All forms
-    /// except a punch lie above all springs. The width of a punch is its diameter, rounded to a whole number of spring
-    /// spacings. The middle of the punch is off the axis by at most half a spacing. The range is empty if the diameter is below
-    /// half a spacing.
+    /// Returns the range of indices of the springs under the form, for `points` springs on the length `length` in m. All
+    /// forms except a punch lie above all springs. The width of a punch is its diameter, rounded to a whole number of spring
+    /// spacings. The range is empty if the diameter is below half a spacing.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -121,7 +116,7 @@ impl Form {
         first..first + cells
     }
 
-    /// Returns the radius in m of the flat end of a punch; `None` for all other forms. No spring outside this radius touches.
+    /// Returns the radius in m of the flat end of a punch; `None` for all other forms.
     pub fn flat_end(&self) -> Option<f64> {
         match *self {
             Form::Punch { radius } => Some(radius),
@@ -166,13 +161,10 @@ impl Form {
         }
     }
 
-    /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a punch
-    /// it is 0, the depth of its flat face; [`Form::springs_under`] returns the springs under this face.
+    /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a
+    /// punch it is 0.
     ///
-    /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`]. A paraboloid r²/2R becomes
-    /// x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of
-    /// [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x| H₀(2π|x|/λ), with the Struve function H₀ of
-    /// [`struve_0`].
+    /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`].
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.

@@ -29,9 +29,8 @@ pub struct MeasuredOptions {
 
 /// A measured profile: the heights of points at ascending positions.
 ///
-/// N points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, cover the length N Δx from x = 0. Before the first and
-/// behind the last point such a profile is flat. Any other profile covers the distance from its first to its last point. If its
-/// points are equally spaced, it can also cover half a spacing more at each end.
+/// The profile covers the distance from its first to its last point. If the points are equally spaced, it can cover half a
+/// spacing more at each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
@@ -87,10 +86,7 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Computes the rms height h, the rms gradient, the rms curvature and the mean wave number of the profile. The mean wave
-    /// number is Σ q_k A_k²/2h², where A_k are the amplitudes and q_k the wave numbers of the waves of the profile, when it is
-    /// repeated periodically. For these amplitudes a straight line is subtracted, so that the two ends meet. A step between the
-    /// ends would add to every wave.
+    /// Computes the rms height, the rms gradient, the rms curvature and the mean wave number of the profile.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
@@ -113,10 +109,8 @@ impl MeasuredProfile {
         Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 
-    /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation. Here L
-    /// is `length` in m and N is `points`. Interpolation does not change the height at a measured point. If all measured
-    /// heights lie between half and twice the first one, the returned heights are relative to the first one. These differences
-    /// are exact, so roughness on a large offset keeps its digits.
+    /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation.
+    /// Here L is `length` in m and N is `points`. A constant may be subtracted from all heights.
     ///
     /// # Errors
     /// Returns an error if the profile is shorter than `length`.
@@ -197,8 +191,7 @@ fn join_ends(heights: &mut [f64]) {
     (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
-/// Paths and contents of the measured files of one face, which is one of the two surfaces that touch each other. All files are
-/// samples of the same roughness.
+/// Paths and contents of the measured files of one face, one of the two surfaces that touch each other.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
 /// Reads the files with these paths into memory. `faces` has the paths of the files of each [`Face`].

@@ -182,9 +182,7 @@ const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 /// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed, uniform in [0, 2π). Mode k is the
 /// wave with k periods over the profile.
 ///
-/// The generator is ChaCha with 8 rounds. Its key of 32 bytes is the seed, little-endian, followed by the 24 ASCII bytes
-/// `asperity-line-phases-v1` and a zero. φ_k is the k-th 64-bit word of its stream, counted from k = 1; the upper 53 bits are the
-/// fraction of 2π. So mode k of a seed has one phase, bit for bit, for every number of springs and modes and on every platform.
+/// The phase of a mode depends only on the seed and k. It is the same, bit for bit, on every platform.
 pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     let mut generator = phase_words(seed, first);
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))

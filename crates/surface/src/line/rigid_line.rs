@@ -25,11 +25,10 @@ pub struct Line {
 }
 
 impl Line {
-    /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form the body is flat, and without
-    /// roughness it is smooth. `roughness` has one height for each spring, in units of the length `scale` in m. The axis of any
-    /// form except a punch is on the spring ⌊N/2⌋: at x = L/2 for odd N, and half a spring spacing to the right for even N. The
-    /// given roughness has to be displaced by the same distance already, which is [`Form::shift`]. A punch lies only above the
-    /// springs of [`Form::springs_under`]. The profile then has only these springs.
+    /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form the body is flat, and
+    /// without roughness it is smooth. `roughness` has one height for each spring, in units of the length `scale` in m. It
+    /// has to be displaced by [`Form::shift`] already. The profile of a punch has only the springs of
+    /// [`Form::springs_under`].
     ///
     /// # Errors
     /// Returns an error if the memory is too small, if a height is not finite, or if no spring lies under a punch.
@@ -92,7 +91,7 @@ impl Line {
         Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
     }
 
-    /// Returns the heights z in m of the points under the body. The gap of a point is `summit` − z, bit for bit.
+    /// Returns the heights z in m of the points under the body.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps.iter().map(|gap| self.height(*gap))
     }
@@ -148,8 +147,8 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included. Heights outside this range
-    /// are left out. If `low` equals `high`, all heights are in the first bin.
+    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included. Heights outside this
+    /// range are left out.
     ///
     /// ```
     /// let histogram = asperity_surface::lines::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);

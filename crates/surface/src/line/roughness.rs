@@ -122,12 +122,11 @@ impl Synthesizer {
 }
 
 impl SelfAffine {
-    /// Computes a random profile with this spectrum by eqs. (8) and (9) of Popov and Filippov (2012). The heights, in units of
-    /// the rms height, are at x = (i + ½)L/N on N = `points` springs. `points` has to be at least twice the last mode. The
-    /// heights depend only on the spectrum, the seed, and the number and positions of the points, not on the length.
+    /// Computes a random profile with this spectrum by eqs. (8) and (9) of Popov and Filippov (2012). The heights, in units
+    /// of the rms height, are at x = (i + ½)L/N on N = `points` springs. `points` has to be at least twice the last mode.
     ///
-    /// The rms height is that of the sum of cosines over the whole length, not that of the N heights. Another number of springs
-    /// samples the same profile at other positions, up to the rounding errors of the Fourier transform.
+    /// The unit is the rms height of the continuous profile, which is a sum of cosine waves. The rms of the N heights
+    /// differs from it only if the last mode is exactly N/2.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };

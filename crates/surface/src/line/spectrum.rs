@@ -5,8 +5,8 @@ use asperity_data::{integral_of_power, sum_of_powers};
 use std::f64::consts::TAU;
 
 /// Self-affine spectrum of a profile. The modes k = `first` … `last` are waves with k periods over the length L and the wave
-/// numbers q_k = 2πk/L. Their amplitudes are A_k ∝ k^(−H−1/2). For modes below the roll-off the spectrum C₂D of the surface is
-/// flat, and A_k ∝ √k by eq. (8) of Popov and Filippov (2012).
+/// numbers q_k = 2πk/L. Their amplitudes are A_k ∝ √k below the roll-off mode, eq. (8) of Popov and Filippov (2012), and A_k
+/// ∝ k^(−H−1/2) above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
@@ -15,8 +15,8 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, the shortest wave; at least `first`.
     pub last: u64,
-    /// Mode at the roll-off: the length L divided by the roll-off wavelength. For longer waves the spectrum of the surface is
-    /// flat. The value need not be a whole number. With any value up to `first`, such as 0, the spectrum has no roll-off.
+    /// Mode at the roll-off: the length L divided by the roll-off wavelength. It need not be a whole number. With any value
+    /// up to `first`, such as 0, the spectrum has no roll-off.
     pub roll_off_mode: f64,
 }
 
@@ -35,11 +35,9 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns (A_k/A₁)²/(4πk) with k = `waves`. This is the mean square height that one wave with k periods over the length
-    /// adds to a surface, in units of A₁². [`Self::relative_amplitude`] defines A_k and A₁. k need not be a whole number,
-    /// because waves of a surface lie in all directions. If C₁D(q) is the spectrum of the profile over the wave number q, the
-    /// surface has the spectrum C₂D(q) = C₁D(q)/(πq). The function returns 0 if k is more than ½ below `first` or more than ½
-    /// above `last`.
+    /// Returns the mean square height that one wave with `waves` periods over the length adds to a surface with this
+    /// spectrum. The unit is A₁², the square of the amplitude that mode 1 would have without a roll-off. `waves` need not be
+    /// a whole number. Returns 0 if `waves` is more than ½ below `first` or more than ½ above `last`.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -58,9 +56,6 @@ impl SelfAffine {
     /// Returns the rms gradient over the rms height, ⟨∇z⟩/h in 1/m, of a profile of length L in m. It is √(Σ A_k² q_k² / Σ
     /// A_k²), summed over the modes k of the profile. A_k is the amplitude of mode k, and q_k its wave number.
     ///
-    /// These sums are finite and have positive terms. The Hurst exponent H → 1 is therefore no special case, unlike in the
-    /// integrals of eqs. (12) and (13) of Popov and Filippov (2012).
-    ///
     /// ```
     /// use asperity_surface::SelfAffine;
     /// use std::f64::consts::TAU;
@@ -73,8 +68,7 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m. Its values are computed from sums over
-    /// the modes, as in [`Self::gradient_per_height`].
+    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 512, roll_off_mode: 0.0 };
@@ -91,12 +85,11 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m as if the profile had waves at all wave numbers from the first to the last mode. Without
-    /// a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, by eqs. (5)–(7) and (12) of Popov and
-    /// Filippov (2012).
+    /// Returns the ratio ⟨∇z⟩/h in 1/m as if the profile had waves at all wave numbers from the first to the last mode.
+    /// Without a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, eqs. (5)–(7) and (12) of
+    /// Popov and Filippov (2012).
     ///
-    /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. A single mode
-    /// spans no range of wave numbers; the function then returns 0.
+    /// Returns 0 for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
         let between = self.roll_off_mode.max(low).min(high);
@@ -192,10 +185,9 @@ impl Amplitude {
         }
     }
 
-    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in J/m². Here A_k are the
-    /// amplitudes and q_k the wave numbers of the waves of the profile. A half-space of effective modulus E* (Pa) has this
-    /// energy in full contact with an isotropic surface. The surface has the rms height, rms gradient and mean wave number of
-    /// the profile (Persson and Tosatti, 2001).
+    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in J/m² (Persson and
+    /// Tosatti, 2001). Here A_k are the amplitudes and q_k the wave numbers of the waves of the profile, and E* is the
+    /// effective modulus in Pa.
     ///
     /// ```
     /// use asperity_surface::SelfAffine;

@@ -43,8 +43,7 @@ pub struct FormTable {
     slopes: Vec<[f64; 3]>,
 }
 
-/// Rows of a [`Form::Table`](crate::Form::Table), empty until its file is read. All clones of the form share the rows that were
-/// read. The operator `==` takes rows that have not been read as equal to any rows.
+/// Rows of a [`Form::Table`](crate::Form::Table), empty until its file is read.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 

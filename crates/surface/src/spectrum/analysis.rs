@@ -40,12 +40,10 @@ const CONTINUED: f64 = 4.0;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. With `None`, the polynomial is removed that an archive of contact.engineering
-    /// states for the surface. If none is stated, the mean and the tilt are removed, or only the mean of a periodic surface. To
-    /// remove a plane from a periodic surface would leave a step at its borders.
+    /// Polynomial removed before the analysis. `Option::None` means the polynomial that the file of the surface states. If
+    /// the file states no polynomial, it means [`Detrend::Tilt`], or [`Detrend::Mean`] for a periodic surface.
     pub detrend: Option<Detrend>,
-    /// True for a surface that continues periodically at its borders. The analysis then uses no window function. A container
-    /// may also state that its surface is periodic.
+    /// True for a surface that continues periodically at its borders. The analysis then uses no window function.
     pub periodic: bool,
     /// Assumption on waves shorter than the shortest wave that the points resolve: whether the surface has such waves.
     pub end: End,
@@ -63,15 +61,15 @@ pub struct Analysis {
     pub rms_heights: Vec<f64>,
     /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
-    /// Isotropic spectrum fitted to the surfaces. All of them are taken as samples of this one spectrum.
+    /// Isotropic spectrum fitted to the surfaces.
     pub isotropic: IsotropicSpectrum,
     /// Self-affine spectrum fitted to the surfaces; `None` if the fit does not converge or finds no Hurst exponent between 0
     /// and 1.
     pub power_law: Option<SelfAffineFit>,
     /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms height.
     pub line: LineMoments,
-    /// Shortest wavelength in m that the tip resolves reliably. For several surfaces it is the largest of their wavelengths.
-    /// `None` if no tip radius is given, or if the tip resolves all waves.
+    /// Shortest wavelength in m that the tip resolves reliably. `None` if no tip radius is given, or if the tip resolves all
+    /// waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -86,12 +84,12 @@ pub struct Analysis {
     /// True if the analysis leaves out the waves parallel to one axis of a map. The rows or columns of such a map are offset
     /// against each other, or were levelled one by one.
     pub offsets: bool,
-    /// Largest difference between the squared gradient of waves parallel to an axis of a map and the value expected from waves
-    /// in neighbouring directions. It is divided by the squared gradient of the map. The value is 0 if waves parallel to an
-    /// axis are left out, or if the difference is small or may be chance.
+    /// Largest difference between the squared gradient of waves parallel to an axis of a map and the value expected from
+    /// waves in neighbouring directions. It is divided by the squared gradient of the map. The value is 0 if the difference
+    /// may be chance.
     pub apart: f64,
-    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. For several
-    /// maps it is the largest of their distances. `None` if no map has such a displacement.
+    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. `None` if
+    /// no map has such a displacement.
     pub displaced: Option<f64>,
 }
 
@@ -396,8 +394,7 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns the share of the mean square height that comes from waves longer than a quarter of [`Analysis::length`]. A
-    /// surface has only few such waves. With a large share the rms height therefore depends on the measured length.
+    /// Returns the share of the mean square height that comes from waves longer than a quarter of [`Analysis::length`].
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

@@ -72,12 +72,11 @@ pub struct Moment {
     pub error: f64,
     /// Standard error that results from the finite number of measured waves.
     pub statistical: f64,
-    /// Standard error that results from the method of estimation. One part is the difference between the moment of the fitted
-    /// spectrum and the moment of the measured powers. The other part is the error that results from interpolated points.
+    /// Standard error that results from the method of estimation.
     pub method: f64,
-    /// Largest change of the value if the surface has shorter waves than the points resolve: a power law down to a quarter of
-    /// the shortest resolved wavelength. Such waves are missing in the value, and by aliasing they add to the power of longer
-    /// waves. The change is zero with [`End::Continues`], and if the spectrum ends before the last resolved wave.
+    /// Largest change of the value if the surface has shorter waves than the points resolve: a power law down to a quarter
+    /// of the shortest resolved wavelength. The change is zero with [`End::Continues`], and if the spectrum ends before the
+    /// last resolved wave.
     pub missing_short_waves: f64,
 }
 
@@ -104,7 +103,7 @@ impl Moment {
     }
 }
 
-/// Moments of the [equivalent line](crate::EquivalentLine), each with its errors. They include all waves of the line.
+/// Moments of the [equivalent line](crate::EquivalentLine), each with its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineMoments {
@@ -112,7 +111,7 @@ pub struct LineMoments {
     pub rms_height: Moment,
     /// Rms gradient ⟨∇z⟩.
     pub rms_gradient: Moment,
-    /// Product h⟨∇z⟩ in m, to which κ² is proportional. Its error accounts for the correlation of both factors.
+    /// Product of the rms height h and the rms gradient ⟨∇z⟩ in m.
     pub height_gradient: Moment,
     /// Elastic energy per area that flattens the roughness, divided by the effective modulus: e_el/E* in m.
     pub energy_per_modulus: Moment,
@@ -241,7 +240,7 @@ impl IsotropicSpectrum {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Returns the last resolved wave number in rad/m, the last node.
+    /// Returns the wave number in rad/m of the last node, the shortest wave that the measured points resolve.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }

@@ -25,8 +25,8 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
 
-/// Reads a measured surface from a regular file of at most 1 GiB. A container of contact.engineering is an archive with several
-/// measurements of a surface. All its measurements are read.
+/// Reads a measured surface from a regular file of at most 1 GiB. From an archive with several measurements of a surface it
+/// reads all of them.
 ///
 /// # Errors
 /// Returns [`SurfaceError`] if the file cannot be read or holds no surface.
@@ -45,7 +45,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, Surfa
     parse_all(&content(path)?, options)
 }
 
-/// Returns the bytes of a regular file of at most 1 GiB. [`parse`] takes these bytes.
+/// Returns the bytes of a regular file of at most 1 GiB.
 pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }

@@ -33,8 +33,7 @@ pub struct ReadOptions {
     pub align_rows: bool,
     /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated from their neighbours.
     pub robust: bool,
-    /// Name of a surface or of a measurement in an archive with several measurements. Only the surface or the measurement with
-    /// this name is read.
+    /// Name of the surface or of the measurement to read from an archive with several measurements.
     pub surface_name: Option<String>,
 }
 

@@ -77,8 +77,7 @@ pub struct Topography {
     pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
-    /// Name that a container, an archive of several measurements, gives this measurement. The name is empty if the surface has
-    /// a file of its own.
+    /// Name of the measurement in an archive of several measurements; empty for a surface that has a file of its own.
     pub name: String,
     /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
@@ -228,8 +227,7 @@ impl Topography {
     /// a profile.
     ///
     /// # Errors
-    /// Returns an error if the points of a profile are not evenly spaced. The error names the first point that is off an even
-    /// grid by more than 0.1 % of the mean distance. This grid runs from the first to the last point.
+    /// Returns an error if a point of a profile is off an even grid by more than 0.1 % of the mean distance.
     ///
     /// ```
     /// use asperity_surface::{ReadOptions, parse};
@@ -304,7 +302,7 @@ fn mean_distance(positions: &[f64]) -> f64 {
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
-    /// Nothing is removed. The name in scene files is `Nothing`, because `None` there means that a field is omitted.
+    /// Nothing is removed. In scene files this variant is written `Nothing`.
     #[serde(rename = "Nothing")]
     #[strum(serialize = "Nothing")]
     None,
