@@ -28,7 +28,7 @@ const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 pub struct Branch {
     /// Direction of the motion.
     pub direction: Direction,
-    /// Indices of the stages of the branch, including stages that leave the body in place.
+    /// Indices of the stages of the branch.
     pub stages: Range<usize>,
 }
 

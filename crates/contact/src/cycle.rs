@@ -122,8 +122,7 @@ pub struct Curve {
 }
 
 impl Contact {
-    /// Moves the body, which is separated at first, through these loading stages one after the other. Each stage ends where the
-    /// body reaches the target of the stage.
+    /// Moves the body, which is separated at first, through these loading stages one after the other.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and [`ContactError::Stage`] for a

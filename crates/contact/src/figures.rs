@@ -107,7 +107,7 @@ pub enum Mark {
     /// Point at which the pull-off force acts, as [`Branch::pull_off`] finds it. The mark exists only if the force is tensile.
     PullOff,
     /// Last point in contact of the last unloading, before the body jumps out of contact. The mark exists only if the force
-    /// there is tensile and above the force of the pull-off.
+    /// at this point is tensile, but less tensile than the pull-off force.
     JumpOut,
 }
 

@@ -253,8 +253,7 @@ pub struct CurvePoint {
     pub springs: u64,
     /// Number of contact patches.
     pub fragments: u64,
-    /// Elastic energy in J that is stored in the springs: ½ Δk Σ (d − c)² over all springs in contact. Here Δk is the stiffness
-    /// of a spring and c its gap.
+    /// Elastic energy in J that is stored in the springs.
     pub stored_energy: f64,
 }
 

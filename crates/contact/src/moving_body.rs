@@ -6,8 +6,7 @@ use super::leg::Leg;
 use super::target::Move;
 
 /// A rigid body that moves from target to target on its springs. The exact solver [`Body`](crate::motion::Body) and the
-/// stepwise solver [`Stepwise`](crate::motion::Stepwise) have this trait. A new body is separated, at the indentation d = 0
-/// just before first touch.
+/// stepwise solver [`Stepwise`](crate::motion::Stepwise) have this trait.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};

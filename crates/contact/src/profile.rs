@@ -188,8 +188,8 @@ impl Profile {
         self.springs.tree_in(memory, edges).map(|_| ())
     }
 
-    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can reuse. The returned tree is
-    /// empty if the profile has no tree, or if a clone or a contact still uses the tree.
+    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can reuse. The tree is empty
+    /// if the profile has none, or if a clone or a contact still uses it.
     pub fn into_tree(self) -> ContactTree {
         let trees = Arc::into_inner(self.springs).map(|springs| springs.trees);
         let trees = trees.into_iter().flatten().filter_map(OnceLock::into_inner);

@@ -76,8 +76,7 @@ impl EquivalentLine {
         line_moments(&self.faces)
     }
 
-    /// Returns the power spectral density (PSD) in m³ of the line at a wave number in rad/m. It is the sum of the densities of
-    /// the faces.
+    /// Returns the power spectral density (PSD) in m³ of the line at a wave number in rad/m.
     pub fn power(&self, wave_number: f64) -> f64 {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }

@@ -29,8 +29,8 @@ pub struct MeasuredOptions {
 
 /// A measured profile: the heights of points at ascending positions.
 ///
-/// The profile covers the distance from its first to its last point. If the points are equally spaced, it can cover half a
-/// spacing more at each end.
+/// The profile covers the distance from its first to its last point. If the points are equally spaced, a sampled profile may
+/// extend half a spacing beyond each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
@@ -110,7 +110,7 @@ impl MeasuredProfile {
     }
 
     /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation.
-    /// Here L is `length` in m and N is `points`. A constant may be subtracted from all heights.
+    /// Here L is `length` in m and N is `points`. The same constant may be subtracted from all heights.
     ///
     /// # Errors
     /// Returns an error if the profile is shorter than `length`.

@@ -26,8 +26,8 @@ pub struct Line {
 
 impl Line {
     /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form the body is flat, and
-    /// without roughness it is smooth. `roughness` has one height for each spring, in units of the length `scale` in m. It
-    /// has to be displaced by [`Form::shift`] already. The profile of a punch has only the springs of
+    /// without roughness it is smooth. `roughness` has one height for each spring, in units of the length `scale` in m. The
+    /// roughness has to be displaced by [`Form::shift`] already. The profile of a punch has only the springs of
     /// [`Form::springs_under`].
     ///
     /// # Errors

@@ -190,10 +190,9 @@ impl FormTable {
 
     /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing` (m) from the axis, the first
     /// on the axis.
-    ///
-    /// To compute one depth takes a square root for each row nearer the axis. If many depths lie between two rows, the
-    /// contributions of rows at least one interval away are therefore interpolated by a polynomial.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
+        // One depth takes a square root for each row nearer the axis. If many depths lie between two rows, the contributions of
+        // rows at least one interval away are therefore interpolated by a polynomial.
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {
             let (low, high) = (self.radii[gap], self.radii[gap + 1]);

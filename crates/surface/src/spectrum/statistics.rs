@@ -8,9 +8,9 @@ use serde::Serialize;
 pub struct PointStatistics {
     /// Number of points of all surfaces together.
     pub points: usize,
-    /// Root mean square height about the mean in m: Pq of profiles, Sq of maps, neither of them filtered.
+    /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a filter.
     pub rms_height: f64,
-    /// Root mean square slope along rows, PΔq. It is computed from the differences between the heights of neighbouring points.
+    /// Root mean square slope along rows, PΔq.
     pub rms_slope: f64,
     /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if any surface is a profile.
     pub rms_gradient: Option<f64>,
