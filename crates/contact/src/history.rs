@@ -43,8 +43,8 @@ pub struct LegRecord {
     /// Elastic energy in J that springs release when they detach, minus the elastic energy that springs gain when they
     /// attach. The sum over all stages of a closed loop is the dissipated energy.
     pub released_energy: f64,
-    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. The loop area ∮F dD of a
-    /// history is the sum of `released_energy` and `jump_energy` over all stages. A jump may begin in one stage and continue
+    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. The sum of `released_energy`
+    /// and `jump_energy` over all stages is the loop area ∮F dD of the history. A jump may begin in one stage and continue
     /// in the next stage of the same direction. Each of the two stages then has its own part of the energy.
     pub jump_energy: f64,
 }

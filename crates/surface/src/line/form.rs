@@ -41,7 +41,7 @@ pub enum Form {
         /// Wavelength λ in m.
         wavelength: f64,
     },
-    /// Cylinder with a flat end, which alone can touch.
+    /// Cylinder with a flat end. Only the flat end can touch.
     Punch {
         /// Radius a of the flat end in m.
         radius: f64,

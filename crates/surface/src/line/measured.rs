@@ -18,7 +18,7 @@ pub(super) const TRANSFORM_BYTES: u64 = 96;
 /// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. With `None` the rigid
+    /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. Otherwise the rigid
     /// profile is an equivalent line, a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files.
