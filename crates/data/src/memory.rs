@@ -29,8 +29,7 @@ impl OutOfMemory {
     }
 }
 
-/// Returns an error unless the system can provide `bytes` more bytes of memory now. For less than 1 MiB it never returns an
-/// error. No memory stays reserved.
+/// Returns an error unless the system can provide `bytes` more bytes of memory now. Less than 1 MiB is never refused.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());

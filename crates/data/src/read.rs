@@ -9,8 +9,7 @@ use std::io::Read;
 use std::path::Path;
 use thiserror::Error;
 
-/// Reason why a file was not read. The message does not contain the name of the file; the caller writes the name before the
-/// message.
+/// Reason why a file was not read. The message does not contain the name of the file.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The path is a folder.

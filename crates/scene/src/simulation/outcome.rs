@@ -75,7 +75,7 @@ pub struct LineFacts {
     pub length: f64,
     /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Index of the first spring under the body. The index is above zero only for a punch.
+    /// Index of the first spring under the body; above zero only for a punch.
     pub first: usize,
     /// Height of the highest point in m. The apex of the form without roughness has the height zero.
     pub summit: f64,
@@ -85,9 +85,8 @@ pub struct LineFacts {
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient that a continuous spectrum with the same rms height has, by the integrals of eq. (12) of Popov and
-    /// Filippov (2012). The profile itself is a sum of discrete modes, so the two rms gradients may differ. `None`
-    /// unless the roughness is self-affine.
+    /// Rms gradient of a continuous spectrum with the same rms height, eq. (12) of Popov and Filippov (2012); `None` unless
+    /// the roughness is self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
@@ -134,8 +133,7 @@ pub enum RunError {
     /// The profile could not be computed from the form and the roughness.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// A [`ReversalMap`](crate::theory::ReversalMap), which has unloadings from many turning points, was requested for a
-    /// scene with the stepwise solver. Such a map needs the exact solver.
+    /// Unloadings from many turning points were requested for a scene with the stepwise solver.
     #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
     NeedsExactSolver,
     /// A [`ReversalMap`](crate::theory::ReversalMap) was requested for a loading that never presses the bodies together.
