@@ -2,8 +2,7 @@
 
 use crate::text_lines::TextFault;
 
-/// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space. The first line of numbers
-/// determines the separator of the whole table.
+/// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 

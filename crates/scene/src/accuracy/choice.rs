@@ -18,7 +18,7 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// Largest number of springs that is tried, or four times the number that the modes of the scene need, if that is larger.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1 %`. Returns a message unless
+/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1 %`. Returns an error message unless
 /// the tolerance is above 0 and below 1.
 ///
 /// ```
@@ -49,7 +49,7 @@ pub struct Choice {
     pub error: f64,
     /// True if `error` is the difference from a closed form, which is an exact formula for the adhesion force.
     pub closed_form: bool,
-    /// Number of springs of the finest solution that was tried.
+    /// Largest number of springs that was tried.
     pub finest: u64,
 }
 
@@ -89,10 +89,10 @@ pub enum ChoiceError {
     /// The scene could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The tolerance is out of its range.
+    /// The tolerance is not above 0 and below 1.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The scene has the stepwise [`Solver`], whose error depends on its step as well as on the number of springs.
+    /// The scene has the stepwise [`Solver`].
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
@@ -155,6 +155,9 @@ pub fn choose(
     if scene.numerics.solver != Solver::Exact {
         return Err(ChoiceError::Stepwise);
     }
+    // The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Without
+    // a closed form adhesion forces are also compared under half and twice the loads, and the estimated error of the finest
+    // solution is added.
     let most = allowed_points(scene).next().map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
     let mut tried: Vec<[Solution; 2]> = Vec::new();
     let mut runs = Runs::new(folder, stop);

@@ -37,8 +37,7 @@ pub struct Estimate {
     pub target: Target,
     /// Estimated relative error of `target`.
     pub error: f64,
-    /// True if the adhesion force F_a as a function of the preload has a step near the preload of the scene. `error` contains
-    /// the height of this step.
+    /// True if the adhesion force F_a as a function of the preload has a step near the preload of the scene.
     pub near_step: bool,
     /// How the error was found: by an exact formula, or by solutions with other numbers of springs.
     pub evidence: Evidence,

@@ -58,6 +58,8 @@ impl Governing {
             let amplitude = unit.scaled(rms_height);
             Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
         });
+        // A given κ yields γ = h⟨∇z⟩E*/κ², a given e_el/γ yields γ from e_el = E* h² q̄/4. Here q̄ is the mean wave number of the
+        // roughness in rad/m, weighted by the squared amplitudes of the waves.
         Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
     }
 

@@ -116,9 +116,9 @@ impl DisplacementPoint {
     }
 }
 
-/// Returns the displacement of the instrument in m for each point of a loading stage. On loading the displacement of a point
-/// is the largest d + F/k of this point and all points before it; on unloading it is the smallest. Here d is the indentation,
-/// F the force and k the `stiffness` in N/m.
+/// Returns the displacement of the instrument in m for each point of a loading stage. This is the
+/// largest value of d + F/k at this point and all points before it; on unloading it is the smallest value. Here d is the
+/// indentation, F the force and k the `stiffness` in N/m.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {

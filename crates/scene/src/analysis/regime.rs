@@ -33,7 +33,7 @@ impl Regime {
     /// be pressure-insensitive; see [`Regime::of_loading`].
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// Share of the adhesion force of the smooth body below which an adhesion force counts as vanished; see
+    /// Share of the adhesion force of the smooth body below which an adhesion force counts as zero; see
     /// [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
     // While κ grows by a factor of about three, the adhesion force without a preload falls from one half to one twentieth of
@@ -53,7 +53,7 @@ impl Regime {
     /// a loop that turns at zero force. `smooth` is the adhesion force in N of the same body without roughness. Both are
     /// `None` for a contact without adhesion, which is non-adhesive.
     ///
-    /// F_a is the adhesion force after the preload F_n, both of this loading. The regime is pressure-insensitive if
+    /// F_a is the adhesion force and F_n the preload of this loading. The regime is pressure-insensitive if
     /// `turned` is above zero, at least [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of
     /// `smooth`. Otherwise the regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. A loading
     /// without a preload is also non-adhesive if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All other loadings

@@ -9,8 +9,7 @@ use super::model::{FEW_SAMPLES, Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. [`CheckedScene::with`] changes fields and
-/// checks the scene anew.
+/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`].
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};

@@ -204,7 +204,7 @@ impl Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// Returns the lines above the scene if it was read from a CSV table of results, otherwise an empty text.
+    /// Returns the lines above the scene in the CSV table of results from which it was read; for another file an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
@@ -245,7 +245,7 @@ impl Document {
         if scene == *self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
     }
 
-    /// Returns the path of a file that the scene names relative to the folder of the scene file.
+    /// Returns the path of a file whose name in the scene is relative to the folder of the scene file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
     }

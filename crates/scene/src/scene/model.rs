@@ -124,7 +124,7 @@ pub enum Roughness {
         /// Root mean square gradient ⟨∇z⟩ of the profile; `None` if `rms_height` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         rms_gradient: Option<f64>,
-        /// First and last mode k, in waves per length L; `None` if `wavelengths` is given.
+        /// First and last mode, as numbers of waves on the length L; `None` if `wavelengths` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         modes: Option<(u64, u64)>,
         /// Longest and shortest wavelength in m; `None` if `modes` is given.

@@ -81,7 +81,7 @@ pub struct LineFacts {
     pub summit: f64,
     /// Largest gap in m: depth of the lowest point of the profile below its highest point.
     pub deepest: f64,
-    /// First and last mode of a random roughness, in waves per length; `None` for other profiles.
+    /// First and last mode of a random roughness, as numbers of waves on the length L; `None` for other profiles.
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
@@ -98,7 +98,8 @@ pub struct Timings {
     /// Time in s for building the contact tree ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the
     /// histogram of the heights.
     pub tree: f64,
-    /// Time in s for finding the indentations at which patches change, or for the steps of the stepwise solver.
+    /// Time in s for finding the indentations at which contact patches form, merge, split and detach, or for the steps of the
+    /// stepwise solver.
     #[serde(rename = "loop")]
     pub passes: f64,
     /// Time in s for the force curves of all loading stages, with their largest and smallest forces.
@@ -118,7 +119,7 @@ impl Timings {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The computation changes values of the scene, and a changed value is out of its range.
+    /// A value that the computation changed, such as the number of springs, is out of its range.
     #[error(transparent)]
     Values(#[from] SceneErrors),
     /// There is not enough memory for the scene.

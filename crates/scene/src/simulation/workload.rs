@@ -82,7 +82,7 @@ pub struct PlannedStage {
     pub because: &'static str,
     /// Number of passes over the profile or over its contact tree; `None` if the number depends on the loading stages.
     pub passes: Option<u64>,
-    /// Upper bound of the number of visits to springs, summed over all passes; `None` if the number of passes is unknown.
+    /// Upper bound of the number of springs that all passes together visit; `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
     /// Memory in bytes of the arrays that this part adds.
     pub bytes: u64,
