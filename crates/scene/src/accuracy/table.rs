@@ -93,9 +93,9 @@ pub struct Row {
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Solution to which the errors in a [`CostTable`] are relative: the finest solution with [`Edges::SubCell`], with the
-/// adhesion force by an exact formula if one exists. Rows with a [`Knob::Step`] are compared with the exact solution with
-/// equally many springs.
+/// Solution to which the errors in a [`CostTable`] are relative: the finest solution with [`Edges::SubCell`]. An exact
+/// formula for the adhesion force, if there is one, replaces the adhesion force of this solution. Rows with a [`Knob::Step`]
+/// are compared with the exact solution with equally many springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution.

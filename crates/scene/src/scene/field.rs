@@ -40,8 +40,8 @@ pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 pub enum Step {
     /// A small step adds the first number, a large step the second one. The result is a multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number: to the next of the Renard series R20 in a small step, to the next of …, 1, 2, 5,
-    /// 10, 20, 50, … in a large step.
+    /// Goes to the next preferred number: in a small step to the next one of the Renard series R20, in a large step to
+    /// the next one of the series …, 1, 2, 5, 10, 20, 50, ….
     Logarithmic,
     /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),

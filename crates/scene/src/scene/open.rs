@@ -13,8 +13,8 @@ use super::typed::LONGEST_TEXT;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, printable, read_limited};
 
 /// Opens a scene. A name that ends in `.ron`, contains a path separator or is the name of an existing file is opened as a
-/// file. Other names are searched among the built-in scenes, then in the user's [`own_folder`]. For a CSV table of results
-/// the scene is opened from which the table was computed.
+/// file. Other names are searched among the built-in scenes, then in the user's [`own_folder`]. If the file is a CSV
+/// table of results, the scene that the table contains is opened.
 ///
 /// # Errors
 /// Returns an error if there is no such scene, if its file cannot be read, or if the scene has errors.
