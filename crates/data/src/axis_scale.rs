@@ -25,8 +25,8 @@ impl AxisScale {
     }
 
     /// Returns where `number` lies among ascending `values` on this scale, as a fractional index: 1.5 is in the middle
-    /// between the values with the indices 1 and 2. For a number beyond the first or the last value the index is
-    /// extrapolated from the nearest two values. For fewer than two values the index is 0.
+    /// between the values with the indices 1 and 2. Beyond the ends the index is extrapolated. For fewer than two values it
+    /// is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);
@@ -37,7 +37,7 @@ impl AxisScale {
         }
     }
 
-    /// Returns the number at a coordinate. The function is the inverse of [`coordinate`](Self::coordinate).
+    /// Returns the number at a coordinate.
     pub fn number(self, coordinate: f64) -> f64 {
         if self == AxisScale::Logarithmic { 10_f64.powf(coordinate) } else { coordinate }
     }

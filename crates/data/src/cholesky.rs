@@ -46,8 +46,7 @@ impl Cholesky {
         self.solve_transposed(right)
     }
 
-    /// Returns the solution x of Lᵀ x = `right`. If `right` is normally distributed with independent entries of variance 1, x
-    /// has the covariance M⁻¹.
+    /// Returns the solution x of Lᵀ x = `right`.
     pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
         let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in (0..self.size).rev() {

@@ -41,8 +41,8 @@ impl<'a> Control<'a> {
         Control { stop, ..self }
     }
 
-    /// Sets the function that receives the progress. The function is called on the calling thread. Its argument is the number
-    /// of parts that are finished; the computation states what its parts are, such as profiles or curves.
+    /// Sets the function that receives the progress, as the number of finished parts of the computation. The function is
+    /// called on the calling thread.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
         Control { report: Some(report), ..self }
@@ -63,8 +63,7 @@ impl<'a> Control<'a> {
         (self.stop)()
     }
 
-    /// Calls the function that was set by [`reporting_to`](Control::reporting_to), if there is one, with the number of
-    /// finished parts of the computation.
+    /// Calls the function set by [`reporting_to`](Control::reporting_to), if there is one, with the number of finished parts.
     pub fn report(&mut self, done: u64) {
         if let Some(report) = &mut self.report {
             report(done);

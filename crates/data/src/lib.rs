@@ -72,6 +72,5 @@ pub mod text_table {
     pub use crate::text_names::{HeadLines, Role, TextColumn, is_one_of};
 }
 
-/// First characters of a CSV file of results. The comments that state the program and the scene of the results begin with
-/// these characters.
+/// First characters of a CSV file of results.
 pub const PROVENANCE: &str = "# asperity ";

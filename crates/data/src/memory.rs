@@ -1,8 +1,8 @@
 //! Functions for large arrays: they reuse memory, and return an error if the memory is too small.
-//!
-//! The first use of new memory takes about as much time as one pass over it, because the system clears each page of memory
-//! at its first access. An array whose length depends on the input reserves its memory before use. Without this, a failed
-//! allocation would end the process.
+
+// The first use of new memory takes about as much time as one pass over it, because the system clears each page of memory at
+// its first access. An array whose length depends on the input reserves its memory before use. Without this, a failed
+// allocation would end the process.
 
 use std::hint::black_box;
 use thiserror::Error;
@@ -29,8 +29,7 @@ impl OutOfMemory {
     }
 }
 
-/// Returns an error unless the system can provide `bytes` more bytes of memory now. For less than 1 MiB it never returns an
-/// error. No memory stays reserved.
+/// Returns an error unless the system can provide `bytes` more bytes of memory now. Less than 1 MiB is never refused.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());

@@ -2,8 +2,7 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A JSON object made by the macro [`object!`](crate::object!). `E` is the type of its entries: `()` for no entry, otherwise
-/// a pair of the first entry and the others.
+/// A JSON object made by the macro [`object!`](crate::object!).
 pub struct Object<E>(pub E);
 
 /// Entries of an object: none, or the first entry and a pair of the others.

@@ -39,12 +39,10 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the results in order. Each thread
-/// first calls `worker`, and then computes its results with the function that `worker` returns. If the system refuses some
-/// threads, the others do all the work.
+/// first calls `worker`, and then computes its results with the function that `worker` returns.
 ///
 /// # Errors
-/// Returns the error of the function that computes the results. If this function fails for several numbers, the error for
-/// the smallest of these numbers is returned.
+/// Returns the error of the function that computes the results; of several errors, the one for the smallest number.
 ///
 /// ```
 /// use asperity_data::on_threads;

@@ -11,7 +11,7 @@ const EULER_MACLAURIN: [f64; 5] =
     [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
 
 /// Returns Σ k^exponent for the integers k from `first` (at least 1) to `last`; 0 if `last` is below `first`. The relative
-/// error of the sum is a few units in the last place. The computing time does not depend on the number of terms.
+/// error of the sum is a few units in the last place.
 ///
 /// ```
 /// let exact: f64 = (1..=100_000).rev().map(|k| f64::from(k).powi(-2)).sum();
@@ -47,9 +47,6 @@ pub fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
 }
 
 /// Returns ∫ q^power dq from `low` to `high`. The result is also accurate for a power near −1.
-///
-/// With s = power + 1 the integral is (high^s − low^s)/s. Where low^s and high^s are nearly equal, the integral is computed
-/// as low^s `expm1`(s ln(high/low))/s. For s = 0 it is ln(high/low).
 pub fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
     let s = power + 1.0;
     // For neighbouring ends their quotient would lose significant digits.

@@ -47,11 +47,9 @@ impl QuantityError {
 
 /// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
 ///
-/// The text may omit the unit. Blanks are allowed before the unit and at both ends of the text. An `m` alone after the
-/// number is the prefix milli. If `unit` is `m`, however, it is the metre: `50m` is then fifty metres, and `50mm` fifty
-/// millimetres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi`
-/// or `Gi` for powers of 1024. The conversion of a decimal prefix is exact up to rounding: the result is the `f64` nearest
-/// to the typed value.
+/// The text may omit the unit. An `m` alone after the number is the prefix milli, but for the unit `m` it is the metre: `50m`
+/// is then fifty metres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in `%`, or in
+/// `Ki`, `Mi` or `Gi` for powers of 1024.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.
@@ -158,8 +156,6 @@ fn has_prefixes(unit: &str) -> bool {
 
 /// Formats a value with its unit for readers, to four significant digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
 ///
-/// The unit gets an SI prefix. A number without a unit gets an exponent where it is much smaller or larger than one.
-///
 /// ```
 /// assert_eq!(asperity_data::format_quantity(2.356e-5, "N"), "23.56 µN");
 /// ```
@@ -199,8 +195,7 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     }
 }
 
-/// Formats a range with its unit, to `digits` significant digits: `0.33 to 35 µN`. Ends with different prefixes both have a
-/// unit: `26 nN to 35 µN`.
+/// Formats a range with its unit, to `digits` significant digits: `0.33 to 35 µN`.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
@@ -209,8 +204,7 @@ pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> Strin
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }
 
-/// Joins the two formatted ends of a range to one text. If both ends have the same unit, it is written once. Two equal ends
-/// give a single value.
+/// Joins the two formatted ends of a range to one text, in which a common unit is written once.
 pub fn one_unit([low, high]: [String; 2]) -> String {
     if low == high {
         return low;

@@ -9,8 +9,7 @@ use std::io::Read;
 use std::path::Path;
 use thiserror::Error;
 
-/// Reason why a file was not read. The message does not contain the name of the file; the caller writes the name before the
-/// message.
+/// Reason why a file was not read. The message does not contain the name of the file.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The path is a folder.
@@ -84,8 +83,7 @@ pub fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError>
     into_text(read_regular(path, limit)?)
 }
 
-/// Reads a stream, such as standard input, to its end, and waits until it ends. A stream of more than `limit` bytes is an
-/// error.
+/// Reads a stream, such as standard input, to its end. A stream of more than `limit` bytes is an error.
 pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     // One more byte distinguishes a file of the limit from a longer one.

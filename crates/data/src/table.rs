@@ -26,8 +26,7 @@ pub enum Kind {
 type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
-/// A table of results with named columns, to be written as CSV, as a NumPy array or as JSON. Each row is computed when it is
-/// written.
+/// A table of results with named columns, to be written as CSV, as a NumPy array or as JSON.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
     /// Counts the rows without computing their values, which may take time.
@@ -35,8 +34,7 @@ pub struct Table<'a> {
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table to which columns can still be added. [`Table::of`] begins such a table, and [`TableOf::done`] returns it as a
-/// [`Table`].
+/// A table to which columns can still be added, begun by [`Table::of`]. [`TableOf::done`] returns the finished [`Table`].
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,

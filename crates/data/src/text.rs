@@ -49,8 +49,7 @@ pub fn rounded_up(value: f64) -> f64 {
     if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
 }
 
-/// Returns true for a character that could change how other text is displayed. Such characters are control characters (C0,
-/// DEL, C1), bidirectional controls, separators of lines and paragraphs, and invisible characters of uncertain width.
+/// Returns true for a character that could change how other text is displayed, such as a control or bidirectional control.
 pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -124,8 +123,7 @@ pub fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// Formats a relative error in per cent: 0.02 becomes `2 %`. The number has one significant digit, or two if the first digit
-/// is 1. Errors outside 0.001 to 100 % become `< 0.001 %` and `> 100 %`.
+/// Formats a relative error in per cent: 0.02 becomes `2 %`. The smallest text is `< 0.001 %`, the largest `> 100 %`.
 pub fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {
@@ -151,8 +149,7 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
 }
 
-/// Returns true if a line must not break between a word and the next one. Then both are parts of a number such as `16 384`,
-/// or the next word is the unit of a number.
+/// Returns true if a line must not break between a word and the next one, as inside `16 384` or before a unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -171,8 +168,7 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Breaks a text into lines of at most `width` characters. Lines break between words, and inside a word only if the word is
-/// longer than a line.
+/// Breaks a text into lines of at most `width` characters, between words if possible.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut room = width;

@@ -2,8 +2,7 @@
 
 use crate::text_lines::TextFault;
 
-/// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space. The first line of numbers
-/// determines the separator of the whole table.
+/// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
@@ -11,11 +10,8 @@ impl Separator {
     /// White space: the columns are separated by any number of blanks and tabs.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else white space.
-    ///
-    /// If semicolons or tabs separate the columns, commas are decimal marks. Commas are also decimal marks if each word
-    /// between blanks is a number with a comma inside, as in `0,5 1,25`. In the texts `0.5, 1.25` and `0,5` the comma
-    /// separates two columns.
+    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else white space. If
+    /// each word between blanks is a number with a comma inside, as in `0,5 1,25`, white space is the separator.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -23,9 +19,8 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line into columns. The line must have no blanks at its ends. Separators within quotation marks do not split
-    /// the line. Between two neighbouring separators there is an empty column. Neighbouring blanks, however, are one
-    /// separator.
+    /// Splits a line, which must have no blanks at its ends, into columns. Separators within quotation marks do not split the
+    /// line.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -64,9 +59,7 @@ pub enum TextCell {
     Number(f64),
     /// An empty cell, or a mark of a missing point such as `NaN`.
     Missing,
-    /// A number whose decimal mark differs from the numbers before it, such as `0,5` after `0.5`. If commas separate the
-    /// columns, a number in quotation marks such as `"1,234"` is also of this kind, because its comma may separate
-    /// thousands.
+    /// A number whose decimal mark differs from the numbers before it, such as `0,5` after `0.5`.
     OtherMark,
     /// A text that is no number.
     NoNumber,
@@ -139,7 +132,6 @@ impl Decimal {
     }
 
     /// Returns an error if the commas in the numbers read so far may be decimal marks as well as separators of thousands.
-    /// The commas are in doubt if three digits follow each of them, and if there are also numbers without a comma.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }

@@ -36,16 +36,15 @@ pub enum TextFault {
 }
 
 impl TextFault {
-    /// Largest length of a line in bytes. Even the row of a large matrix is shorter.
+    /// Largest length of a line in bytes.
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 
 /// Calls `take` for each line of a text, with the number of the line from 1, and the line without white space around it. The
-/// comments with the scene above a table of results are skipped, because words in them may look like units.
+/// comments above a CSV table of results are skipped.
 ///
 /// # Errors
-/// Returns the error of `take`. If the bytes cannot be read as text, returns a [`TextFault`], converted to the error type
-/// of `take`.
+/// Returns the error of `take`, or a [`TextFault`] if the bytes cannot be read as text.
 pub fn each_line<E: From<TextFault>>(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), E>,

@@ -62,10 +62,9 @@ impl HeadLines {
         self.0.push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
 
-    /// Returns the name, the meaning and the unit of each of `count` columns. The names are read from the last line that has
-    /// a name for each column. The units are read from these names, and from a line of units below them. A line with
-    /// separators at its end may have up to `cells` cells; its empty cells are ignored. If no line has names, all names are
-    /// empty. `is_unit` returns true for known units.
+    /// Returns the name, the meaning and the unit of each of `count` columns, from the last line that has a name for each
+    /// column and from a line of units below it. A line may have up to `cells` cells, of which empty ones are ignored. If no
+    /// line has names, all names are empty. `is_unit` returns true for known units.
     pub fn columns(
         &self,
         count: usize,

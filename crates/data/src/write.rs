@@ -45,8 +45,8 @@ impl WriteError {
     }
 }
 
-/// Returns an error unless [`write_new`] could write the file now. A program calls this function before a long computation,
-/// so that the computation is not lost. The function leaves no file behind.
+/// Returns an error unless [`write_new`] could write the file now, and leaves no file behind. A program calls this function
+/// before a long computation.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
@@ -65,12 +65,8 @@ pub fn write_new(
     fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
-/// Writes a regular file through a temporary file in the same folder. Other programs see the old file or the whole new one,
-/// and a failure leaves nothing behind. An existing file is replaced only if `overwrite` is true.
-///
-/// On Linux the temporary file has no name until it is complete, so a process that is killed while it writes leaves nothing
-/// behind. On other systems, and on file systems that have no files without names, a killed process may leave a file
-/// `.asperity-….tmp`.
+/// Writes a regular file through a temporary file in the same folder. Other programs see the old file or the whole new one.
+/// An existing file is replaced only if `overwrite` is true.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,

@@ -28,8 +28,6 @@ pub enum Error {
     Run(RunError),
 }
 
-/// An error of values becomes [`Error::Values`], an error of the contact [`Error::Contact`], and any other error
-/// [`Error::Run`].
 impl From<RunError> for Error {
     fn from(error: RunError) -> Self {
         match error {

@@ -54,9 +54,8 @@ pub mod discretisation {
     pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 }
 
-/// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed range.
-/// [`Tree`](fields::Tree) has the values of one scene. Programs that edit scenes or plans of studies use the table and the
-/// tree.
+/// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed range. [`Tree`](fields::Tree)
+/// has the values of one scene.
 pub mod fields {
     pub use crate::scene::changes::Change;
     pub use crate::scene::effects::Effect;
@@ -102,15 +101,14 @@ pub mod theory {
     pub use crate::reference::closed_form;
 }
 
-/// Force as a function of the displacement of an instrument. The instrument has a finite stiffness and moves the body.
+/// Force as a function of the displacement of an instrument of finite stiffness, which moves the body.
 pub mod instrument {
     pub use crate::analysis::instrument::{
         DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,
     };
 }
 
-/// Parts of the computation of a scene, which are called stages here, with their times and memory. [`Reach`](stages::Reach)
-/// is the deepest state up to which a loading is computed.
+/// Parts of the computation of a scene, which are called stages here, with their times and memory.
 pub mod stages {
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};

@@ -1,4 +1,4 @@
-//! Profiles of a form and a roughness for programs, the same as in a scene.
+//! Builder of the profile of a form and a roughness, for programs that have no scene.
 
 use crate::analysis::governing::Governing;
 use crate::error::Error;
@@ -14,7 +14,7 @@ use asperity_surface::{EquivalentLine, Form};
 use std::sync::Arc;
 
 /// Builder of the one-dimensional profile that is equivalent to a body with a form and a roughness. By default the body is
-/// nominally flat and smooth. The profile is the same to the bit as the profile of a scene with these values.
+/// nominally flat and smooth.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move};
@@ -71,10 +71,8 @@ impl ProfileBuilder {
         self.form(Form::Paraboloid { radius })
     }
 
-    /// Sets a random self-affine roughness with the Hurst exponent H: a sum of cosines with random phases. Mode k has k
-    /// waves on the length of the profile and an amplitude proportional to k^(−H−1/2). The roughness also needs an
-    /// amplitude and waves. [`Self::rms_height`] or [`Self::rms_gradient`] sets the amplitude, [`Self::modes`] or
-    /// [`Self::wavelengths`] the waves.
+    /// Sets a random self-affine roughness with the Hurst exponent H. The roughness also needs an amplitude, by
+    /// [`Self::rms_height`] or [`Self::rms_gradient`], and waves, by [`Self::modes`] or [`Self::wavelengths`].
     #[must_use]
     pub fn self_affine(self, hurst: f64) -> Self {
         let roughness = Roughness::SelfAffine {
@@ -114,8 +112,7 @@ impl ProfileBuilder {
         with_member!(self, wavelengths, Some((longest, shortest)))
     }
 
-    /// Sets the wavelength in m above which the spectrum of the self-affine surface is flat. By default there is no such
-    /// wavelength.
+    /// Sets the wavelength in m above which the spectrum of the self-affine surface is flat.
     #[must_use]
     pub fn roll_off(self, wavelength: f64) -> Self {
         with_member!(self, roll_off, Some(wavelength))
@@ -141,8 +138,7 @@ impl ProfileBuilder {
         ProfileBuilder { roughness, spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))), ..self }
     }
 
-    /// Sets the seed of the random phases of a roughness that is already set. By default the seed is 1. A seed gives the same
-    /// phases on any machine and for any number of points.
+    /// Sets the seed of the random phases of a roughness that is already set. By default the seed is 1.
     #[must_use]
     pub fn seed(mut self, wanted: u64) -> Self {
         if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
@@ -251,14 +247,13 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::build`]. A shortest wave with two or three points is, however, no error here.
+    /// Returns the same errors as [`Self::build`], except that two or three points on the shortest wave are allowed.
     pub fn governing(&self, modulus: Modulus, adhesion: Option<Adhesion>) -> Result<Governing, Error> {
         let scene = self.scene(modulus, adhesion, &[Move::ToTouch])?;
         Ok(self.simulation().make_line(&scene)?.2)
     }
 
-    /// Loads a contact with this profile by the stages `loading`, and returns all results: the force curve, forces and
-    /// energies, κ, e_el/γ, the Tabor number, F_a,max, F_a(d=0), F_a(F=0) and both regimes.
+    /// Loads a contact with this profile by the stages `loading`, and returns all results.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};

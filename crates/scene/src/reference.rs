@@ -23,8 +23,8 @@ pub fn closed_form(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -
 /// Returns the adhesion force of a smooth body in N by a formula, after a preload in N. `form` is `None` for a flat body,
 /// `length` the apparent diameter in m. The works of adhesion on closing and on opening are in J/m².
 ///
-/// Returns `None` where there is no formula. Wavy spheres and tables have none. There is also none if the contact at pull-off
-/// is longer than the profile, or if the preload does not press the body beyond this contact.
+/// Returns `None` for wavy spheres and tables, if the contact at pull-off is longer than the profile, or if the preload does
+/// not press the body beyond this contact.
 pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,

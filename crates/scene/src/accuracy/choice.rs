@@ -18,8 +18,8 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// Largest number of springs that is tried, or four times the number that the modes of the scene need, if that is larger.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1 %`. A tolerance is above 0
-/// and below 1. For any other text the returned message states this range.
+/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1 %`. Returns an error
+/// message unless the tolerance is above 0 and below 1.
 ///
 /// ```
 /// use asperity_scene::discretisation::parse_tolerance;
@@ -45,12 +45,11 @@ pub struct Choice {
     pub points: u64,
     /// Chosen edge model: the edge of a patch may lie between two springs, or a patch consists of whole springs.
     pub edges: Edges,
-    /// Relative error of `target` with the chosen settings. If a closed form exists, it is the true error. Otherwise it is an
-    /// estimate: the relative difference from the finest solution plus the estimated error of the finest solution.
+    /// Relative error of `target` with the chosen settings: the true error if a closed form exists, otherwise an estimate.
     pub error: f64,
     /// True if `error` is the difference from a closed form, which is an exact formula for the adhesion force.
     pub closed_form: bool,
-    /// Number of springs of the finest solution that was tried.
+    /// Largest number of springs that was tried.
     pub finest: u64,
 }
 
@@ -58,13 +57,12 @@ impl Choice {
     /// Returns `scene` with the chosen number of springs, the chosen edge model and the exact solver.
     ///
     /// # Errors
-    /// Returns an error if `scene` does not allow the chosen settings. The scene for which [`choose`] found them always
-    /// allows them.
+    /// Returns an error if `scene` does not allow the chosen settings.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
 
-    /// Returns `error` and the way in which it was found, as an [`Estimate`] of the scene with the chosen settings.
+    /// Returns the error of the chosen settings as an [`Estimate`].
     pub fn estimate(&self) -> Estimate {
         let evidence =
             if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
@@ -91,10 +89,10 @@ pub enum ChoiceError {
     /// The scene could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The tolerance is out of its range.
+    /// The tolerance is not above 0 and below 1.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The scene has the stepwise [`Solver`], whose error depends on its step as well as on the number of springs.
+    /// The scene has the stepwise [`Solver`].
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
@@ -125,17 +123,10 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     )
 }
 
-/// Finds the number of springs and the edge model ([`Edges`]) with which the relative error of a scene is at most
-/// `tolerance`. The number is the smallest power of two that suffices. The error is the error of the adhesion force. If the
-/// scene has no tensile force, it is the error of the force curve ([`Target::Curve`]). Names of measured files are relative
-/// to `folder`.
-///
-/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. If the
-/// scene has no closed form, the error of the adhesion force is the largest of three errors: with the target forces and
-/// indentations of the scene, with half of these targets, and with twice these targets. This error includes the estimated
-/// error of the finest solution. If both edge models need the same number of springs, [`Edges::SubCell`] is chosen. The
-/// choice does not depend on the speed of the machine. The search ends when `stop` returns true. `trying` receives each
-/// number of springs before it is tried.
+/// Finds the smallest power of two as the number of springs, and the edge model ([`Edges`]), with which the relative error of
+/// a scene is at most `tolerance`. This is the error of the adhesion force or, for a scene without a tensile force, of the
+/// force curve ([`Target::Curve`]). Names of measured files are relative to `folder`. `trying` receives each number of
+/// springs before it is tried. The search ends when `stop` returns true.
 ///
 /// # Errors
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene has the stepwise solver,
@@ -164,6 +155,9 @@ pub fn choose(
     if scene.numerics.solver != Solver::Exact {
         return Err(ChoiceError::Stepwise);
     }
+    // The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Without
+    // a closed form adhesion forces are also compared under half and twice the loads, and the estimated error of the finest
+    // solution is added.
     let most = allowed_points(scene).next().map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
     let mut tried: Vec<[Solution; 2]> = Vec::new();
     let mut runs = Runs::new(folder, stop);

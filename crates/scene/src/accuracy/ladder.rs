@@ -51,10 +51,9 @@ struct Ladder<'a> {
     table: CostTable,
 }
 
-/// Measures the errors of a scene and the times of its computation, first with few springs and then with more and more. The
-/// stepwise [`Solver`] is measured as well, with smaller and smaller steps. The measurement ends when the time `budget` is
-/// spent or when `stop` returns true. Names of measured files are relative to `folder`. `watch` receives each setting before
-/// it is tried, and the table so far.
+/// Measures the errors of a scene and the times of its computation, with more and more springs and, for the stepwise
+/// [`Solver`], with smaller and smaller steps. The measurement ends when the time `budget` is spent. Names of measured files
+/// are relative to `folder`. `watch` receives each setting before it is tried, and the table so far.
 ///
 /// # Errors
 /// Returns a message if the scene cannot be computed, if the budget is too small for two solutions, or if `stop` returned

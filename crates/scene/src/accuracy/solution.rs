@@ -84,9 +84,9 @@ impl Solution {
 pub enum Target {
     /// Adhesion force of a scene with a tensile force.
     AdhesionForce,
-    /// Force curve of a scene without a tensile force. Its error is the mean absolute difference between its forces and the
-    /// exact forces at the same indentations, divided by the largest force. The mean is taken over each loading stage, and
-    /// the largest of these means counts.
+    /// Force curve of a scene without a tensile force. Its error in a loading stage is the mean absolute difference between
+    /// its forces and the exact forces at the same indentations, divided by the largest force. The largest error of all
+    /// stages counts.
     Curve,
 }
 

@@ -67,9 +67,7 @@ impl Timing {
 pub struct ErrorFigure {
     /// Relative error. If `resolved` is false, it is the smallest error that can be measured.
     pub error: f64,
-    /// True if the error is larger than the smallest error that can be measured. In a row with a number of springs this
-    /// smallest error is the error of the [`CostReference`]. In a row with a step it is the error that the finite number of
-    /// curve points causes.
+    /// True if the error is larger than the smallest error that can be measured.
     pub resolved: bool,
     /// Order of convergence p from the previous row to this row: a setting that is r times as fine makes the error r^p times
     /// smaller. `None` unless `resolved` is true in both rows.
@@ -95,16 +93,16 @@ pub struct Row {
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Reference of the errors in a [`CostTable`]: the finest solution with [`Edges::SubCell`]. If an exact formula for the
-/// adhesion force exists, its value replaces the adhesion force of this solution. Rows with a [`Knob::Step`] have another
-/// reference: the exact solution with as many springs as the stepwise [`Solver`] has.
+/// Solution to which the errors in a [`CostTable`] are relative: the finest solution with [`Edges::SubCell`]. An exact
+/// formula for the adhesion force, if there is one, replaces the adhesion force of this solution. Rows with a [`Knob::Step`]
+/// are compared with the exact solution with equally many springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution.
     pub springs: u64,
     /// Adhesion force of the reference in N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// True if `adhesion_force` is from an exact formula. The other quantities are always from the finest solution.
+    /// True if `adhesion_force` is from an exact formula.
     pub closed_form: bool,
     /// Estimated relative errors of the reference itself, one for each of the [`CostTable::QUANTITIES`].
     #[serde(serialize_with = "by_name")]
@@ -115,16 +113,15 @@ fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Resul
     serializer.collect_map(CostTable::QUANTITIES.iter().zip(values))
 }
 
-/// Errors and computing times of one scene with more and more springs and with smaller and smaller steps, as
-/// [`measure`](crate::discretisation::measure) returns them.
+/// Errors and computing times of one scene, as [`measure`](crate::discretisation::measure) returns them: rows with more and
+/// more springs for the exact solver, and rows with smaller and smaller steps for the stepwise solver ([`Solver::Stepwise`]).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
     /// Time in s that the measurement was allowed to take.
     pub budget: f64,
     /// Time in s that the measurement has taken.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, without the time for planning the transform.
-    /// [`Row::transforms`] has times in this unit.
+    /// Shortest time in s of one real Fourier transform of 2^20 points, the unit of [`Row::transforms`].
     pub transform_seconds: f64,
     /// Reference solution, to which the errors in the rows are relative.
     pub reference: CostReference,
@@ -158,17 +155,17 @@ impl CostTable {
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }
 
-    /// Returns the coarsest row of a setting from which on the [main error](Self::main_error) is at most `bound`, in this
-    /// row and in all finer rows. Returns `None` if there is no such row, or if it has fewer than two finer rows.
+    /// Returns the coarsest row of a setting such that the [main error](Self::main_error) of this row and of all finer rows
+    /// is at most `bound`. Returns `None` if there is no such row with at least two finer rows.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// Returns the computing time in s and the main error that the scene has with `numerics`. If `numerics` lies between
-    /// two rows, time and error are interpolated. Returns `None` if the number of springs or the step lies outside the
-    /// range of the rows. Also returns `None` for the stepwise solver if its rows have another number of springs.
+    /// Returns the computing time in s and the main error of the scene with `numerics`, interpolated between two rows.
+    /// Returns `None` if the number of springs or the step lies outside the range of the rows, or if the rows of the stepwise
+    /// solver have another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),

@@ -10,8 +10,7 @@ use asperity_surface::{Amplitude, Form};
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. The scene gives some
-/// of these parameters, and the others are derived from them.
+/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -48,9 +47,6 @@ impl Governing {
 
     /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`] of its profile when scaled
     /// to an rms height of 1 m. A measured roughness needs `measured`, the amplitude of the surface.
-    ///
-    /// A given κ yields the work of adhesion γ = h⟨∇z⟩E*/κ². A given e_el/γ yields γ, because e_el = E* h² q̄/4 is known.
-    /// Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared amplitudes of the waves.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
@@ -62,6 +58,8 @@ impl Governing {
             let amplitude = unit.scaled(rms_height);
             Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
         });
+        // A given κ yields γ = h⟨∇z⟩E*/κ², a given e_el/γ yields γ from e_el = E* h² q̄/4. Here q̄ is the mean wave number of the
+        // roughness in rad/m, weighted by the squared amplitudes of the waves.
         Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
     }
 
@@ -109,20 +107,19 @@ impl Governing {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
 
-    /// Returns the energy per area that a parameter compares with the work of adhesion, in J/m²: h⟨∇z⟩E* for κ, e_el for
+    /// Returns the energy per area in J/m² whose ratio to the work of adhesion defines the parameter: h⟨∇z⟩E* for κ, e_el for
     /// e_el/γ. Returns `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Returns E* h L in N, with the rms height h. This is the unit in which Pohrt, Popov and Filippov (2012) state forces.
-    /// `length` is the length L of the profile in m. Returns `None` without roughness.
+    /// Returns E* h L in N, the unit of force in Pohrt, Popov and Filippov (2012), with the rms height h and the length L of
+    /// the profile in m. Returns `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// Returns a builder of a contact of `profile` that has the effective modulus and the works of adhesion of these
-    /// parameters.
+    /// Returns a builder of a contact of `profile` with this effective modulus and these works of adhesion.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] if the effective modulus is out of its range.
@@ -142,10 +139,9 @@ impl Governing {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
 
-    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene. The larger μ is, the shorter is the range z₀ of the
-    /// attraction compared with the deformation of the summits. ρ is the radius of curvature of the summits, E* the
-    /// effective modulus, and γ the work of adhesion on opening. Returns `None` without adhesion, and for bodies such as
-    /// cones, which have no ρ.
+    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the radius of curvature ρ of the summits, the work
+    /// of adhesion γ on opening, the effective modulus E* and the range z₀ of the attraction. Returns `None` without
+    /// adhesion, and for bodies such as cones, which have no ρ.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
         let (radius, work) = (curvature_radius(scene.form.as_ref(), self)?, self.adhesive_work()?);
         let range = scene.adhesion?.attraction_range();
@@ -184,12 +180,11 @@ fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus:
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are so steep that its equivalent profile g(x) does not rise everywhere from the axis
-/// outwards. By the rule of Hess a spring inside the contact then detaches first. In the theory of Johnson, Kendall and
-/// Roberts (JKR), however, the contact always recedes at its edge.
+/// Waves of a wavy sphere that are so steep that its equivalent profile does not rise everywhere from the axis outwards. The
+/// rule of Hess then differs from the theory of Johnson, Kendall and Roberts (JKR).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
-    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R. It is below [`SteepWaves::LEAST_RATIO`].
+    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R.
     pub ratio: f64,
     /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR theory, with effective
     /// modulus E* and work of adhesion γ. The formula holds for waves much shorter than the contact radius (Kesari and Lew
@@ -201,8 +196,7 @@ impl SteepWaves {
     /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere.
     pub const LEAST_RATIO: f64 = 12.391;
 
-    /// Returns the waves of a wavy sphere with adhesion if the equivalent profile of the sphere does not rise everywhere;
-    /// otherwise `None`.
+    /// Returns the steep waves of a scene; `None` if the scene has no such waves or no adhesion.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
             return None;

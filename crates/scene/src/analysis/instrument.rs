@@ -17,8 +17,7 @@ pub struct DisplacementPoint {
     pub force: f64,
 }
 
-/// Force of one loading stage as a function of the displacement of the instrument. The curve is exact at the computed points
-/// of the stage and linear between them. The time of its computation is proportional to the number of points.
+/// Force of one loading stage as a function of the displacement of the instrument, linear between the computed points.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -43,8 +42,6 @@ pub struct DisplacementCurve {
 impl DisplacementCurve {
     /// Computes the curve of a loading stage for an instrument of this stiffness in N/m; an infinite stiffness means a rigid
     /// instrument. `curve` has at least one point. Its indentations grow on loading and fall on unloading.
-    ///
-    /// If the stage ends during a jump of the instrument, the curve ends at the beginning of that jump.
     pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
         let sign = sign_of(direction);
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
@@ -71,8 +68,7 @@ impl DisplacementCurve {
         DisplacementCurve { points, sign, free }
     }
 
-    /// Returns the points in the order in which the stage passes them. Along these points the displacement never turns
-    /// back.
+    /// Returns the points in the order in which the stage passes them.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }
@@ -87,9 +83,8 @@ impl DisplacementCurve {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// Returns the point of the curve at a displacement in m. At the displacement of a jump it is the point before the
-    /// jump. Beyond an end of the stage the force is zero if the bodies are separated at that end; otherwise the function
-    /// returns `None`.
+    /// Returns the point of the curve at a displacement in m, at a jump the point before it. Beyond an end of the stage the
+    /// force is zero if the bodies are separated at that end; otherwise the function returns `None`.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -121,10 +116,9 @@ impl DisplacementPoint {
     }
 }
 
-/// Returns the displacement of the instrument in m for each point of a loading stage. On loading the displacement of a
-/// point is the largest d + F/k of this point and all points before it; on unloading it is the smallest. Here d is the
-/// indentation, F the force and k the `stiffness` in N/m. All points that the body passes in one jump thus have the same
-/// displacement.
+/// Returns the displacement of the instrument in m for each point of a loading stage. This is the
+/// largest value of d + F/k at this point and all points before it; on unloading it is the smallest value. Here d is the
+/// indentation, F the force and k the `stiffness` in N/m.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {
@@ -151,8 +145,7 @@ pub struct InstrumentFigures {
 }
 
 impl InstrumentFigures {
-    /// Computes these results from a computed loading. `history` has the force curves of this loading, and `figures` has
-    /// the forces and energies. `stiffness` is the stiffness of the instrument in N/m.
+    /// Computes these results from the force curves of a loading, its forces and energies, and the stiffness in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

@@ -5,8 +5,7 @@ use serde::Serialize;
 use strum::IntoStaticStr;
 
 /// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)): how strongly the adhesion force depends on the
-/// preload. The adhesion force without a preload is F_a(d=0), of a loop that turns at first touch, or F_a(F=0), of a loop
-/// that turns where the force is back at zero. [`Regime::of_loading`] has the exact conditions of each regime.
+/// preload. [`Regime::of_loading`] has the conditions of each regime.
 ///
 /// ```
 /// use asperity_contact::Figures;
@@ -21,31 +20,27 @@ use strum::IntoStaticStr;
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Regime {
-    /// The preload hardly matters (Fig. 4a): a contact has this regime only if its adhesion force without a preload is at
-    /// least half of its adhesion force after the preload.
+    /// The adhesion force hardly depends on the preload (Fig. 4a).
     PressureInsensitive,
-    /// The adhesion force depends on the preload (Fig. 4b): all contacts that are neither pressure-insensitive nor
-    /// non-adhesive.
+    /// The adhesion force depends on the preload (Fig. 4b).
     PressureSensitive,
-    /// There is no adhesion, or the contact is not pressure-insensitive and its adhesion force is negligible, mostly at
-    /// most a hundredth of the preload (Fig. 4c).
+    /// There is no adhesion, or the adhesion force is negligible (Fig. 4c).
     NonAdhesive,
 }
 
 impl Regime {
-    /// A contact is pressure-insensitive only if its adhesion force without a preload is at least this share of its
-    /// adhesion force after the preload.
+    /// Smallest ratio of the adhesion force without a preload to the adhesion force after the preload at which a loading can
+    /// be pressure-insensitive; see [`Regime::of_loading`].
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// The adhesion force without a preload counts as vanished below this share of the adhesion force of the same body
-    /// without roughness. While the roughness-adhesion parameter κ grows by a factor of about three, the adhesion force
-    /// without a preload falls from one half to one twentieth of the smooth adhesion force. Another share would therefore
-    /// move the boundary of the regime only a little.
+    /// Share of the adhesion force of the smooth body below which an adhesion force counts as zero; see
+    /// [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
+    // While κ grows by a factor of about three, the adhesion force without a preload falls from one half to one twentieth of
+    // the smooth adhesion force. Another share would therefore move the boundary of the regime only a little.
 
-    /// A contact that is not pressure-insensitive is non-adhesive if its adhesion coefficient F_a/F_n, the adhesion force
-    /// divided by the preload, is at most this number. The bodies then adhere with at most a hundredth of the force that
-    /// pressed them together.
+    /// Largest ratio F_a/F_n of the adhesion force to the preload at which a loading counts as non-adhesive, unless it is
+    /// pressure-insensitive.
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
     /// All regimes: pressure-insensitive, pressure-sensitive and non-adhesive, in this order.
@@ -58,7 +53,7 @@ impl Regime {
     /// a loop that turns at zero force. `smooth` is the adhesion force in N of the same body without roughness. Both are
     /// `None` for a contact without adhesion, which is non-adhesive.
     ///
-    /// F_a is the adhesion force after the preload F_n, both of this loading. The regime is pressure-insensitive if
+    /// F_a is the adhesion force and F_n the preload of this loading. The regime is pressure-insensitive if
     /// `turned` is above zero, at least [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of
     /// `smooth`. Otherwise the regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. A loading
     /// without a preload is also non-adhesive if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All other loadings

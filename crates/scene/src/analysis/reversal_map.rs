@@ -38,9 +38,9 @@ impl ReversalMap {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
-    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. F(d_r) is the force at the turning point d_r
-    /// of index `turn`. F(d_r, d) is the force at the grid point d of index `point` on the unloading from d_r. E is thus
-    /// half of the fall of the force from d_r to d. Returns `None` if d is above d_r.
+    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. F(d_r) is the force at the turning point d_r of
+    /// index `turn`. F(d_r, d) is the force at the grid point d of index `point` on the unloading from d_r. Returns `None` if
+    /// d is above d_r.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))

@@ -63,8 +63,7 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the value of the parameter for this ratio. The function is the inverse of
-    /// [`energy_over_work`](Self::energy_over_work).
+    /// Returns the value of the parameter at which [`energy_over_work`](Self::energy_over_work) is `ratio`.
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -94,8 +93,7 @@ pub enum Strength {
         /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None` if both are equal.
         closing: Option<f64>,
     },
-    /// A parameter and its value. The work of adhesion follows from this value, from the roughness and from the effective
-    /// modulus of the scene.
+    /// A parameter and its value, from which the work of adhesion follows.
     Parameter(RoughnessParameter, f64),
 }
 
@@ -153,13 +151,12 @@ impl Adhesion {
         }
     }
 
-    /// Returns this adhesion with another work of adhesion on opening in J/m². The range of the attraction and the work of
-    /// adhesion on closing stay.
+    /// Returns this adhesion with another work of adhesion on opening in J/m².
     pub fn with_work(self, work: f64) -> Self {
         Adhesion { strength: Strength::Work { opening: work, closing: self.closing_work() }, ..self }
     }
 
-    /// Returns this adhesion with its strength given by this value of κ or e_el/γ. The range of the attraction stays.
+    /// Returns this adhesion with its strength given by this value of κ or e_el/γ.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion { strength: Strength::Parameter(parameter, value), ..self }
     }

@@ -62,10 +62,8 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 }
 
 impl Document {
-    /// Lists the fields whose values differ between this scene and `other`, except title, notes and version. If the two
-    /// scenes have different forms, such as a cone and a sphere, the whole form is one entry. The same holds for the
-    /// roughness and for other groups of fields. Of two different loadings either each changed stage is an entry, or the
-    /// whole loading is one entry if this is shorter.
+    /// Lists the fields whose values differ between this scene and `other`, except title, notes and version. If the scenes
+    /// have different choices of a group of fields, such as the forms cone and sphere, the whole group is one entry.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;

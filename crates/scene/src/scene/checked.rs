@@ -9,8 +9,7 @@ use super::model::{FEW_SAMPLES, Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. [`CheckedScene::with`] changes fields and
-/// checks the scene anew.
+/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`].
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -77,7 +76,7 @@ impl CheckedScene {
         scene.checked()
     }
 
-    /// Returns this scene with another seed of the random phases, if the profile is random. Every seed is allowed.
+    /// Returns this scene with another seed of the random phases, if the profile is random.
     #[must_use]
     pub fn with_seed(&self, seed: u64) -> CheckedScene {
         let mut scene = self.0.clone();
@@ -101,8 +100,7 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with other names for its measured files, as `rename` returns them. A name is checked only when
-    /// its file is read.
+    /// Returns this scene with each name of a measured file replaced by the name that `rename` returns.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

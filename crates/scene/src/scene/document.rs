@@ -15,9 +15,8 @@ use super::tree::{Tree, in_ron, to_ron};
 use super::typed::{check_length, with_typed};
 use asperity_contact::Move;
 
-/// A checked scene with its text in RON (Rusty Object Notation), and with the overrides that have changed it. An override is
-/// the path of a field and its new value, as in `--set PATH=VALUE`. A change returns a new document and leaves this one as it
-/// was.
+/// A checked scene with its text in RON (Rusty Object Notation) and the changes of its fields. A change returns a new
+/// document and leaves this one as it was.
 ///
 /// ```
 /// use asperity_scene::Document;
@@ -45,12 +44,10 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads and checks the text of a scene. Each message of an error states `name`, the name of a file or of a built-in
-    /// scene.
+    /// Reads and checks the text of a scene. Messages of errors begin with `name`, the name of the file or built-in scene.
     ///
     /// # Errors
-    /// Returns the first syntax error, or an error for each invalid value, with line and column. If the version of the file
-    /// is not supported, this is the only error.
+    /// Returns the first syntax error, or an error for each invalid value, with line and column.
     ///
     /// ```
     /// use asperity_scene::Document;
@@ -100,15 +97,11 @@ impl Document {
     }
 
     /// Returns this document with fields changed one after the other. Each pair is the path of a field and its new value in
-    /// RON. A number may have an SI prefix and a unit: `50 mJ/m²`.
-    ///
-    /// A field that the text omits is inserted. If the text also omits the group of the field, the group is inserted too.
-    /// The value `None` removes an optional part. Values are checked once, at the end, so values that are only allowed
-    /// together may come in any order.
+    /// RON. A number may have an SI prefix and a unit: `50 mJ/m²`. The RON text `None` removes an optional part. The values
+    /// are checked once, after all changes.
     ///
     /// # Errors
-    /// Returns an error for each override that cannot be read and each value that is invalid, with the overrides that cause
-    /// it.
+    /// Returns an error for each pair that cannot be read, and for each invalid value.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let (mut new, mut errors) = (self.clone(), Vec::new());
         for (path, value) in overrides {
@@ -134,7 +127,7 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns the loading stages, each with its index in the loading, as [`Document::with_stages`] takes them.
+    /// Returns the loading stages, each with its index in the loading. [`Document::with_stages`] takes such a list.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
     }
@@ -195,14 +188,13 @@ impl Document {
         &self.name
     }
 
-    /// Returns the title of the scene. A scene without a title has the name of its file, without folders, as its title.
+    /// Returns the title of the scene, or the name of its file without folders if the scene has no title.
     pub fn title(&self) -> &str {
         let file = || Path::new(&self.name).file_name().and_then(OsStr::to_str);
         if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
     }
 
-    /// Returns the changes since the text was opened, each as the path of a field and its new value. A change that a later
-    /// one replaces is left out. Applied to [`Self::opened`], the changes give the scene of this document.
+    /// Returns the changes since the text was opened, each as the path of a field and its new value.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
@@ -212,24 +204,22 @@ impl Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// Returns the lines above the scene in the file from which it was read, if the file is a table of results that repeats
-    /// its scene. For any other file the text is empty.
+    /// Returns the lines above the scene in the CSV table of results from which it was read; for another file an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
 
-    /// Returns the number of comments in the text. [`Self::set`] keeps all comments except those inside the old value.
+    /// Returns the number of comments in the text.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
 
-    /// Returns line and column of a field in the text, both from 1. For an omitted field it returns the place of the group
-    /// around it.
+    /// Returns line and column, both from 1, of a field in the text, or of the group around an omitted field.
     pub fn place(&self, path: &str) -> (usize, usize) {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// Returns this document as if `opened` had been its first text and these overrides had led to its present text.
+    /// Returns this document with other values of [`Self::opened`] and [`Self::overrides`].
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document { opened, overrides, ..self }
     }
@@ -244,8 +234,8 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with other names for its measured files, as `rename` returns them; the files themselves stay.
-    /// If a name changes, the text is written anew, without comments.
+    /// Returns this document with each name of a measured file replaced by the name that `rename` returns. If a name changes,
+    /// the text loses its comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -255,7 +245,7 @@ impl Document {
         if scene == *self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
     }
 
-    /// Returns the path of a file that the scene names. File names in a scene are relative to the folder of the scene file.
+    /// Returns the path of a file whose name in the scene is relative to the folder of the scene file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
     }

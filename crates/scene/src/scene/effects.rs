@@ -21,13 +21,13 @@ use asperity_surface::Form;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
-    /// Macroscopic form of the body. Without a form the body is nominally flat.
+    /// Macroscopic form of the body.
     Form,
-    /// Roughness of the body. Without roughness the profile is smooth.
+    /// Roughness of the body.
     Roughness,
-    /// Adhesion between the bodies. Without adhesion the bodies do not attract each other.
+    /// Adhesion between the bodies.
     Adhesion,
-    /// Loading stages that may pull the body back. Without unloading the body is only pressed.
+    /// Loading stages that may pull the body back.
     Unloading,
 }
 
@@ -51,8 +51,7 @@ impl Effect {
         if let Effect::Unloading = self { "loading" } else { self.name() }
     }
 
-    /// Returns true if the scene has this optional part. A scene whose work of adhesion is zero counts as a scene without
-    /// adhesion.
+    /// Returns true if the scene has this optional part. A work of adhesion of zero counts as no adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
             Effect::Form => scene.form.is_some(),

@@ -6,8 +6,7 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// Description of one field of a scene, as a row of the table [`FIELDS`](crate::scene::fields::FIELDS). The description
-/// does not contain the value that the field has in a scene.
+/// Description of one field of a scene: a row of the table [`FIELDS`](crate::scene::fields::FIELDS).
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
@@ -41,15 +40,15 @@ pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 pub enum Step {
     /// A small step adds the first number, a large step the second one. The result is a multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number. For small steps a decade has twenty preferred numbers (Renard series R20). For
-    /// large steps it has three: 1, 2 and 5 times a power of ten.
+    /// Goes to the next preferred number: in a small step to the next one of the Renard series R20, in a large step to
+    /// the next one of the series …, 1, 2, 5, 10, 20, 50, ….
     Logarithmic,
     /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),
     /// A small step goes to the next power of two. A large step is as far as four small steps.
     Doubling,
     /// Changes one number of a pair. A small step changes the last mode or the shortest wavelength, a large step the first
-    /// mode or the longest wavelength. Modes go to the next power of two, wavelengths to the next preferred number.
+    /// mode or the longest wavelength.
     Band,
     /// Goes to the next allowed choice.
     Choice,
@@ -107,8 +106,7 @@ impl Field {
 }
 
 impl Field {
-    /// Returns a description of a parameter that a program has in addition to the fields of a scene. The program itself keeps
-    /// the value of the parameter.
+    /// Returns a description of a parameter that a program has in addition to the fields of a scene.
     pub const fn beside(
         path: &'static str,
         name: &'static str,
@@ -143,7 +141,6 @@ impl Field {
     }
 
     /// Appends the units of a shown value to a typed value that has none: `50` becomes `50 mJ/m²` if `4.356 mJ/m²` is shown.
-    /// Both numbers of a pair of wavelengths get a unit.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         match (self.range, shown.split_once(", "), split_pair(typed)) {
             (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
@@ -173,26 +170,23 @@ impl PartialEq for Field {
 
 pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
 
-/// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce). In a scene the force of
-/// the first stage has the path `loading.0.0`.
+/// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce).
 pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
     .of("ToForce")
     .quantity("force of stage", "F", "N")
     .meaning("target: the stage ends where the force first reaches this value; compression is positive");
 
-/// Description of the indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation). In a
-/// scene the indentation of the first stage has the path `loading.0.0`.
+/// Description of the indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation).
 pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToIndentation")
     .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
-/// Description of a loading stage as a whole, with or without a number. In a scene the first stage has the path `loading.0`.
+/// Description of a loading stage as a whole.
 pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
-/// Description of the displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement). In a
-/// scene the displacement of the first stage has the path `loading.0.0`.
+/// Description of the displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement).
 pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToDisplacement")
     .quantity("displacement of stage", "D", "m")
@@ -217,11 +211,8 @@ const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
     /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of the field: `50 mJ/m²`,
-    /// `16k`. A text needs no quotes. The name of a file becomes a measured surface for the field `roughness`, and a table
-    /// for the field `form`. A work with its unit becomes an adhesion for the field `adhesion`. `none` omits an optional
-    /// part. A loading may be a list of stages as [`loading_text`](crate::scene::stages::loading_text) writes it. Any other
-    /// text stays, without blanks around it.
-    ///
+    /// `16k`. The text `none` omits an optional part. A loading may be a list of stages as
+    /// [`loading_text`](crate::scene::stages::loading_text) writes it.
     /// # Errors
     /// Returns an error for a number with another unit, a number that is too large, or a choice without its numbers.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {

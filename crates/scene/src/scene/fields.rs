@@ -1,7 +1,4 @@
 //! The table of all fields of a scene: paths, symbols, units, ranges, steps, defaults, meanings.
-//!
-//! Many parts use this table: the reader and the writer of scenes, checks, overrides, keys, and axes of studies. The
-//! explorer, the random scenes of tests and the reference in docs/scene-file.md use it too.
 
 use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;

@@ -91,8 +91,7 @@ pub enum Source {
 /// Entry of the list that [`scenes`] returns: a scene, or a file ending in `.ron` that is no valid scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of the scene. A file of the working folder has the ending `.ron` in its name, a scene of the user's own folder
-    /// has not.
+    /// Name of the scene: with the ending `.ron` for a file of the working folder, otherwise without it.
     pub name: String,
     /// Place from which the scene comes.
     pub origin: Source,
@@ -104,10 +103,8 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes. A scene in this folder can be opened by its name without `.ron`. The folder
-/// is `asperity/presets` in the configuration folder of the user. It need not exist. The configuration folder is
-/// `$XDG_CONFIG_HOME` or `~/.config`; on Windows it is the folder for roaming application data. Returns `None` if the user
-/// has no home folder.
+/// Returns the folder of the user's own scenes: `asperity/presets` in `$XDG_CONFIG_HOME` or `~/.config`, on Windows in the
+/// folder for roaming application data. The folder need not exist. Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }
@@ -125,10 +122,8 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
 }
 
 /// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the scenes in the folder
-/// `working`. The scenes of a folder are sorted by name.
-///
-/// A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no scene or cannot be read is
-/// listed with its error. Only regular files are opened, and subfolders are not searched.
+/// `working`. A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no valid scene is
+/// listed with its error.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
     let built_in = presets()
         .iter()

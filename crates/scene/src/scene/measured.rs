@@ -150,7 +150,6 @@ impl Measured {
     }
 
     /// Returns the options for reading and analysing the files of this surface. The values of this surface must be valid.
-    /// [`Scene::checked`](crate::Scene::checked) finds invalid values.
     pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
             as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),

@@ -1,4 +1,4 @@
-//! Types of a scene: the values that its author chooses, in SI units, and quantities that follow from them by one formula.
+//! Types of a scene: the values that its author chooses, in SI units.
 //!
 //! The types may hold invalid values. [`Scene::checked`] finds the invalid ones.
 
@@ -16,8 +16,7 @@ use strum::IntoStaticStr;
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
 /// Recommended number of springs on the shortest wave. With this number the adhesion force of a rough profile has an error of
-/// about one per cent, with either edge model ([`Edges`]; see docs/accuracy.md). A random profile needs at least two springs
-/// on the shortest wave, and a wavy sphere at least four.
+/// about one per cent (docs/accuracy.md).
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -56,8 +55,8 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants as a scene states them: Young's modulus E and Poisson's ratio ν of a half-space under a rigid body, or
-/// the effective modulus E*.
+/// Elastic constants as a scene states them: either Young's modulus E and Poisson's ratio ν of a half-space under a rigid
+/// body, or the effective modulus E*.
 ///
 /// ```
 /// use asperity_scene::Material;
@@ -93,13 +92,13 @@ impl Material {
         Material { youngs_modulus, poisson_ratio, effective_modulus: None }
     }
 
-    /// Returns the effective modulus E* in Pa (eq. (2) of Popov and Filippov (2012)). If E* is not given, it is E/(1 − ν²).
+    /// Returns the effective modulus E* in Pa: the given one, otherwise E/(1 − ν²) (eq. (2) of Popov and Filippov (2012)).
     /// Returns NaN if neither E* nor both E and ν are given, or if a used value is out of its range.
     pub fn effective_modulus(&self) -> f64 {
         self.modulus().map_or(f64::NAN, Modulus::pascals)
     }
 
-    /// Returns the effective modulus E* as [`Self::effective_modulus`] does, but with an error in place of NaN.
+    /// Returns the effective modulus E* as a [`Modulus`].
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] if neither E* nor both E and ν are given, or if a used value is out of its range.
@@ -125,7 +124,7 @@ pub enum Roughness {
         /// Root mean square gradient ⟨∇z⟩ of the profile; `None` if `rms_height` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         rms_gradient: Option<f64>,
-        /// First and last mode k, in waves per length L; `None` if `wavelengths` is given.
+        /// First and last mode, as numbers of waves on the length L; `None` if `wavelengths` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         modes: Option<(u64, u64)>,
         /// Longest and shortest wavelength in m; `None` if `modes` is given.
@@ -177,15 +176,13 @@ impl Scene {
         self.length / self.numerics.points as f64
     }
 
-    /// Returns the indices of the springs under the body. These are all springs, except for a punch that is narrower than the
-    /// profile.
+    /// Returns the indices of the springs under the body: all springs, unless the body is a punch narrower than the profile.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form.as_ref().map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness. A given
-    /// wavelength λ becomes the mode nearest to L/λ, so the waves keep their wavelengths if the length L changes.
+    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine { hurst, modes, wavelengths, roll_off, .. }) = self.roughness else {
             return None;
@@ -197,8 +194,7 @@ impl Scene {
         Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
-    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs, otherwise `None`. A scene with a
-    /// warning can still be computed.
+    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs, otherwise `None`.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
@@ -244,8 +240,7 @@ impl Scene {
         self.measured().map_or_else(MeasuredOptions::default, Measured::options)
     }
 
-    /// Returns the names of all files that the scene needs: measured surfaces, and the table of the form. The names are
-    /// relative to the scene file.
+    /// Returns the names, relative to the scene file, of the measured files and of the table of the form.
     pub fn measured_files(&self) -> Vec<&str> {
         let mut files = self.measured().map_or_else(Vec::new, |measured| measured.faces().concat());
         if let Some(Form::Table { file, .. }) = &self.form {
@@ -261,8 +256,8 @@ impl Scene {
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
     }
 
-    /// Changes the names of the measured files and of the table of the form in this scene to the names that `rename`
-    /// returns. The files themselves are not renamed.
+    /// Replaces, in this scene only, each name of a measured file or of the table of the form by the name that `rename`
+    /// returns.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
@@ -340,11 +335,10 @@ impl From<NumericsText> for Numerics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// Exact solver: it computes the indentations at which patches form, merge, split and detach. It makes no steps, so it
-    /// has no error that depends on a step.
+    /// Exact solver: it computes, without steps, the indentations at which contact patches form, merge, split and detach.
     Exact,
-    /// Method of Popov and Filippov (2012): the body moves by one step, springs attach and detach until no further one does,
-    /// and the next step follows.
+    /// Method of Popov and Filippov (2012): the body moves by steps. After each step springs attach and detach until no
+    /// further spring does.
     Stepwise {
         /// Step Δd of the indentation in m.
         step: f64,

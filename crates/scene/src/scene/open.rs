@@ -13,9 +13,8 @@ use super::typed::LONGEST_TEXT;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, printable, read_limited};
 
 /// Opens a scene. A name that ends in `.ron`, contains a path separator or is the name of an existing file is opened as a
-/// file. Other names are searched among the built-in scenes, then in the user's [`own_folder`]. A CSV table of results
-/// contains the scene from which it was computed. If the file is such a table, this scene is opened. Only regular files are
-/// read, because a pipe or a terminal would make the program wait.
+/// file. Other names are searched among the built-in scenes, then in the user's [`own_folder`]. If the file is a CSV
+/// table of results, the scene that the table contains is opened.
 ///
 /// # Errors
 /// Returns an error if there is no such scene, if its file cannot be read, or if the scene has errors.
@@ -68,11 +67,8 @@ pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene that an argument on the command line names. For `-` the scene is read from standard input. A pipe or a
-/// device, such as `<(…)` of a shell, is read to its end. All other arguments are opened as [`open`] does.
-///
-/// For a pipe the function waits until another program has written the scene. A program that controls the terminal should
-/// call [`open`], which never waits.
+/// Opens the scene that an argument on the command line names: as [`open`] does, or from standard input for `-`. A pipe or a
+/// device is read to its end, so the function may wait for another program.
 ///
 /// # Errors
 /// Returns the same errors as [`open`].

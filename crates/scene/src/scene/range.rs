@@ -11,11 +11,10 @@ pub enum Range {
     Real(Bound<f64>, Bound<f64>),
     /// An integer from the first to the second number, both included.
     Whole(u64, u64),
-    /// A pair `(first, last)` of integers with first ≤ last. Both integers lie from the first to the second number of this
-    /// variant.
+    /// A pair `(first, last)` of integers with first ≤ last, both from the first to the second number of this variant.
     Band(u64, u64),
-    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest. Both wavelengths lie from the first to the
-    /// second number of this variant.
+    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest, both from the first to the second number of
+    /// this variant.
     Wavelengths(f64, f64),
     /// Text without control characters, except for line breaks where they are allowed.
     Text {

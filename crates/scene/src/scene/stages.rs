@@ -22,9 +22,7 @@ pub struct StageKind {
 }
 
 impl StageKind {
-    /// All kinds of loading stages, in the order in which a key of the explorer goes through them. In a text, a force or an
-    /// indentation is a number with a unit, such as `10 µN` or `200 nm`. A displacement is in metres as well, so the word
-    /// `displacement` precedes its number.
+    /// All kinds of loading stages, in the order in which a key of the explorer goes through them.
     pub const ALL: [StageKind; 6] = [
         StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
         StageKind {
@@ -92,9 +90,8 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. Several equal loops in a row
-/// become one item, such as `3 loops 0 N to 10 µN`. If `format` is [`exact_quantity`](asperity_data::exact_quantity),
-/// [`read_loading`] turns the text into the same loading again.
+/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. If `format` is
+/// [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text into the same loading again.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -149,7 +146,7 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 }
 
 /// Reads a loading stage as [`loading_text`] writes it. A number without a unit becomes a stage of the kind with the index
-/// `usual` in [`StageKind::ALL`]. If `usual` is `None`, the number is a force in N.
+/// `usual` in [`StageKind::ALL`], or a force in N if `usual` is `None`.
 ///
 /// # Errors
 /// Returns an error if the text is no stage.

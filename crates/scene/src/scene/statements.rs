@@ -20,8 +20,8 @@ pub struct Statement {
     pub value: String,
 }
 
-/// Lists the values on which the solution of a scene depends. Numbers are always listed. Choices and names are listed only
-/// if they differ from their defaults. For a group, such as the form, the fields inside it are listed.
+/// Lists the values on which the solution of a scene depends: all numbers, and the choices and names that differ from their
+/// defaults.
 ///
 /// ```
 /// use asperity_scene::open;

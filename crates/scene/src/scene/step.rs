@@ -15,12 +15,11 @@ const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
 const SAME: f64 = 1e-9;
 
 impl Field {
-    /// Returns the value of this field after `steps` presses of a key in the explorer. Negative `steps` lead to smaller
-    /// values or earlier choices. Each step is a large one if `coarse` is true. The given and the returned value are RON
-    /// text. Returns `None` at the end of the range, or if keys cannot change the field.
+    /// Returns the value of this field, in RON, after `steps` presses of a key in the explorer. `value` is the present value
+    /// in RON. Negative `steps` lead to smaller values or earlier choices. Each step is a large one ([`Step`]) if `coarse` is
+    /// true. An optional field also has the RON text `None` as a choice, which is returned as `Some("None")`.
     ///
-    /// Numbers stay within the range of the field. After the last choice the first one follows. `None` is one of the choices
-    /// of an optional field. A choice that needs a text, such as the name of a file, is left out.
+    /// Returns `None` at the end of the range, or if keys cannot change the field.
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if steps == 0 {
             return None;

@@ -14,13 +14,8 @@ use super::tree::{Tree, differing};
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
-    /// Returns this document without the optional part `effect` of its scene. If the scene has no such part, the document
-    /// stays unchanged.
-    ///
-    /// If the roughness is removed, κ or e_el/γ can no longer give the work of adhesion. The scene then gets the work of
-    /// adhesion that it had before [`Self::with_next_choice`] chose κ or e_el/γ. If there is none, it gets 50 mJ/m². If the
-    /// unloading is removed, one stage remains: the stage with the largest target force or, if there is none, with the
-    /// deepest indentation.
+    /// Returns this document without the optional part `effect` of its scene. If the roughness is removed, a work of adhesion
+    /// replaces κ or e_el/γ. If the unloading is removed, one loading stage remains.
     ///
     /// # Errors
     /// Returns an error if the scene is not valid without this part.
@@ -50,12 +45,8 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns this document with the optional part `effect` in its scene. If the scene has such a part, the document stays
-    /// unchanged.
-    ///
-    /// The part gets back the values that it had before [`Self::without`] removed it. A value that was changed since then
-    /// stays. If there are no such values, or if they are no longer valid, the part gets values that suit the scene.
-    ///
+    /// Returns this document with the optional part `effect` in its scene. The part gets back the values that it had before
+    /// [`Self::without`] removed it, otherwise values that suit the scene.
     /// # Errors
     /// Returns an error if the part is impossible in the scene, such as roughness on a single spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
@@ -70,8 +61,7 @@ impl Document {
         restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
     }
 
-    /// Returns this document with the values of `scene`. Only values that differ are replaced in the text. If a choice
-    /// differs, such as a cone in place of a sphere, it is replaced together with its numbers.
+    /// Returns this document with the values of `scene`. Only values that differ are replaced in the text.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -87,12 +77,9 @@ impl Document {
         self.with_scene(&Scene { adhesion: Some(adhesion), ..Scene::clone(self.scene()) })
     }
 
-    /// Returns this document with the next choice of a field that the scene allows, or the previous one if `forwards` is
-    /// false. Returns `None` if there is no other choice.
-    ///
-    /// The field of an optional part ([`Effect`]) also has the choice `None`, which removes the part as [`Self::without`]
-    /// does. The choice after `None` adds the part again. A choice that the field had earlier gets back its numbers. Any
-    /// other choice has its usual numbers.
+    /// Returns this document with `field` set to its next choice ([`Range::Choice`]), or to its previous choice if `forwards`
+    /// is false. Choices that the scene does not allow are skipped. For the field of an optional part ([`Effect`]) the RON
+    /// text `None` is a further choice, which removes the part. Returns `None` if there is no other choice.
     ///
     /// # Errors
     /// Returns an error if the scene allows none of the other choices.

@@ -9,9 +9,7 @@ use super::model::Scene;
 use super::range::Range;
 use super::text::{ron_float, ron_string};
 
-/// Values of a scene, which are read and set by the paths of fields. They form a JSON tree. A choice without fields, such
-/// as `ToTouch`, is the text of its name. A choice with fields is an object whose only key is the name of the choice. An
-/// omitted field has no value.
+/// Values of a scene, which are read and set by the paths of fields.
 ///
 /// ```
 /// use asperity_scene::fields::Tree;
@@ -26,7 +24,7 @@ use super::text::{ron_float, ron_string};
 pub struct Tree(Value);
 
 impl Tree {
-    /// Returns the values of a scene. A number that is not finite becomes `null`.
+    /// Returns the values of a scene.
     pub fn of(scene: &Scene) -> Tree {
         Tree(serde_json::to_value(scene).unwrap_or_default())
     }
@@ -34,7 +32,7 @@ impl Tree {
     /// Returns the scene with these values.
     ///
     /// # Errors
-    /// Returns an error if fields contradict each other. The message names these fields.
+    /// Returns an error if fields contradict each other.
     pub fn scene(self) -> Result<Scene, String> {
         serde_json::from_value(self.0).map_err(|error| error.to_string())
     }
@@ -45,10 +43,8 @@ impl Tree {
         self.at(path)?.as_f64()
     }
 
-    /// Sets the number at a path without checking its range. A number that the scene omits is added. If the scene has no
-    /// adhesion, setting one of its fields, such as `adhesion.work`, gives the scene an adhesion with this number only.
-    ///
-    /// Returns false, with the tree unchanged, if the scene can have no number there.
+    /// Sets the number at a path without checking its range. A number that the scene omits is added. Returns false, with the
+    /// tree unchanged, if the scene can have no number at this path.
     pub fn set(&mut self, path: &str, value: f64) -> bool {
         let is_adhesion = |field: &Field| field.parent() == "adhesion" && self.0["adhesion"].is_null();
         let row = FIELDS.iter().find(|row| row.path == path && (self.has(row) || is_adhesion(row)));
@@ -173,8 +169,7 @@ pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Ve
     found
 }
 
-/// Writes a scene as RON text, without fields that have their default. The text ends in a line break and reads back as the
-/// same scene.
+/// Writes a scene as RON text, without fields that have their default. The text reads back as the same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let tree = Tree::of(scene);
     let fields: Vec<&Field> = fields_inside("", None).collect();

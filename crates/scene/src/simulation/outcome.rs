@@ -75,19 +75,18 @@ pub struct LineFacts {
     pub length: f64,
     /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Index of the first spring under the body. The index is above zero only for a punch.
+    /// Index of the first spring under the body; above zero only for a punch.
     pub first: usize,
     /// Height of the highest point in m. The apex of the form without roughness has the height zero.
     pub summit: f64,
     /// Largest gap in m: depth of the lowest point of the profile below its highest point.
     pub deepest: f64,
-    /// First and last mode of a random roughness, in waves per length; `None` for other profiles.
+    /// First and last mode of a random roughness, as numbers of waves on the length L; `None` for other profiles.
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient that a continuous spectrum with the same rms height has, by the integrals of eq. (12) of Popov and
-    /// Filippov (2012). The profile itself is a sum of discrete modes, so the two rms gradients may differ. `None`
-    /// unless the roughness is self-affine.
+    /// Rms gradient of a continuous spectrum with the same rms height, eq. (12) of Popov and Filippov (2012); `None` unless
+    /// the roughness is self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
@@ -99,7 +98,8 @@ pub struct Timings {
     /// Time in s for building the contact tree ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the
     /// histogram of the heights.
     pub tree: f64,
-    /// Time in s for finding the indentations at which patches change, or for the steps of the stepwise solver.
+    /// Time in s for finding the indentations at which contact patches form, merge, split and detach, or for the steps of the
+    /// stepwise solver.
     #[serde(rename = "loop")]
     pub passes: f64,
     /// Time in s for the force curves of all loading stages, with their largest and smallest forces.
@@ -119,7 +119,7 @@ impl Timings {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The computation changes values of the scene, and a changed value is out of its range.
+    /// A value that the computation changed, such as the number of springs, is out of its range.
     #[error(transparent)]
     Values(#[from] SceneErrors),
     /// There is not enough memory for the scene.
@@ -134,8 +134,7 @@ pub enum RunError {
     /// The profile could not be computed from the form and the roughness.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// A [`ReversalMap`](crate::theory::ReversalMap), which has unloadings from many turning points, was requested for a
-    /// scene with the stepwise solver. Such a map needs the exact solver.
+    /// Unloadings from many turning points were requested for a scene with the stepwise solver.
     #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
     NeedsExactSolver,
     /// A [`ReversalMap`](crate::theory::ReversalMap) was requested for a loading that never presses the bodies together.

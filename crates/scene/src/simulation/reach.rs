@@ -6,8 +6,7 @@ use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 
 /// Deepest state up to which a loading is computed: the body is one length of the profile deeper than at full contact, where
-/// the last spring touches. Beyond full contact the force curve is a straight line. At larger depths the deformations are too
-/// large for the theory of the elastic half-space.
+/// the last spring touches.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -41,8 +40,7 @@ impl Reach {
         Reach { full_contact, force, indentation, displacement }
     }
 
-    /// Returns a message that says why the loading stage `stage` is refused; `None` if the stage does not end beyond the
-    /// deepest state.
+    /// Returns a message that says why a loading stage is refused; `None` if the stage does not end beyond the deepest state.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }

@@ -20,10 +20,10 @@ const MOST_BELOW: usize = 4;
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Computes unloadings to separation from several turning points, at which a loading ends. Each stage in `ends` loads
-    /// the separated bodies up to one turning point. The stages must be ordered from the shallowest to the deepest. `see`
-    /// receives each unloading with the index of its stage in `ends`. Each unloading has its forces at the indentations
-    /// `points`, which are in m and ascend. The computation ends when `stop` returns true.
+    /// Computes unloadings to separation from several turning points, at which a loading ends. Each stage in `ends` loads the
+    /// separated bodies up to one turning point. The stages must be ordered from the shallowest to the deepest. `see`
+    /// receives each unloading, with its forces at the ascending indentations `points` in m, and the index of its stage in
+    /// `ends`.
     ///
     /// # Errors
     /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if the contact cannot reach
@@ -58,10 +58,9 @@ impl Simulation {
     }
 
     /// Computes the unloading curves of a scene from `count` turning points to separation (first-order reversal curves).
-    /// `preloads` are the forces in N at the first and the last turning point. Between these two the indentations of the
-    /// turning points are equally spaced. If `preloads` is `None`, the first turning point is at first touch and the last
-    /// one at the preload of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest allowed
-    /// number.
+    /// `preloads` are the forces in N at the first and the last turning point. If `preloads` is `None`, these points are at
+    /// first touch and at the preload of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest
+    /// allowed number.
     ///
     /// # Errors
     /// Returns the same errors as [`Simulation::reverse`]. Also returns an error if the loading never presses the bodies

@@ -122,10 +122,7 @@ impl RoughnessMaker {
     }
 }
 
-/// Returns a recommended number of springs for a profile of this length in m with this measured spectrum. The number is a
-/// power of two and at least 1024. The shortest wave has at least twice [`SPRINGS_PER_WAVE`] springs, unless this needs
-/// more than 2²⁸ springs. With so many springs on a wave both [edge models](asperity_contact::Edges) give nearly the same
-/// results.
+/// Returns a recommended number of springs, a power of two, for a profile of this length in m with this measured spectrum.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)

@@ -14,10 +14,8 @@ use asperity_surface::Form;
 use asperity_surface::lines::Line;
 
 impl Simulation {
-    /// Computes the adhesion force F_smooth in N that the body of a scene has without its roughness. The body is unloaded
-    /// after the preload in `figures`, or from zero force if this preload is not compressive. If an exact formula for the
-    /// force of the smooth body exists, it is used. Otherwise the force is computed with as many springs as the scene has.
-    /// Returns `None` without adhesion.
+    /// Computes the adhesion force F_smooth in N that the body of a scene has without its roughness, after the preload in
+    /// `figures`. Returns `None` without adhesion.
     ///
     /// # Errors
     /// Returns an error if the memory is too small, or if the table of the form cannot be read.

@@ -24,17 +24,15 @@ use std::time::Instant;
 const HISTOGRAM_BINS: usize = 64;
 /// Kept memory is released if it exceeds the memory that the next run needs by more than this factor.
 const MOST_SPARE: u64 = 4;
+// The memory that a run needs is `Workload::peak_bytes` plus 20 bytes per spring for a Fourier transform. Released memory goes
+// to the allocator: glibc keeps released blocks of less than 32 MiB for reuse, in total at most 64 MiB for each thread.
 /// Number of bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
-/// Computes scenes, one after the other. A simulation keeps the profile and the contact tree ([`Stage::Tree`]) from run to
-/// run. It repeats only the parts of the computation that depend on a changed field of the scene. Repeated parts reuse their
-/// memory.
+/// Computes scenes, one after the other. A simulation repeats only the parts of the computation that depend on a changed
+/// field of the scene.
 ///
-/// Between runs a simulation keeps at most 32 MiB or four times the memory of the last scene, whichever is larger. The
-/// memory of a scene is here [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory
-/// goes to the allocator, which need not return it to the system. The allocator of glibc keeps released blocks of less than
-/// 32 MiB for reuse, in total at most 64 MiB for each thread.
+/// Between runs a simulation keeps at most 32 MiB or four times the memory that its last scene needed, whichever is larger.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
@@ -93,9 +91,8 @@ pub(super) struct Prepared {
     timings: Timings,
 }
 
-/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, the force curve on the
-/// stage ([`LegRecord`]) and the solved stage ([`Leg`]), which returns force and patches at any indentation on the stage.
-/// If the function returns an error, the run ends with this error.
+/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, its force curve
+/// ([`LegRecord`]) and the solved stage ([`Leg`]). If the function returns an error, the run ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
@@ -104,9 +101,8 @@ impl Simulation {
         Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
     }
 
-    /// Returns this simulation with a smaller need of memory, for a single scene. The memory of the Fourier transform is
-    /// freed before the contact is solved, and the gaps of the profile reuse the memory of its heights. Each further
-    /// profile then takes more time to compute.
+    /// Returns this simulation with a smaller need of memory, for a single scene. Each further profile takes more time to
+    /// compute.
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
@@ -127,7 +123,7 @@ impl Simulation {
         }
     }
 
-    /// Returns a simulation with the same folder and the same measured surface that has computed nothing yet.
+    /// Returns a new simulation with the same folder and the same measured surface.
     pub fn another(&self) -> Simulation {
         let RoughnessMaker { folder, measured, .. } = &self.maker;
         let (folder, measured) = (folder.clone(), measured.clone());
@@ -140,8 +136,7 @@ impl Simulation {
         self.line.as_ref().map(|(_, line)| line)
     }
 
-    /// Returns the profile of a scene, the numbers that describe it, and the governing parameters. The profile is computed
-    /// unless the last scene had the same profile.
+    /// Returns the profile of a scene, the numbers that describe it, and the governing parameters.
     ///
     /// # Errors
     /// Returns an error if the memory is too small, or if a measured file or a form cannot be used.
@@ -314,20 +309,19 @@ impl Simulation {
         Ok((made.contact, made.governing))
     }
 
-    /// Computes all results of a scene. [`Self::run`] does the same and can be stopped.
+    /// Computes all results of a scene.
     ///
     /// # Errors
-    /// Returns an error if a part of the computation fails. Results of earlier parts are kept for the next run.
+    /// Returns an error if a part of the computation fails.
     pub fn compute(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {
         self.run(scene, &|| false, &mut |_, _, _| Ok(()))
     }
 
-    /// Computes all results of a scene. `stop` is asked between parts of the computation and after each loading stage. If it
-    /// returns true, the run ends. `after` is called after each loading stage.
+    /// Computes all results of a scene. `after` is called after each loading stage. The run ends soon after `stop` returns
+    /// true.
     ///
     /// # Errors
-    /// Returns an error if a part of the computation fails or if `stop` returns true. Results of earlier parts are kept for
-    /// the next run.
+    /// Returns an error if a part of the computation fails or if `stop` returned true.
     pub fn run(
         &mut self,
         scene: &CheckedScene,

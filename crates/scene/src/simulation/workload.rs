@@ -71,8 +71,7 @@ impl Stage {
     }
 }
 
-/// Part of the computation of a scene in a [`Workload`], with its passes and its memory. Passes and memory are zero for a
-/// part that the scene does not need.
+/// Part of the computation of a scene in a [`Workload`], with its passes and its memory.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// Part of the computation.
@@ -83,7 +82,7 @@ pub struct PlannedStage {
     pub because: &'static str,
     /// Number of passes over the profile or over its contact tree; `None` if the number depends on the loading stages.
     pub passes: Option<u64>,
-    /// Upper bound of the number of visits to springs, summed over all passes; `None` if the number of passes is unknown.
+    /// Upper bound of the number of springs that all passes together visit; `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
     /// Memory in bytes of the arrays that this part adds.
     pub bytes: u64,
@@ -104,11 +103,9 @@ pub struct PlannedStage {
 pub struct Workload {
     /// Number of springs under the body.
     pub springs: u64,
-    /// Approximate peak memory of a run in bytes, without the program itself: all arrays and the resulting curves. Two
-    /// amounts are unknown here and not included: a measured file, with 16 bytes per point, and lists of contact patches.
+    /// Approximate peak memory of a run in bytes, without the program itself, measured files and lists of contact patches.
     pub peak_bytes: u64,
-    /// Approximate largest resident memory of `asperity run` in bytes, with the program itself. The heights of the roughness
-    /// are not added, because the gaps reuse their memory.
+    /// Approximate largest resident memory of `asperity run` in bytes, with the program itself.
     pub resident_bytes: u64,
     /// All parts of the computation, including those that are skipped.
     pub stages: Vec<PlannedStage>,
