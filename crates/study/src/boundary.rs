@@ -30,8 +30,8 @@ const RESAMPLING_SEED: u64 = 2012;
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// Recorded quantity that falls when κ grows: F_a(d=0)/F_a,max if the loading turns at first touch, F_a(F=0)/F_a,max if the
-    /// loading turns at zero force.
+    /// Quantity whose mean is compared with [`AdhesionBoundary::level`]: F_a(d=0)/F_a,max if the loading turns at first touch,
+    /// or F_a(F=0)/F_a,max if it turns at zero force.
     pub protocol: Quantity,
     /// Share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
     pub level: f64,
@@ -49,9 +49,8 @@ pub struct Crossing {
     /// Position of the boundary: `Equal` within the studied range of κ or e_el/γ, `Less` below this range, `Greater` above this
     /// range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of [`Crossing::value`]. They follow from the values for many random selections of
-    /// the profiles. `None` if there are fewer than two profiles, or if the value for all profiles or for any selection lies
-    /// beyond the studied range.
+    /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` if there are fewer than two profiles, or if the
+    /// boundary may lie beyond the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -71,8 +70,7 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes. For the same values, the boundaries for F_a(d=0) come before the
-    /// boundaries for F_a(F=0), each in the order of the given shares of F_a,max.
+    /// Boundaries for all values on the other axes.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -112,7 +110,7 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns where the loading turns: `first touch` or `zero force`. [`AdhesionBoundary::protocol`] decides.
+    /// Returns where the loading turns: `first touch` or `zero force`.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
     }
@@ -122,9 +120,9 @@ impl Boundaries {
     /// Usual shares of F_a,max below which adhesion counts as vanished.
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
-    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. The folder `path` contains a study with an
-    /// axis of κ or e_el/γ, and [`merge`](crate::merge) has written the tables of this study. `over` is the parameter, κ or
-    /// e_el/γ, in which the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
+    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the folder of a study with an
+    /// axis of κ or e_el/γ, for which [`merge`](crate::merge) has written the tables. `over` is the parameter, κ or e_el/γ, in
+    /// which the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor
@@ -175,7 +173,7 @@ impl Boundaries {
         Ok(Boundaries { over, others, lines: plan.lines, found })
     }
 
-    /// Returns the symbol of the value at a boundary: `κ*` or `(e_el/γ)*`, according to [`Boundaries::over`].
+    /// Returns the symbol of the value at a boundary: `κ*` or `(e_el/γ)*`.
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",

@@ -22,15 +22,14 @@ pub struct Found {
     pub question: Question,
     /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// Reason why the scene could not be computed with one of the searched numbers. It is the first such reason; `None` if all
-    /// numbers could be computed.
+    /// First reason why the scene could not be computed with a searched number; `None` if it could be computed with all of
+    /// them.
     pub refused: Option<String>,
 }
 
 /// Finds the value of a number of a scene at which a quantity has a given value, on each of `profiles` random profiles. `path`
 /// is the path of the number, or `preload`. `condition` is the quantity and the wanted value of the quantity in its SI unit.
-/// The numbers in the range that [`Question::new`] chooses are searched. The progress that `control` reports is the number of
-/// finished profiles.
+/// [`Question::new`] states which numbers are searched. The progress that `control` reports is the number of finished profiles.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested. The errors of [`Question::new`] and [`Found::of`] are possible too.
@@ -122,9 +121,9 @@ impl Found {
         Ok(())
     }
 
-    /// Returns for each profile the number, in its SI unit, at which the quantity reaches the target. It is the smallest of
-    /// [`Answer::crossings`]. If a preload is sought and the quantity is at least the target after the smallest searched preload,
-    /// it is the smallest searched preload. On any other profile without crossings it is `None`.
+    /// Returns for each profile the smallest of [`Answer::crossings`], in the SI unit of the number; `None` for a profile
+    /// without a crossing. If a preload is sought and the smallest searched preload suffices to reach the target, this preload
+    /// is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers.iter().map(|answer| answer.value(&self.question)).collect()
     }
@@ -150,8 +149,8 @@ impl Found {
         places
     }
 
-    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. On a profile without
-    /// a value, the number is taken as beyond the searched range. `None` if the quantile lies beyond the searched range.
+    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. A profile without a
+    /// value counts as beyond the searched range. `None` if the quantile lies beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let places = self.ascending();
         let place = share * places.len().checked_sub(1)? as f64;

@@ -51,8 +51,8 @@ impl Level {
     }
 }
 
-/// Map of a scene over κ or e_el/γ and the Hurst exponent H. It has a [cell](Plan) for each combination of values of both. The
-/// map is computed from coarse to fine, and can be shown while it is computed.
+/// Map of a scene over κ or e_el/γ and the Hurst exponent H. It can be shown while its [cells](Plan) are computed from coarse
+/// to fine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -68,13 +68,12 @@ impl LiveMap {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
 
-    /// Returns the plan of the map. Each [cell](Plan) of the plan is a cell of the map.
+    /// Returns the plan of the map.
     pub fn plan(&self) -> &Plan {
         self.results.plan()
     }
 
-    /// Returns the [cells](Plan) of a level, each by its number in the plan. The cells are in groups: each group has one value
-    /// of H and all values of κ or e_el/γ of this level.
+    /// Returns the numbers of the [cells](Plan) of a level, in groups of cells with the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
@@ -103,21 +102,18 @@ impl LiveMap {
         self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
     }
 
-    /// Returns the finest level that is complete: each of its [cells](Plan) is computed or cannot be computed. `None` if no
-    /// level is complete.
+    /// Returns the finest level of which no [cell](Plan) is left to compute; `None` if there is no such level.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true if no [cell](Plan) is left to compute. If the scene has many springs, only the cells of a coarser level
-    /// than [`Level::Whole`] are computed.
+    /// Returns true if no [cell](Plan) is left to compute.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing [cells](Plan) from coarse to fine. Within a level, all cells with one value of H come before the
-    /// cells with the next value. `report` receives the map after each value of H. If `stop` returns true, the computation ends
-    /// and the map keeps its results. For a cell that cannot be computed the map keeps the reason.
+    /// Computes the missing [cells](Plan) from coarse to fine. `report` receives the map after each value of H. If `stop`
+    /// returns true, the computation ends and the map keeps its results.
     pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
@@ -144,8 +140,7 @@ impl LiveMap {
     }
 
     /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis. Without H the map has
-    /// only a horizontal axis, κ or e_el/γ. The statistics of the [cells](Plan) have no confidence interval, because the
-    /// profiles are too few.
+    /// only a horizontal axis, κ or e_el/γ. The statistics of the [cells](Plan) have no confidence interval.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =

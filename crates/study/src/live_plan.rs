@@ -36,13 +36,11 @@ fn kappas() -> Vec<f64> {
 }
 
 impl Plan {
-    /// Number of random profiles for each [cell](crate::Plan) of a map of self-affine roughness. On the map of a measured
-    /// surface each cell has one profile.
+    /// Number of random profiles for each [cell](crate::Plan) of a map of self-affine roughness.
     pub const PROFILES_OF_MAP: u64 = 4;
 
     /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. The first axis is κ. If the roughness has a
-    /// Hurst exponent H, the second axis is H. Scenes that differ only in κ, in H or in the number of points of the force curve
-    /// have the same plan.
+    /// Hurst exponent H, the second axis is H.
     ///
     /// # Errors
     /// Returns an error with the reason if the scene has no map, for example because the body is smooth.

@@ -28,8 +28,8 @@ pub struct ProfileAdhesion {
     /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the force of the unloading is
     /// never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N if the spectrum changes at random within the uncertainty of its fit. F_a is computed for a small part
-    /// of the change of the spectrum, and the change of F_a is extrapolated in proportion.
+    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if it is
+    /// unknown.
     pub fit_change: Option<f64>,
     /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum.
     pub regime: Option<Regime>,
@@ -78,13 +78,12 @@ pub struct MeasuredAdhesion {
 
 impl MeasuredAdhesion {
     /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface. The first profile
-    /// has the seed of the scene, and the others have the seeds that follow. The measured files are read with the options of
-    /// the scene, and their paths are relative to the folder of the scene file. `jobs` threads share the profiles. The results
-    /// do not depend on the number of threads.
+    /// has the seed of the scene, and the others have the seeds that follow. Paths of measured files are relative to the folder
+    /// of the scene file. `jobs` threads share the profiles; the results do not depend on their number.
     ///
     /// # Errors
     /// Returns an error if the scene does not make random profiles from a measured surface, if a file cannot be read, or if a
-    /// profile cannot be computed. If several profiles fail, the error is the one of the first profile.
+    /// profile cannot be computed.
     ///
     /// ```
     /// let folder = tempfile::tempdir()?;
@@ -113,8 +112,7 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::of_line(scene, &line, count, jobs)
     }
 
-    /// Largest number of springs for which [`MeasuredAdhesion::quick_deviation`] computes forces. With so many springs it takes
-    /// some seconds.
+    /// Largest number of springs for which [`MeasuredAdhesion::quick_deviation`] computes forces.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
     /// Computes a scene on `count` random profiles, as [`MeasuredAdhesion::of`] does, and returns
@@ -125,11 +123,11 @@ impl MeasuredAdhesion {
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `line` replaces
-    /// the measured surface of the scene. The options of the scene for reading and analysing its surface are not used.
+    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `line`
+    /// replaces the measured surface of the scene.
     ///
     /// # Errors
-    /// Returns an error if a profile cannot be computed. If several profiles fail, the error is the one of the first profile.
+    /// Returns an error if a profile cannot be computed.
     pub fn of_line(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -159,10 +157,9 @@ impl MeasuredAdhesion {
         rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
     }
 
-    /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for fewer
-    /// than two profiles. The ends of the interval are the median divided by a factor and the median times this factor. The
-    /// logarithm of the factor is the root mean square over the profiles of [`ProfileAdhesion::fit_change`] divided by the
-    /// adhesion force of the same profile.
+    /// Returns the median adhesion force in N, first divided and then multiplied by a factor for the uncertainty of the
+    /// spectrum. The logarithm of the factor is the root mean square of the relative changes of F_a,
+    /// [`ProfileAdhesion::fit_change`] divided by [`ProfileAdhesion::adhesion_force`]. `None` for fewer than two profiles.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)

@@ -7,8 +7,7 @@ use asperity_scene::{Adhesion, Document, Governing, RoughnessParameter, Scene, S
 
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no such value. `computed` has
-    /// numbers that follow from the scene, such as κ. These numbers are needed only if the scene has a measured surface,
-    /// because they depend on the file of the surface.
+    /// the numbers that follow from the scene, such as κ. It is needed only if the scene has a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());

@@ -40,11 +40,11 @@ pub struct Plan {
     pub notice: String,
     /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
-    /// Axes of the study. Cells are numbered so that the value on the last axis changes first. If the plan has preloads, their
-    /// axis is the last one, and each preload replaces the loading of the scene. Preloads are in N or in units of E* h L, with
-    /// the effective modulus E*, the rms height h and the length L.
+    /// Axes of the study. From one cell to the next, the value on the last axis changes fastest. An axis of preloads is always
+    /// the last one, and each preload replaces the loading of the scene. Preloads are in N or in units of E* h L, with the
+    /// effective modulus E*, the rms height h and the length L.
     pub axes: Vec<Axis>,
-    /// Number of random profiles for each [cell](Plan), which is one combination of values on the axes.
+    /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
     /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the same in all [cells](Plan).
     pub seed: u64,
@@ -68,12 +68,12 @@ pub struct StiffnessRange {
     pub from: f64,
     /// Largest force of the range.
     pub to: f64,
-    /// Number of forces in the range, at least 2. All neighbouring forces have the same ratio.
+    /// Number of forces in the range, at least 2, with equal ratios of neighbouring forces.
     pub count: u64,
 }
 
 impl Default for StiffnessRange {
-    /// Returns a range from forces that a few waves carry to forces that flatten the long waves.
+    /// Returns 17 forces from 10⁻⁴ to 10⁻² in units of E* h L.
     fn default() -> Self {
         StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
     }
@@ -109,7 +109,7 @@ impl Plan {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Returns the number of [cells](Plan), which is the product of the numbers of values on all axes.
+    /// Returns the number of [cells](Plan).
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }
@@ -156,8 +156,9 @@ impl Plan {
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the axes. It keeps the loading of
-    /// the plan's scene, even if one of the axes is the preload.
+    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the axes. A preload axis is the
+    /// exception: the scene keeps the loading of the plan's scene, because the preload is applied only when the cell is
+    /// computed.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number of an axis, or if a value is out of its range.

@@ -26,7 +26,7 @@ pub struct Case {
     /// Name of the case, such as `jkr-sphere`.
     pub name: &'static str,
     /// Family of the case: `closed-forms` for bodies with a known force curve, `laws` for laws that hold for every body, or
-    /// `hard-cases` for input at the limits of numbers and rules.
+    /// `hard-cases` for extreme input, such as nearly equal gaps or very large loads.
     pub family: &'static str,
     /// Statement that must hold for the result, as a sentence.
     pub holds: &'static str,

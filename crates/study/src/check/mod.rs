@@ -29,8 +29,7 @@ pub struct Check {
 }
 
 impl Check {
-    /// Returns the checks of all cases for which `choose` returns true. A case that is checked with both rules in [`Edges`] has
-    /// two checks.
+    /// Returns the checks of all cases for which `choose` returns true.
     ///
     /// ```
     /// use asperity_study::checks::Check;
@@ -43,7 +42,7 @@ impl Check {
         Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
     }
 
-    /// Computes the case and measures the error of [`Case::error_of`].
+    /// Computes the case and the error of the quantity that [`Case::error_of`] names.
     pub fn judge(self) -> Verdict {
         let (clock, edges) = (Instant::now(), self.edges);
         let error = match self.case.subject {
