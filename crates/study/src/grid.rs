@@ -81,7 +81,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid from its parts.
+    /// Creates a grid from the values of its public fields.
     pub fn new(
         across: Axis,
         up: Option<Axis>,

@@ -28,8 +28,8 @@ pub struct ProfileAdhesion {
     /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the force of the unloading is
     /// never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if it is
-    /// unknown.
+    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if F_a is `None`
+    /// before or after the change.
     pub fit_change: Option<f64>,
     /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum.
     pub regime: Option<Regime>,

@@ -141,8 +141,8 @@ impl Plan {
         })
     }
 
-    /// Reads and checks the text of a plan. `name` is usually the path of the plan. Error messages begin with `name`, and scene
-    /// files in the plan are searched in the folder of `name`.
+    /// Reads and checks the text of a plan. `name` is usually the path of the plan. Error messages begin with `name`, and the
+    /// path of a scene file in the plan is relative to the folder of `name`.
     ///
     /// # Errors
     /// The errors are the same as those of [`Plan::open`].

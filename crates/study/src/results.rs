@@ -29,12 +29,12 @@ pub struct Results {
     failed: BTreeMap<u64, String>,
 }
 
-/// What [`merge`](crate::merge) found in the files of a study. Each file was written by one process. A record has the values of
-/// one [cell](Plan) on one random profile.
+/// What [`merge`](crate::merge) found in the files of a study. A record has the values of one [cell](Plan) on one random
+/// profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of different records in the files. A record that occurs again is not counted again.
+    /// Number of different records in the files.
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
@@ -45,7 +45,7 @@ pub struct Merged {
     pub total: u64,
     /// Number of repetitions: records that occur again with exactly the same values.
     pub duplicates: u64,
-    /// Number of incomplete or damaged lines in the files. These lines are left out.
+    /// Number of incomplete or damaged lines in the files.
     pub damaged: u64,
     /// Number of [cells](Plan) that lack the records of some profiles.
     pub missing_cells: u64,
@@ -58,7 +58,7 @@ pub struct Merged {
 }
 
 impl PartialEq for Results {
-    /// Studies are equal if their plans are equal and their values are equal bit by bit. Missing values are equal.
+    /// Returns true for equal plans and values that are equal bit by bit. Missing values are equal.
     fn eq(&self, other: &Self) -> bool {
         self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
     }
@@ -118,7 +118,7 @@ impl Results {
     }
 
     /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the scene are relative to `folder`.
-    /// `jobs` threads share the profiles. The results do not depend on the number of threads.
+    /// `jobs` threads share the profiles; the results do not depend on their number.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed. The errors of [`Results::begin`] are possible too.
@@ -330,8 +330,7 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true if there is nothing left to compute in a [cell](Plan): on each profile it is either computed or cannot be
-    /// computed.
+    /// Returns true if nothing is left to compute in a [cell](Plan).
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }

@@ -50,8 +50,7 @@ pub struct Sensitivity {
     /// Smallest results, then largest results of the unchanged scene among the profiles, in SI units and in the order of
     /// [`Sensitivity::RESULTS`]; `None` if the profile of the scene is fixed.
     pub range: Option<[Values; 2]>,
-    /// Results for changes of each number of the scene. Numbers that are zero and numbers of things, such as springs, are left
-    /// out.
+    /// Results for changes of each number of the scene. Zeros and counts, such as the number of springs, are left out.
     pub influences: Vec<Influence>,
 }
 
@@ -66,9 +65,9 @@ impl Sensitivity {
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
-    /// Computes a checked scene, and scenes with one number changed, on the same random profiles. There are as many profiles as
-    /// [`Ensemble::profiles_of`] returns. All other numbers of the scene keep their values. If the scene has κ instead of a work
-    /// of adhesion, the work of adhesion follows from κ again after each change.
+    /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random profiles.
+    /// [`Ensemble::profiles_of`] states how many. A scene with κ instead of a work of adhesion keeps κ when another number
+    /// changes.
     ///
     /// `jobs` threads share the profiles, and the first thread computes with `simulation`. The results do not depend on the
     /// number of threads. After each profile `report` receives the sensitivity over the profiles so far.
@@ -160,22 +159,21 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if one of both is
-    /// missing, or if the result in [`Sensitivity::present`] is zero.
+    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if one of the
+    /// two values is missing or the present value is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// Returns a sentence for users which states why no change of the adhesion force is known; `None` if the scene has an
-    /// adhesion force.
+    /// Returns a sentence that states why the adhesion force has no changes; `None` if the scene has an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known)
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// Returns the influences, sorted by how much each changes one result: the influence with the largest relative change comes
-    /// first. `result` is the index of this result in [`Sensitivity::RESULTS`].
+    /// Returns the influences on the result with the index `result` in [`Sensitivity::RESULTS`], the largest relative change
+    /// first.
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {

@@ -7,8 +7,7 @@ use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Force curves of the random squares of a [`Reference`]. They are for a figure that shows them beside the force curve of the
-/// profile while the squares are computed.
+/// Force curves of the random squares of a [`Reference`].
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of squares of the complete comparison.
@@ -60,9 +59,9 @@ impl SquareLoops {
         compared(self.lines.iter().copied(), self.squares.iter().copied())
     }
 
-    /// Returns the mean and the scatter of the force of the computed squares as a function of the indentation. There is one band
-    /// for loading, and a second band for unloading if the scene has adhesion. A band is three curves: mean force minus standard
-    /// deviation, mean force, and mean force plus standard deviation. Each band ends at the indentation that all squares reach.
+    /// Returns the mean and the scatter of the force of the computed squares as a function of the indentation. There is one
+    /// band for loading, and a second band for unloading if the scene has adhesion. A band is three curves: mean force minus
+    /// standard deviation, mean force, and mean force plus standard deviation.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let stages = |curve: &Vec<(f64, f64)>| {
             let deepest = (0..curve.len()).max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0)).unwrap_or(0);
