@@ -1,5 +1,4 @@
-//! Axes of a parameter study. An axis has a quantity, which is a number of a scene or follows from several numbers, and the
-//! values of this quantity.
+//! Axes of a parameter study.
 
 use super::error::StudyError;
 use asperity_contact::Move;
@@ -42,7 +41,7 @@ pub enum Spacing {
     List,
 }
 
-/// Axis of a study: one quantity of the scene that the study varies, and the values that the study gives to this quantity.
+/// Axis of a study: a quantity of the scene that the study varies, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Path of the field of the scene that varies, such as `roughness.hurst`, or one of the names in [`Axis::DERIVED`].

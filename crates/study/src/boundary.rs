@@ -1,10 +1,8 @@
-//! The boundary where adhesion without a preload vanishes, between pressure-insensitive and pressure-sensitive adhesion,
-//! eq. (15), with its statistical error.
+//! The boundary where adhesion without a preload vanishes, eq. (15), with its statistical error.
 //!
-//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still adheres. The boundary
-//! κ* is therefore where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max. κ*
-//! depends on this share, so several shares are evaluated together. On profiles of one spectrum κ determines e_el/γ, so
-//! each boundary in κ is also a boundary in e_el/γ.
+//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still adheres. The boundary κ* is
+//! therefore where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max. On profiles
+//! of one spectrum κ determines e_el/γ, so each boundary in κ is also a boundary in e_el/γ.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -23,9 +21,8 @@ const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. This value depends on three choices: the
-/// values on the other axes, whether the loading turns at first touch or at zero force, and the share of the ideal adhesion
-/// force F_a,max below which adhesion counts as vanished.
+/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the values on the other axes, on
+/// where the loading turns, and on the share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
@@ -39,15 +36,13 @@ pub struct AdhesionBoundary {
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ above which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, stays below
-/// [`AdhesionBoundary::level`]. The mean is taken over the random profiles.
+/// Value of κ or e_el/γ above which the mean of [`AdhesionBoundary::protocol`] over the random profiles stays below
+/// [`AdhesionBoundary::level`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Value of κ or e_el/γ at the boundary. If the boundary lies beyond the studied range, the value is the end of the range
-    /// that is nearer to the boundary.
+    /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary lies beyond this range.
     pub value: f64,
-    /// Position of the boundary: `Equal` within the studied range of κ or e_el/γ, `Less` below this range, `Greater` above this
-    /// range.
+    /// Position of the boundary: `Equal` within the studied range, `Less` below this range, `Greater` above this range.
     pub side: Ordering,
     /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` if there are fewer than two profiles, or if the
     /// boundary may lie beyond the studied range.
@@ -122,7 +117,7 @@ impl Boundaries {
 
     /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the folder of a study with an
     /// axis of κ or e_el/γ, for which [`merge`](crate::merge) has written the tables. `over` is the parameter, κ or e_el/γ, in
-    /// which the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
+    /// which the boundaries are returned. `levels` has one or several [`AdhesionBoundary::level`].
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor

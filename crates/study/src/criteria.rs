@@ -1,7 +1,7 @@
 //! Criteria by which other theories and this program decide whether a randomly rough body adheres without a preload.
 //!
 //! Each criterion has its own conditions, and says so where they do not hold. The criteria disagree, because their theories
-//! have different limits; the majority decides nothing.
+//! have different limits.
 
 use super::criterion::{Criterion, long_ranged};
 use super::ensemble::Ensemble;
@@ -22,7 +22,7 @@ const THIS_PROGRAM: Criterion =
 /// preload; empty for a scene without adhesion. The criteria of this program come last. They use medians over the profiles of
 /// `ensemble`, or the scene's own profile if no ensemble is given.
 ///
-/// Criteria for rough surfaces are left out for a smooth body. They ignore the form of a rough body.
+/// Criteria for rough surfaces ignore the form of the body, and are left out for a smooth body.
 ///
 /// ```
 /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;

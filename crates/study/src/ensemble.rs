@@ -1,5 +1,4 @@
-//! The ensemble of a scene: its results on random profiles of one roughness. They characterise the scene independently of
-//! its seed.
+//! The ensemble of a scene: its results on random profiles of one roughness.
 
 use super::error::StudyError;
 use super::profiles::Stop;
@@ -50,7 +49,7 @@ impl Ensemble {
     }
 
     /// Computes a checked scene on `profiles` random profiles. The recorded quantities are [`Ensemble::NUMBERS`], `further` and
-    /// both regimes, [`Quantity::REGIMES`]. [`Ensemble::failed`] has the profiles that cannot be computed.
+    /// [`Quantity::REGIMES`].
     ///
     /// `workers` is a pair: the simulation with which the first thread computes, and the number of threads that share the
     /// profiles. The results do not depend on the number of threads. After each profile `report` receives the number of
@@ -109,8 +108,8 @@ impl Ensemble {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }
 
-    /// Returns the numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from
-    /// F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
+    /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }

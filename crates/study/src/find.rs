@@ -1,8 +1,7 @@
 //! The inverse question: at which value of a number of a scene, or at which preload, does a quantity reach a target?
 //!
 //! Each profile is searched separately. The adhesion force never falls with the preload, so two preloads bracket its only
-//! crossing. Any other quantity is first computed at several numbers over the searched range. A bracket is then narrowed
-//! until its ends agree to [`WITHIN`](super::question::WITHIN). At a step, one end lies before the step and one behind it.
+//! crossing. Any other quantity is first computed at several numbers over the searched range.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_profiles};
@@ -28,8 +27,8 @@ pub struct Found {
 }
 
 /// Finds the value of a number of a scene at which a quantity has a given value, on each of `profiles` random profiles. `path`
-/// is the path of the number, or `preload`. `condition` is the quantity and the wanted value of the quantity in its SI unit.
-/// [`Question::new`] states which numbers are searched. The progress that `control` reports is the number of finished profiles.
+/// is the path of the number, or `preload`. `condition` is the quantity and its wanted value in SI units. [`Question::new`]
+/// states which numbers are searched. The progress that `control` reports is the number of finished profiles.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested. The errors of [`Question::new`] and [`Found::of`] are possible too.
@@ -60,8 +59,8 @@ pub fn find(
 }
 
 impl Found {
-    /// Answers a question on all its random profiles, which `jobs` threads share. The first thread computes with `simulation`.
-    /// The results do not depend on the number of threads. After each profile `report` receives the number of finished
+    /// Answers a question on all its random profiles. `simulation` is the simulation of the first thread, and `jobs` is the
+    /// number of threads. The results do not depend on `jobs`. After each profile `report` receives the number of finished
     /// profiles.
     ///
     /// # Errors

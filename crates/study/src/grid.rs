@@ -14,14 +14,13 @@ pub struct GridCell {
     /// Statistics over the random profiles for the quantity of each layer, in the order of [`Grid::layers`]; `None` if no
     /// profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from F_a(d=0), the
-    /// second for the regime that follows from F_a(F=0).
+    /// Numbers of profiles in each regime: first for [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime of adhesion: for [`Quantity::RegimeAfterZeroForce`] in the regime that
-    /// follows from F_a(F=0), for any other quantity in the regime that follows from F_a(d=0).
+    /// Returns the numbers of profiles in each regime. If `quantity` is [`Quantity::RegimeAfterZeroForce`], they are for this
+    /// regime, otherwise for [`Quantity::Regime`].
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }

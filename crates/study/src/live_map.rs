@@ -1,5 +1,4 @@
-//! The map of a scene in the explorer, over H and κ or e_el/γ. It is a study in memory that is computed from coarse to
-//! fine.
+//! The map of a scene in the explorer: a study in memory that is computed from coarse to fine.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -15,8 +14,7 @@ use std::collections::BTreeMap;
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// Resolution of a [`LiveMap`]: the values on the two axes for which the map is computed. Each level contains all values of the
-/// level before.
+/// Resolution of a [`LiveMap`]: the values on the two axes for which the map is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 values of κ or e_el/γ and 5 values of H.
@@ -33,7 +31,7 @@ impl Level {
     /// All levels, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Returns the finest level of a map with this number of springs. Many springs take long, so the map has fewer cells.
+    /// Returns the finest level of a map with this number of springs.
     fn finest(springs: u64) -> Level {
         let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
         Level::ALL[3 - too_fine]
@@ -140,7 +138,7 @@ impl LiveMap {
     }
 
     /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis. Without H the map has
-    /// only a horizontal axis, κ or e_el/γ. The statistics of the [cells](Plan) have no confidence interval.
+    /// only a horizontal axis, κ or e_el/γ.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =

@@ -1,9 +1,8 @@
 //! Adhesion of a measured surface with two spreads: over random profiles of one spectrum, and over the spectra that the
 //! measurement allows.
 //!
-//! Each random profile is solved twice with the same phases. Its first spectrum is the fitted one. The second differs a
-//! little, in a direction drawn from the uncertainty of the fit. The first forces differ from profile to profile. Both
-//! forces of one profile differ only because of the spectrum.
+//! Each random profile is solved twice with the same phases: with the fitted spectrum, and with a spectrum that differs a
+//! little in a direction drawn from the uncertainty of the fit.
 
 use super::error::StudyError;
 use super::quantity::Quantity;
@@ -31,15 +30,14 @@ pub struct ProfileAdhesion {
     /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if F_a is `None`
     /// before or after the change.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum.
+    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if it is unknown.
     pub regime: Option<Regime>,
-    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum.
+    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if it is unknown.
     pub regime_after_zero_force: Option<Regime>,
 }
 
 impl ProfileAdhesion {
-    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the spectrum of the measured surface
-    /// and the uncertainty of this spectrum.
+    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the spectrum and its uncertainty.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -123,8 +121,7 @@ impl MeasuredAdhesion {
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `line`
-    /// replaces the measured surface of the scene.
+    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed.
@@ -169,8 +166,8 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Returns the numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from
-    /// F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
+    /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))

@@ -36,13 +36,12 @@ const SAME: [&[&str]; 3] = [
 pub struct Plan {
     /// Title of the study in one line.
     pub title: String,
-    /// Text that readers of the results should see, such as a limit of the study; may be empty.
+    /// Note for readers of the results, such as a limit of the study; may be empty.
     pub notice: String,
     /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
     /// Axes of the study. From one cell to the next, the value on the last axis changes fastest. An axis of preloads is always
-    /// the last one, and each preload replaces the loading of the scene. Preloads are in N or in units of E* h L, with the
-    /// effective modulus E*, the rms height h and the length L.
+    /// the last one, and each preload replaces the loading of the scene.
     pub axes: Vec<Axis>,
     /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
@@ -50,17 +49,15 @@ pub struct Plan {
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) and profile.
     pub record: Vec<Quantity>,
-    /// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
-    /// [`Quantity::ForceExponent`].
+    /// Forces for the fits of [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`].
     pub stiffness: StiffnessRange,
     /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene without such files, and for a
     /// plan that is not in the [`Folder`](crate::Folder) of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
-/// [`Quantity::ForceExponent`]. The forces are in units of E* h L, with the effective modulus E*, the rms height h and the length
-/// L of the profile.
+/// Forces at which the contact without adhesion is computed for [`Quantity::StiffnessExponent`] and
+/// [`Quantity::ForceExponent`]. They are in units of E* h L: effective modulus E*, rms height h, length L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -181,8 +178,7 @@ impl Plan {
     }
 }
 
-/// Checks of a plan. The checks of the plan itself are quick. The scenes of its cells are checked when a plan is opened,
-/// but not when the folder of a study is opened again.
+/// Checks of a plan. The scenes of its cells are not checked again when the folder of a study is opened.
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();

@@ -17,10 +17,10 @@ use std::path::Path;
 /// Version of the plan file. No other version is supported.
 pub const PLAN_VERSION: u32 = 1;
 
-/// Changes that [`Plan::open`] makes to the plan that it has read. The file stays as it is.
+/// Changes that [`Plan::open`] makes to the plan that it has read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Fields of the scene that get a new value. Each has the path of the field and the new value, written as in a scene file.
+    /// Paths of fields of the scene, each with its new value, written as in a scene file.
     pub set: Vec<(String, String)>,
     /// Number of random profiles for each [cell](Plan); `None` keeps the number in the plan.
     pub lines: Option<u64>,
@@ -152,8 +152,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Reads a plan and checks it without the scenes of its cells. The plan in the folder of a study is read in this way,
-    /// because its cells were checked when the study began.
+    /// Reads a plan and checks it without the scenes of its cells.
     pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |what: String| StudyError::Plan(vec![format!("{name}: {what}")]);
@@ -211,7 +210,7 @@ impl Plan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
-    /// Returns the plan as text in RON, with the scene written into it. [`Plan::parse`] makes the same plan from this text.
+    /// Returns the plan as text in RON, with the scene written into it.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};

@@ -1,5 +1,4 @@
-//! The adhesion force of a scene against the preload: first the staircase of its own profile, then the statistics over
-//! random profiles.
+//! The adhesion force of a scene against the preload.
 
 use crate::axis::Axis;
 use crate::error::StudyError;
@@ -24,8 +23,7 @@ fn failed(error: RunError) -> StudyError {
     StudyError::Run { place: String::new(), error }
 }
 
-/// Adhesion force of a scene as a function of the preload. It is computed for the scene's own profile, which has the seed of
-/// the scene, and for further random profiles.
+/// Adhesion force of a scene as a function of the preload, for the scene's own profile and for further random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     /// Preloads in N at which the random profiles are computed, as an axis.
@@ -40,9 +38,9 @@ impl PreloadCurve {
     /// Number of random profiles of a complete curve, including the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a scene with this outcome. `scale` is the scale of the preloads, linear or logarithmic. If `begun`
-    /// is an incomplete curve on the same scale, only the missing parts are computed. After each part `report` receives the
-    /// curve so far.
+    /// Computes the curve of a scene whose outcome is already known. `scale` is the scale of the preloads, linear or
+    /// logarithmic. If `begun` is an incomplete curve on the same scale, only the missing parts are computed. After each part
+    /// `report` receives the curve so far.
     ///
     /// # Errors
     /// Returns an error if the scene has no adhesion or no stage that presses the bodies together, or if the solver of the scene

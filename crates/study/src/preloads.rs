@@ -1,5 +1,4 @@
-//! The adhesion force against the preload: a study in memory over preloads in N, not in the unit of a plan, and the
-//! staircase of one profile.
+//! Studies in memory over preloads in N, and the staircase of one profile.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
 use super::error::StudyError;
@@ -18,8 +17,7 @@ const USUAL: usize = 64;
 const ALLOWED: &str =
     "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
-/// Share of the axis of preloads within which each step of a staircase is located, which is less than the width of a line
-/// in a figure.
+/// Share of the axis of preloads within which each step of a staircase is located.
 const FINEST: f64 = 1.0 / 2048.0;
 /// Relative difference up to which two adhesion forces count as equal.
 const SAME: f64 = 1e-9;

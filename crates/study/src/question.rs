@@ -1,5 +1,5 @@
-//! The question at which value of a number of a scene, or at which preload, a quantity reaches a target, and its answer on
-//! one profile. The answer has brackets of all crossings, each narrowed until its ends agree to [`WITHIN`].
+//! The question at which value of a number of a scene, or at which preload, a quantity reaches a target, and its answer on one
+//! profile.
 
 use super::axis::{Axis, Spacing, Target};
 use super::cells::Streak;
@@ -29,7 +29,7 @@ const MARGIN: f64 = 0.01;
 const WORK: &str = "adhesion.work";
 
 /// Question: at which value of one number of a scene does a quantity reach a target? It is asked for each of several random
-/// profiles. [`find`](crate::find()) makes and answers such a question.
+/// profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Number whose value is sought. It is given as an axis without values. The unit of a preload is N.
@@ -102,11 +102,10 @@ impl Question {
         Ok((quantity, target))
     }
 
-    /// Makes the question at which value of the number at `path` a quantity has a given value, for `profiles` random profiles
-    /// of a checked scene. If `path` is `preload`, the question is after which preload the quantity has this value. Numbers
-    /// from a hundredth to a hundred times the value in the scene are searched. For a number with a narrow allowed range, such
-    /// as the Hurst exponent, nearly this whole range is searched. Preloads are searched from 0 N to a hundred times the
-    /// largest force to which the scene is loaded.
+    /// Makes a question: at which value of the number at `path` does a quantity have a given value? It is asked for `profiles`
+    /// random profiles of a checked scene. `path` may be `preload`. Numbers from a hundredth to a hundred times the value in
+    /// the scene are searched. For a number with a narrow allowed range, such as the Hurst exponent, nearly this whole range is
+    /// searched. Preloads are searched from 0 N to a hundred times the largest force to which the scene is loaded.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the profile of the scene is

@@ -1,8 +1,8 @@
 //! The same contact as a profile and in three dimensions: means over random profiles and random squares with one spectrum.
 //!
 //! A free rigid square of the side L is compared with a profile (line) of the length L, without a fit. Line and square are
-//! independent draws, so only their means are compared. The areas of contact are not: at the same force the line has 1.1 to
-//! 4.2 times the area in three dimensions.
+//! independent draws, so only their means are compared. At the same force the line has 1.1 to 4.2 times the area of contact in
+//! three dimensions.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_threads_received};
@@ -30,8 +30,7 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 const LONGEST: f64 = 86_400.0;
 
-/// Options of a [`Reference`]: the number of random profiles, the number of random squares, and the number of grid cells along
-/// the side of a square.
+/// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells along the side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of grid cells along the side of a square, a power of two.
@@ -118,8 +117,8 @@ pub struct Reference {
 /// adhesion force, or of the indentation at the preload if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest error of the gap between the bodies at any grid cell of any square without adhesion, divided by the rms height
-    /// of the square.
+    /// Largest error of the gap between the bodies in the contacts without adhesion, at any grid cell of any square, divided by
+    /// the rms height of the square.
     pub solver: f64,
     /// Relative difference between the mean over the squares and the mean over the same squares with half as many grid cells
     /// along the side; `None` if half as many cells are too few.
@@ -146,16 +145,14 @@ pub enum ReferenceEvent {
         bytes: u64,
         /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
-        /// Adhesion force of each profile in N. If the scene has no adhesion, it is the indentation of each profile at the
-        /// preload in m.
+        /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene has no adhesion.
         lines: Vec<f64>,
     },
     /// The computation of a square is finished.
     Square {
         /// Points of the force curve of the square, each with indentation in m and force in N.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N. If the scene has no adhesion, it is the indentation of the square at the preload
-        /// in m.
+        /// Adhesion force of the square in N, or its indentation at the preload in m if the scene has no adhesion.
         headline: f64,
     },
 }

@@ -17,8 +17,7 @@ use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
-/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random profile. Values that are not
-/// computed yet are missing.
+/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random profile.
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
@@ -34,7 +33,7 @@ pub struct Results {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of different records in the files.
+    /// Number of records in the files, each counted once.
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
@@ -96,9 +95,8 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// Makes a study in memory that has no values yet. The study has no axis: it is a checked scene on `lines` random profiles,
-    /// with the recorded quantities `record`. If `preloads` is an axis of preloads in N, the study has this axis, and each
-    /// preload replaces the loading of the scene.
+    /// Makes a study in memory that has no values yet. It is a checked scene on `lines` random profiles, with the recorded
+    /// quantities `record`. Its only axis, if given, is `preloads`: preloads in N that replace the loading of the scene.
     ///
     /// # Errors
     /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an error if `preloads` are
@@ -359,8 +357,8 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a [cell](Plan) in each regime of adhesion. The first numbers are for the regime that
-    /// follows from F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles of a [cell](Plan) in each regime: first for [`Quantity::Regime`], then for
+    /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))

@@ -71,7 +71,7 @@ impl Selection {
     ///
     /// # Errors
     /// Returns an error if the study lacks a chosen quantity, axis or value. It is also an error if, apart from the axis of
-    /// preloads, more than two axes have several values and [`Selection::at`] fixes none of these values.
+    /// preloads, more than two axes have several values and are not fixed by [`Selection::at`].
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;

@@ -1,5 +1,5 @@
-//! The sensitivity of the results of a scene: how the medians over random profiles change when each number of the scene
-//! changes by a tenth. Each number is changed on the same profiles, so that another profile does not count as an influence.
+//! The sensitivity of the results of a scene: how the medians over random profiles change when each number of the scene changes
+//! by a tenth.
 
 use super::axis::{Axis, Shapes};
 use super::cells::Streak;
@@ -69,8 +69,8 @@ impl Sensitivity {
     /// [`Ensemble::profiles_of`] states how many. A scene with κ instead of a work of adhesion keeps κ when another number
     /// changes.
     ///
-    /// `jobs` threads share the profiles, and the first thread computes with `simulation`. The results do not depend on the
-    /// number of threads. After each profile `report` receives the sensitivity over the profiles so far.
+    /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads. The results do not depend on
+    /// `jobs`. After each profile `report` receives the sensitivity over the profiles so far.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
@@ -159,8 +159,8 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if one of the
-    /// two values is missing or the present value is zero.
+    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if a value is
+    /// missing, or if the value in [`Sensitivity::present`] is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }

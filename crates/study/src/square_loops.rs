@@ -14,11 +14,9 @@ pub struct SquareLoops {
     pub maps: u64,
     /// Force curve of each computed square from first touch on: points with indentation in m and force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force in N of each random profile. If the scene has no adhesion, the values are the indentations in m at the
-    /// preload.
+    /// Adhesion force of each random profile in N, or its indentation at the preload in m if the scene has no adhesion.
     pub lines: Vec<f64>,
-    /// Adhesion force in N of each computed square. If the scene has no adhesion, the values are the indentations in m at the
-    /// preload.
+    /// Adhesion force of each computed square in N, or its indentation at the preload in m if the scene has no adhesion.
     pub squares: Vec<f64>,
     /// Comparison of all squares with the random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
@@ -53,8 +51,7 @@ impl SquareLoops {
         Ok(SquareLoops { reference: Some(reference), ..loops })
     }
 
-    /// Compares the adhesion force of the profiles with the adhesion force of the computed squares. If the scene has no
-    /// adhesion, the indentations at the preload are compared. `None` before the first square is computed.
+    /// Compares [`SquareLoops::lines`] with [`SquareLoops::squares`]; `None` before the first square is computed.
     pub fn headline(&self) -> Option<Compared> {
         compared(self.lines.iter().copied(), self.squares.iter().copied())
     }

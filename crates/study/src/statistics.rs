@@ -136,9 +136,9 @@ impl Statistics {
     }
 }
 
-/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added to the mean. With one
-/// bound it is added to the logarithm of the distance from the bound, with two bounds to the logarithm of the ratio of both
-/// distances. The interval never reaches a bound. A narrow interval hardly changes.
+/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added to the mean. With one bound
+/// it is added to the logarithm of the distance from the bound, with two bounds to the logarithm of the ratio of both
+/// distances. The interval never reaches a bound.
 fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     let (above, below) = (mean - least, most - mean);
     // Rounding may have carried the mean itself across a bound.

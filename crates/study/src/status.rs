@@ -13,7 +13,7 @@ use std::path::Path;
 /// profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Number of different records that exist.
+    /// Number of records that exist, each counted once.
     pub done: u64,
     /// Number of records that the study has once it is complete.
     pub total: u64,

@@ -1,8 +1,7 @@
 //! The folder of a study: its plan, and one file for each process that has worked on it.
 //!
-//! A shard file is only ever appended to, by the process that made it. Each record is a line with a checksum. However a
-//! process ends, its written records remain, and an incomplete line is ignored. A crash of the machine loses the records
-//! that have not reached the disk. They are computed again.
+//! A shard file is only ever appended to, by the process that made it. Each record is a line with a checksum. However a process
+//! ends, its written records remain, and an incomplete line is ignored.
 
 use super::error::StudyError;
 use super::measured::{changed, file_of, with_hash};

@@ -1,5 +1,4 @@
-//! The maps of a finished study over H and κ or over other axes. Each combination of values on the remaining axes has one
-//! map.
+//! The maps of a finished study over two of its axes.
 
 use super::axis::Axis;
 use super::error::StudyError;

@@ -36,7 +36,7 @@ impl Merged {
 
 /// Merges the results of all processes in the folder of a study, and writes the tables [`Merged::RESULTS`] and
 /// [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. If some results are missing, the tables have the existing
-/// ones, and the returned [`Merged`] counts the missing ones.
+/// ones.
 ///
 /// # Errors
 /// Returns an error if two files have different results for the same [cell](Plan) and profile, or if a file cannot be read or

@@ -104,8 +104,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates a body with one of several kinds of profiles. Its adhesion ranges from almost none to far more than full
-    /// contact needs. The seed determines the same body on every machine.
+    /// Creates a body with one of several kinds of profiles. The seed determines the same body on every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);

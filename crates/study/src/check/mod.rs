@@ -1,9 +1,7 @@
-//! The catalogue of checks. Its statements about scenes and profiles, each with its evidence and an error bound, are
-//! checked on this machine through the public interface.
+//! The catalogue of checks of scenes and profiles, computed through the public interface.
 //!
-//! A check computes one number, the error, and compares it with a bound that was set beforehand. The evidence is a closed
-//! form, a law that holds for every body, or the stepwise solver, which applies the rules without tree and thresholds. A
-//! check that cannot be computed fails with a sentence that says why.
+//! A check computes one number, the error, and compares it with a bound that was set beforehand. The evidence is a closed form,
+//! a law that holds for every body, or the stepwise solver, which applies the rules without tree and thresholds.
 
 pub(crate) mod case;
 pub(crate) mod closed_forms;
