@@ -22,7 +22,8 @@ const RESAMPLES: usize = 1000;
 const RESAMPLING_SEED: u64 = 2012;
 
 /// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the values on the other axes, on
-/// where the loading turns, and on the share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
+/// where the loading turns ([`AdhesionBoundary::protocol`]), and on the share of the ideal adhesion force F_a,max below which
+/// adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
@@ -45,7 +46,7 @@ pub struct Crossing {
     /// Position of the boundary: `Equal` within the studied range, `Less` below this range, `Greater` above this range.
     pub side: Ordering,
     /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` if there are fewer than two profiles, or if the
-    /// boundary may lie beyond the studied range.
+    /// scatter of the profiles allows a boundary beyond the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -65,7 +66,7 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries for all values on the other axes.
+    /// Boundaries, at most one for each combination of values on the other axes, of turning point and of share of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 

@@ -56,7 +56,7 @@ impl Budget {
         Some(Budget { grid, sample, surface, model: None, largest })
     }
 
-    /// Returns these errors with `share` as [`Budget::model`].
+    /// Returns these errors with the relative error `share` of the model as [`Budget::model`].
     pub fn with_model(self, share: f64) -> Budget {
         let known = [self.grid, self.sample, self.surface].into_iter().flatten();
         let is_largest = known.fold(0.0, f64::max) <= share;

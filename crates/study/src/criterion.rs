@@ -3,8 +3,7 @@
 use asperity_data::{format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Criterion by which one theory decides whether bodies adhere without a preload. The theory compares a number of the scene
-/// with a threshold.
+/// Criterion by which one theory decides whether bodies adhere without a preload: a number of the scene and its threshold.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {

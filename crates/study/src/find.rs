@@ -60,7 +60,7 @@ pub fn find(
 
 impl Found {
     /// Answers a question on all its random profiles. `simulation` is the simulation of the first thread, and `jobs` is the
-    /// number of threads. The results do not depend on `jobs`. After each profile `report` receives the number of finished
+    /// number of threads, which does not change the results. After each profile `report` receives the number of finished
     /// profiles.
     ///
     /// # Errors

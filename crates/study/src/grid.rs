@@ -116,9 +116,9 @@ impl Grid {
         self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. While a
-    /// [`LiveMap`](crate::maps::LiveMap) is computed, it shows a computed cell nearby in place of a missing one. `None` if the
-    /// map shows no cell there.
+    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. An
+    /// incomplete [`LiveMap`](crate::maps::LiveMap) shows a computed cell nearby in place of a missing one. `None` if the map
+    /// shows no cell there.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
@@ -134,7 +134,8 @@ impl Grid {
     /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is true, a cell that is not
     /// computed yet has the statistics of the cell that [`Grid::shown`] returns for it. If the quantity is a regime, its value
     /// in a cell is the most frequent regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If fewer
-    /// than three quarters of the profiles are in this regime, the value is the mean for the two most frequent regimes.
+    /// than three quarters of the profiles are in this regime, the value is halfway between the values of the two most frequent
+    /// regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;

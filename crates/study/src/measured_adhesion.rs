@@ -27,8 +27,8 @@ pub struct ProfileAdhesion {
     /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the force of the unloading is
     /// never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if F_a is `None`
-    /// before or after the change.
+    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if there is no
+    /// adhesion force before or after the change.
     pub fit_change: Option<f64>,
     /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if it is unknown.
     pub regime: Option<Regime>,
@@ -77,7 +77,7 @@ pub struct MeasuredAdhesion {
 impl MeasuredAdhesion {
     /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface. The first profile
     /// has the seed of the scene, and the others have the seeds that follow. Paths of measured files are relative to the folder
-    /// of the scene file. `jobs` threads share the profiles; the results do not depend on their number.
+    /// of the scene file. `jobs` is the number of threads, which does not change the results.
     ///
     /// # Errors
     /// Returns an error if the scene does not make random profiles from a measured surface, if a file cannot be read, or if a
@@ -110,7 +110,7 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::of_line(scene, &line, count, jobs)
     }
 
-    /// Largest number of springs for which [`MeasuredAdhesion::quick_deviation`] computes forces.
+    /// Largest number of springs of a scene that [`MeasuredAdhesion::quick_deviation`] computes.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
     /// Computes a scene on `count` random profiles, as [`MeasuredAdhesion::of`] does, and returns
@@ -154,9 +154,9 @@ impl MeasuredAdhesion {
         rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
     }
 
-    /// Returns the median adhesion force in N, first divided and then multiplied by a factor for the uncertainty of the
-    /// spectrum. The logarithm of the factor is the root mean square of the relative changes of F_a,
-    /// [`ProfileAdhesion::fit_change`] divided by [`ProfileAdhesion::adhesion_force`]. `None` for fewer than two profiles.
+    /// Returns two forces in N, the median adhesion force divided by a factor and the median times this factor; `None` for
+    /// fewer than two profiles. The factor expresses the uncertainty of the spectrum. Its logarithm is the root mean square of
+    /// [`ProfileAdhesion::fit_change`] divided by [`ProfileAdhesion::adhesion_force`].
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)

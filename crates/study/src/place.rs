@@ -6,8 +6,8 @@ use asperity_scene::fields::{FIELDS, Field, Range, Tree};
 use asperity_scene::{Adhesion, Document, Governing, RoughnessParameter, Scene, SceneError, SceneErrors};
 
 impl Axis {
-    /// Returns the value that the quantity of this axis has in a scene; `None` if it has none. `computed` has the numbers that
-    /// follow from the scene, such as κ. It is needed only if the scene has a measured surface.
+    /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no such value. `computed` has
+    /// the numbers that follow from the scene, such as κ, and is needed only for a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -121,8 +121,8 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
 
 impl Axis {
     /// Returns a copy of a scene file in which the quantity of each axis has the given value. If an axis is κ or e_el/γ and the
-    /// scene has a work of adhesion, the copy gets the matching work of adhesion. If an axis is the preload, the copy is loaded
-    /// to this preload and then to separation.
+    /// scene has a work of adhesion, the copy gets the work of adhesion that leads to the given κ or e_el/γ. If an axis is the
+    /// preload, the copy is loaded to this preload and then to separation.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the quantity of an axis, or if the scene does not allow a value.

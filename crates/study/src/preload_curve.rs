@@ -112,7 +112,7 @@ impl PreloadCurve {
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results: results? })
     }
 
-    /// Returns true if nothing is left to compute.
+    /// Returns true if nothing of the curve is left to compute.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }

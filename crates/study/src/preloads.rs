@@ -232,7 +232,7 @@ impl Results {
     }
 
     /// Returns the preload in N on the axis that is nearest to `preload`, and the adhesion force in N after this preload on
-    /// each computed profile. The axis of the study must have preloads in N; `None` if it has no values.
+    /// each computed profile. The axis of the study must have preloads in N; `None` if this axis has no values.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));

@@ -198,7 +198,7 @@ impl Quantity {
     /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns where the loop turns from which the regimes on a map of this quantity follow: `turned at zero force` for
+    /// Returns where the loading turns for the regimes that are shown on a map of this quantity: `turned at zero force` for
     /// [`Quantity::RegimeAfterZeroForce`], and `turned at first touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }

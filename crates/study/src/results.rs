@@ -116,7 +116,7 @@ impl Results {
     }
 
     /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the scene are relative to `folder`.
-    /// `jobs` threads share the profiles; the results do not depend on their number.
+    /// `jobs` is the number of threads, which does not change the results.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed. The errors of [`Results::begin`] are possible too.

@@ -65,12 +65,12 @@ impl Sensitivity {
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
-    /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random profiles.
-    /// [`Ensemble::profiles_of`] states how many. A scene with κ instead of a work of adhesion keeps κ when another number
+    /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random profiles. There are as many
+    /// profiles as [`Ensemble::profiles_of`] returns. A scene with κ instead of a work of adhesion keeps κ when another number
     /// changes.
     ///
-    /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads. The results do not depend on
-    /// `jobs`. After each profile `report` receives the sensitivity over the profiles so far.
+    /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads, which does not change the
+    /// results. After each profile `report` receives the sensitivity over the profiles so far.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
