@@ -45,8 +45,8 @@ pub struct Crossing {
     pub value: f64,
     /// Position of the boundary: `Equal` within the studied range, `Less` below this range, `Greater` above this range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` if there are fewer than two profiles, or if the
-    /// scatter of the profiles allows a boundary beyond the studied range.
+    /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` for fewer than two profiles, or if the scatter of
+    /// the profiles allows a boundary beyond the studied range.
     pub interval: Option<(f64, f64)>,
 }
 

@@ -19,8 +19,8 @@ const THIS_PROGRAM: Criterion =
     Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", Regime::VANISHING_SHARE);
 
 /// Returns the criteria by which other theories and this program judge whether the bodies of a computed scene adhere without a
-/// preload; empty for a scene without adhesion. The criteria of this program come last. They use medians over the profiles of
-/// `ensemble`, or the scene's own profile if no ensemble is given.
+/// preload; empty for a scene without adhesion. The criteria of this program come last and use medians over `ensemble`, or the
+/// scene's own profile without an ensemble.
 ///
 /// Criteria for rough surfaces ignore the form of the body, and are left out for a smooth body.
 ///

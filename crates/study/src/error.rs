@@ -69,8 +69,7 @@ pub enum StudyError {
         /// The two files whose results differ.
         files: [PathBuf; 2],
     },
-    /// The memory does not suffice for this number of records. A record has the results of one [cell](crate::Plan) on one
-    /// random profile.
+    /// The memory does not suffice for this number of records. [`Plan`](crate::Plan) explains what a record is.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
     /// The study needs more memory on the requested number of threads than the system provides.

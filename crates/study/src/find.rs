@@ -21,8 +21,7 @@ pub struct Found {
     pub question: Question,
     /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// First reason why the scene could not be computed with a searched number; `None` if it could be computed with all of
-    /// them.
+    /// First reason why the scene could not be computed with a searched number; `None` if there is none.
     pub refused: Option<String>,
 }
 

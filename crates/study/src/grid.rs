@@ -33,8 +33,7 @@ pub struct GridLayer {
     pub quantity: Quantity,
     /// Scale of the quantity, linear or logarithmic.
     pub scale: AxisScale,
-    /// Ends of the scale, the smallest and the largest mean of the quantity in a [cell](GridCell); `None` if the scale can show
-    /// no mean.
+    /// Smallest and largest mean of the quantity in a [cell](GridCell) that the scale can show; `None` if there is none.
     pub range: Option<(f64, f64)>,
 }
 
@@ -57,8 +56,7 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
-/// Place on a [`Grid`]: the value on the horizontal axis, and the value on the vertical axis or `None` if the grid has no
-/// vertical axis.
+/// Place on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None` if there is no such axis.
 pub type GridPlace = (f64, Option<f64>);
 
 /// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each combination of values on these axes.

@@ -49,8 +49,7 @@ impl Level {
     }
 }
 
-/// Map of a scene over κ or e_el/γ and the Hurst exponent H. It can be shown while its [cells](Plan) are computed from coarse
-/// to fine.
+/// Map of a scene over κ or e_el/γ and the Hurst exponent H, which can be shown while it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,

@@ -46,8 +46,7 @@ const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
     /// Returns the usual options for a scene: 64 grid cells along the side of a square, and 16 random profiles for each square.
-    /// `maps` is the number of squares. If it is `None`, there are 12 squares for a scene with adhesion, and 24 squares for a
-    /// scene without adhesion.
+    /// `maps` is the number of squares. `None` means 12 squares for a scene with adhesion, and 24 without adhesion.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }

@@ -64,7 +64,7 @@ impl StudyProgress {
 ///
 /// # Errors
 /// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file cannot be read or written.
-/// Records that were written before the error are kept.
+/// Records written before the error are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,

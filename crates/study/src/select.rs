@@ -54,8 +54,7 @@ pub struct Selected {
     pub grid: Grid,
     /// Quantities of the figure, one for each panel.
     pub quantities: Vec<Quantity>,
-    /// True if the figure shows each row of a grid with two axes as a curve over the horizontal axis; false for any other
-    /// figure.
+    /// True if the figure shows the rows of a grid with two axes as curves over the horizontal axis.
     pub curves: bool,
     /// Sentence that states the preload of the figure, if the study has several preloads and the figure shows the first one
     /// because the user chose none; otherwise `None`.

@@ -172,8 +172,7 @@ impl Sensitivity {
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// Returns the influences on the result with the index `result` in [`Sensitivity::RESULTS`], the largest relative change
-    /// first.
+    /// Returns the influences on result number `result` of [`Sensitivity::RESULTS`], the largest relative change first.
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {

@@ -124,8 +124,7 @@ impl Statistics {
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a single value both ends are the
-    /// mean.
+    /// Returns both ends of the 95 % confidence interval of the mean. For a single value both are the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }

@@ -143,8 +143,7 @@ impl StudyMap {
         }
     }
 
-    /// Returns a copy of a scene file with the values of map number `slice` on the axes of the study that are not axes of the
-    /// maps.
+    /// Returns a copy of a scene file with the values of map number `slice` on the axes that are not axes of the maps.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow these values.
