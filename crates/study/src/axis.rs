@@ -1,5 +1,4 @@
-//! Axes of a parameter study. An axis has a quantity, which is a number of a scene or follows from several numbers, and the
-//! values of this quantity.
+//! Axes of a parameter study.
 
 use super::error::StudyError;
 use asperity_contact::Move;
@@ -42,18 +41,18 @@ pub enum Spacing {
     List,
 }
 
-/// Axis of a study: one quantity of the scene that the study varies, and the values that the study gives to this quantity.
+/// Axis of a study: a quantity of the scene that the study varies, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Path of the field of the scene that varies, such as `roughness.hurst`, or one of the names in [`Axis::DERIVED`].
     pub path: String,
     /// Name of the quantity in words, such as `Hurst exponent`.
     pub name: String,
-    /// Symbol of the quantity, in which `_` begins an index, as in `F_n`; empty if the quantity has no symbol.
+    /// Symbol of the quantity, such as `F_n`, in which `_` begins a subscript; empty if the quantity has no symbol.
     pub symbol: &'static str,
     /// SI unit of the values; `1` for numbers without a unit.
     pub unit: &'static str,
-    /// How the values are spaced: by equal differences, by equal ratios, or at any distances.
+    /// How the values are spaced.
     pub spacing: Spacing,
     /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) they ascend.
     pub values: Vec<f64>,
@@ -61,16 +60,16 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Names of the quantities that an axis may vary although a scene has no field for them. They are the preload in units of E*
-    /// h L, the preload in N, and the number of springs per shortest wave. E* is the effective modulus, h the rms height and L
-    /// the length of the profile.
+    /// Names of the quantities that an axis may vary although a scene has no field for them. They are `preload` (in units of E*
+    /// h L), `preload_in_N` and `springs_per_wave` (number of springs per shortest wave of the roughness). E* is the effective
+    /// modulus, h the rms height and L the length of the profile.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
     /// Creates an axis that varies the number of a scene at `path`, such as `roughness.hurst`. The `values` are in the SI unit
     /// of this number.
     ///
     /// # Errors
-    /// Returns an error if no scene has a number at this path. The error names the nearest path.
+    /// Returns an error if no scene has a number at this path.
     ///
     /// ```
     /// use asperity_study::{Axis, Spacing};
@@ -157,7 +156,7 @@ impl Axis {
         self.target.is_whole()
     }
 
-    /// Returns true if the values are preloads. The scene is then loaded to each preload instead of by its own loading.
+    /// Returns true if the values are preloads.
     pub fn is_of_preloads(&self) -> bool {
         matches!(self.target, Target::Preload { .. })
     }
@@ -167,8 +166,7 @@ impl Axis {
         self.values.len() as u64
     }
 
-    /// Returns the scale on which figures show the values. It is logarithmic for values with equal ratios, and for a list of
-    /// values above zero of which the largest is at least 50 times the smallest. Otherwise it is linear.
+    /// Returns the scale, linear or logarithmic, on which figures show the values.
     pub fn scale(&self) -> AxisScale {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -195,9 +193,8 @@ impl Axis {
         format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
     }
 
-    /// Returns the value that is `steps` places above `value` on an axis with ascending values, or below `value` if `steps` is
-    /// negative. A step beyond an end of the axis stops at the last value before this end. Returns `None` if the axis has no
-    /// value in this direction.
+    /// Returns the value of the axis that is `steps` values above `value`, or below `value` if `steps` is negative, but at most
+    /// the last one in this direction. `None` if the axis has no value in this direction. The values of the axis must ascend.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;

@@ -1,10 +1,8 @@
-//! The boundary where adhesion without a preload vanishes, between pressure-insensitive and pressure-sensitive adhesion,
-//! eq. (15), with its statistical error.
+//! The boundary where adhesion without a preload vanishes, eq. (15), with its statistical error.
 //!
-//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still adheres. The boundary
-//! κ* is therefore where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max. κ*
-//! depends on this share, so several shares are evaluated together. On profiles of one spectrum κ determines e_el/γ, so
-//! each boundary in κ is also a boundary in e_el/γ.
+//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still adheres. The boundary κ* is
+//! therefore where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max. On profiles
+//! of one spectrum κ determines e_el/γ, so each boundary in κ is also a boundary in e_el/γ.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -23,15 +21,15 @@ const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. This value depends on three choices: the
-/// values on the other axes, whether the loading turns at first touch or at zero force, and the share of the ideal adhesion
-/// force F_a,max below which adhesion counts as vanished.
+/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the values on the other axes, on
+/// where the loading turns ([`AdhesionBoundary::protocol`]), and on the share of the ideal adhesion force F_a,max below which
+/// adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// Recorded quantity that falls when κ grows: F_a(d=0)/F_a,max if the loading turns at first touch, F_a(F=0)/F_a,max if the
-    /// loading turns at zero force.
+    /// Quantity whose mean is compared with [`AdhesionBoundary::level`]: F_a(d=0)/F_a,max if the loading turns at first touch,
+    /// or F_a(F=0)/F_a,max if it turns at zero force.
     pub protocol: Quantity,
     /// Share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
     pub level: f64,
@@ -39,19 +37,16 @@ pub struct AdhesionBoundary {
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ above which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, stays below
-/// [`AdhesionBoundary::level`]. The mean is taken over the random profiles.
+/// Value of κ or e_el/γ above which the mean of [`AdhesionBoundary::protocol`] over the random profiles stays below
+/// [`AdhesionBoundary::level`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Value of κ or e_el/γ at the boundary. If the boundary lies beyond the studied range, the value is the end of the range
-    /// that is nearer to the boundary.
+    /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary lies beyond this range.
     pub value: f64,
-    /// Position of the boundary: `Equal` within the studied range of κ or e_el/γ, `Less` below this range, `Greater` above this
-    /// range.
+    /// Position of the boundary: `Equal` within the studied range, `Less` below this range, `Greater` above this range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of [`Crossing::value`]. They follow from the values for many random selections of
-    /// the profiles. `None` if there are fewer than two profiles, or if the value for all profiles or for any selection lies
-    /// beyond the studied range.
+    /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` for fewer than two profiles, or if the scatter of
+    /// the profiles allows a boundary beyond the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -71,8 +66,7 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes. For the same values, the boundaries for F_a(d=0) come before the
-    /// boundaries for F_a(F=0), each in the order of the given shares of F_a,max.
+    /// Boundaries, at most one for each combination of values on the other axes, of turning point and of share of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -112,7 +106,7 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns where the loading turns: `first touch` or `zero force`. [`AdhesionBoundary::protocol`] decides.
+    /// Returns where the loading turns: `first touch` or `zero force`.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
     }
@@ -122,9 +116,9 @@ impl Boundaries {
     /// Usual shares of F_a,max below which adhesion counts as vanished.
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
-    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. The folder `path` contains a study with an
-    /// axis of κ or e_el/γ, and [`merge`](crate::merge) has written the tables of this study. `over` is the parameter, κ or
-    /// e_el/γ, in which the boundaries are returned. `levels` are the shares of F_a,max below which adhesion counts as vanished.
+    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the folder of a study with an
+    /// axis of κ or e_el/γ, for which [`merge`](crate::merge) has written the tables. `over` is the parameter, κ or e_el/γ, in
+    /// which the boundaries are returned. `levels` has one or several [`AdhesionBoundary::level`].
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor
@@ -175,7 +169,7 @@ impl Boundaries {
         Ok(Boundaries { over, others, lines: plan.lines, found })
     }
 
-    /// Returns the symbol of the value at a boundary: `κ*` or `(e_el/γ)*`, according to [`Boundaries::over`].
+    /// Returns the symbol of the value at a boundary: `κ*` or `(e_el/γ)*`.
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",

@@ -24,17 +24,16 @@ pub struct Budget {
     pub sample: Option<f64>,
     /// Error of the median over random profiles, due to the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
-    /// Error of the model, which replaces a surface by a one-dimensional profile. It is found by comparison with the same
-    /// bodies in three dimensions.
+    /// Error of the model: relative difference between one-dimensional profiles and the same bodies in three dimensions.
     pub model: Option<f64>,
-    /// Name of the source with the largest known error: `grid`, `sample`, `surface` or `model`.
+    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`; `None` if no error is known.
     pub largest: Option<&'static str>,
 }
 
 impl Budget {
-    /// Collects the errors of a computed scene; `None` if the adhesion force of the scene is not above zero. `estimate` has the
-    /// error due to the number of springs. `ensemble` has the results on random profiles. `deviation` is the standard deviation
-    /// of the adhesion force in N due to the uncertainty of the spectrum of a measured surface.
+    /// Collects the errors of a computed scene; `None` if the adhesion force of the scene is not above zero. `estimate` gives
+    /// [`Budget::grid`], and `ensemble` gives [`Budget::sample`]. `deviation` is the standard deviation of the adhesion force
+    /// in N due to the uncertainty of the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,
@@ -56,7 +55,7 @@ impl Budget {
         Some(Budget { grid, sample, surface, model: None, largest })
     }
 
-    /// Returns these errors with `share` as [`Budget::model`]. `share` is the error of the model divided by the adhesion force.
+    /// Returns these errors with the relative error `share` of the model as [`Budget::model`].
     pub fn with_model(self, share: f64) -> Budget {
         let known = [self.grid, self.sample, self.surface].into_iter().flatten();
         let is_largest = known.fold(0.0, f64::max) <= share;

@@ -1,15 +1,14 @@
 //! Order and division of the computation of a plan.
 //!
-//! A *cell* is one combination of values on the axes. A *streak* is one loading with all cells that differ only in the
-//! preload. A *unit* is computed by one thread. It has streaks on one random profile with the same roughness, so that the
-//! profile and its tree are made once. Within a unit the numbers that shape the profile vary slowest.
+//! A *cell* is one combination of values on the axes. A *streak* is one loading with all cells that differ only in the preload.
+//! A *unit* is computed by one thread. It has streaks on one random profile with the same roughness, so that the profile and
+//! its tree are made once.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;
 use std::ops::Range;
 
-/// Largest number of units for which the streaks of one profile are divided into several units. Many processes can then
-/// share a plan of few profiles.
+/// Largest number of units for which the streaks of one profile are divided into several units.
 const ENOUGH_UNITS: u64 = 256;
 /// Smallest number of streaks in a unit of a divided profile. With fewer, making the profile would cost more than the
 /// streaks.
@@ -18,8 +17,7 @@ const LEAST_STREAKS: u64 = 16;
 /// Numbering of the streaks and units of a plan.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
-    /// Indices of the axes without preloads: first axes that shape the roughness, then axes that shape the profile, then
-    /// the others.
+    /// Indices of the axes without preloads, sorted by [`Shapes`].
     order: Vec<usize>,
     /// Number of streaks on one profile with the same roughness.
     steps: u64,

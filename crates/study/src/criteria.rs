@@ -1,7 +1,7 @@
 //! Criteria by which other theories and this program decide whether a randomly rough body adheres without a preload.
 //!
 //! Each criterion has its own conditions, and says so where they do not hold. The criteria disagree, because their theories
-//! have different limits; the majority decides nothing.
+//! have different limits.
 
 use super::criterion::{Criterion, long_ranged};
 use super::ensemble::Ensemble;
@@ -19,12 +19,10 @@ const THIS_PROGRAM: Criterion =
     Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", Regime::VANISHING_SHARE);
 
 /// Returns the criteria by which other theories and this program judge whether the bodies of a computed scene adhere without a
-/// preload. The last criteria are the two of this program. They divide F_a(d=0) and F_a(F=0) by the adhesion force of the same
-/// body without roughness. F_a(d=0) and F_a(F=0) are medians over the profiles of `ensemble`, or the forces of the scene's own
-/// profile if no ensemble is given.
+/// preload; empty for a scene without adhesion. The criteria of this program come last and use medians over `ensemble`, or the
+/// scene's own profile without an ensemble.
 ///
-/// For a smooth body the criteria for rough surfaces are left out. For a scene without adhesion there are no criteria. The
-/// criteria for rough surfaces ignore the form of the body.
+/// Criteria for rough surfaces ignore the form of the body, and are left out for a smooth body.
 ///
 /// ```
 /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;

@@ -3,8 +3,7 @@
 use asperity_data::{format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Criterion by which one theory decides whether bodies adhere without a preload. A number of the scene is compared with a
-/// threshold, and the verdict follows.
+/// Criterion by which one theory decides whether bodies adhere without a preload: a number of the scene and its threshold.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {
@@ -21,8 +20,7 @@ pub struct Criterion {
     /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory are not met, or if the
     /// number alone decides nothing.
     pub sticks: Option<bool>,
-    /// Reason why there is no verdict. If the criterion is the one of this program and there is a verdict, the text states
-    /// where the loading turns and over how many profiles the median is taken.
+    /// Reason why there is no verdict, or a remark on how the number was computed.
     pub reason: Option<String>,
 }
 
@@ -41,8 +39,7 @@ impl Criterion {
         Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
     }
 
-    /// Returns one line of text with the number, the threshold and the verdict. If there is no verdict, the line has the reason
-    /// instead of the verdict.
+    /// Returns the criterion as one line of text, with the verdict or the reason why there is none.
     pub fn words(&self) -> String {
         let behind =
             |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));

@@ -1,5 +1,4 @@
-//! The ensemble of a scene: its results on random profiles of one roughness. They characterise the scene independently of
-//! its seed.
+//! The ensemble of a scene: its results on random profiles of one roughness.
 
 use super::error::StudyError;
 use super::profiles::Stop;
@@ -20,11 +19,11 @@ impl Ensemble {
     /// Usual number of random profiles, for a caller that requests no other number.
     pub const PROFILES: u64 = 16;
 
-    /// Sentence that is shown for a scene with a fixed profile.
+    /// Sentence that a report shows instead of statistics for a scene with a fixed profile.
     pub const FIXED: &str =
         "The profile of this scene is fixed, so there is no scatter over random profiles.";
 
-    /// Quantities that are recorded in each ensemble. The summary of `asperity run` shows their statistics.
+    /// Quantities that are recorded in each ensemble.
     pub const NUMBERS: [Quantity; 5] = [
         Quantity::AdhesionForce,
         Quantity::AdhesionShare,
@@ -42,15 +41,15 @@ impl Ensemble {
         Quantity::TaborNumber,
     ];
 
-    /// Returns the usual number of profiles for a scene. It is 1 if the profile of the scene is fixed or the solver is the slow
-    /// [`Solver::Stepwise`]. For all other scenes it is [`Ensemble::PROFILES`].
+    /// Returns the usual number of profiles for a scene: 1 if its profile is fixed or its solver is [`Solver::Stepwise`],
+    /// otherwise [`Ensemble::PROFILES`].
     pub fn profiles_of(scene: &Scene) -> u64 {
         let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
         if several { Ensemble::PROFILES } else { 1 }
     }
 
     /// Computes a checked scene on `profiles` random profiles. The recorded quantities are [`Ensemble::NUMBERS`], `further` and
-    /// both regimes, [`Quantity::REGIMES`]. A profile on which the loading cannot be followed has no values.
+    /// [`Quantity::REGIMES`].
     ///
     /// `workers` is a pair: the simulation with which the first thread computes, and the number of threads that share the
     /// profiles. The results do not depend on the number of threads. After each profile `report` receives the number of
@@ -88,7 +87,7 @@ impl Ensemble {
         (0..self.profiles()).filter(|line| self.results.has(0, *line)).count() as u64
     }
 
-    /// Returns the seeds of the profiles on which the loading cannot be followed, each with the reason in one line.
+    /// Returns the seeds of the profiles that cannot be computed, each with the reason in one line.
     pub fn failed(&self) -> impl Iterator<Item = (u64, &str)> {
         self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
@@ -98,8 +97,7 @@ impl Ensemble {
         &self.results
     }
 
-    /// Returns the statistics of a quantity over the computed profiles on which it has a value; `None` if it has a value on none
-    /// of them.
+    /// Returns the statistics of a quantity over the computed profiles; `None` if it has no value on any of them.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }
@@ -110,8 +108,8 @@ impl Ensemble {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }
 
-    /// Returns the numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from
-    /// F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
+    /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }

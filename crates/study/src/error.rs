@@ -18,7 +18,7 @@ pub(super) const ONE_PROFILE: (&str, &str) = (
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// A plan has errors. Each text is one line that states the place of an error, what was found and what is allowed.
+    /// A plan has errors. Each text describes one error in one line.
     #[error("{}", .0.join("\n"))]
     Plan(Vec<String>),
     /// A folder or file of the study cannot be used.
@@ -38,8 +38,7 @@ pub enum StudyError {
     /// A scene of the study could not be computed.
     #[error("{place}{error}")]
     Run {
-        /// Place of the failure as text: the values on the axes and the seed of the profile, followed by a colon. Empty if a
-        /// single profile is computed.
+        /// Values on the axes and seed of the profile, as text that ends with a colon; empty if a single profile is computed.
         place: String,
         /// Reason why the computation failed.
         error: RunError,
@@ -70,8 +69,7 @@ pub enum StudyError {
         /// The two files whose results differ.
         files: [PathBuf; 2],
     },
-    /// The memory does not suffice for a table with this number of rows. A table has one row for each combination of values on
-    /// the axes (a [cell](crate::Plan)) and each random profile.
+    /// The memory does not suffice for this number of records. [`Plan`](crate::Plan) explains what a record is.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
     /// The study needs more memory on the requested number of threads than the system provides.
@@ -85,7 +83,7 @@ pub enum StudyError {
         /// Memory that the study needs, in bytes.
         bytes: u64,
     },
-    /// The system could not start a thread. The contained error is the reason.
+    /// The system could not start a thread, for the reason in the contained error.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
@@ -122,8 +120,7 @@ impl StudyError {
         if threads > 0 { Ok(()) } else { Err(StudyError::refused(None, "0 threads", "at least one")) }
     }
 
-    /// Returns true if the computation ended because its [`Stop`](crate::Stop) returned true. Returns false if the computation
-    /// failed.
+    /// Returns true if the computation ended because its [`Stop`](crate::Stop) returned true.
     pub fn is_interruption(&self) -> bool {
         match self {
             StudyError::Run { error, .. } => error.is_interruption(),

@@ -1,8 +1,7 @@
 //! The inverse question: at which value of a number of a scene, or at which preload, does a quantity reach a target?
 //!
 //! Each profile is searched separately. The adhesion force never falls with the preload, so two preloads bracket its only
-//! crossing. Any other quantity is first computed at several numbers over the searched range. A bracket is then narrowed
-//! until its ends agree to [`WITHIN`](super::question::WITHIN). At a step, one end lies before the step and one behind it.
+//! crossing. Any other quantity is first computed at several numbers over the searched range.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_profiles};
@@ -22,15 +21,13 @@ pub struct Found {
     pub question: Question,
     /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// Reason why the scene could not be computed with one of the searched numbers. It is the first such reason; `None` if all
-    /// numbers could be computed.
+    /// First reason why the scene could not be computed with a searched number; `None` if there is none.
     pub refused: Option<String>,
 }
 
 /// Finds the value of a number of a scene at which a quantity has a given value, on each of `profiles` random profiles. `path`
-/// is the path of the number, or `preload`. `condition` is the quantity and the wanted value of the quantity in its SI unit.
-/// The numbers in the range that [`Question::new`] chooses are searched. The progress that `control` reports is the number of
-/// finished profiles.
+/// is the path of the number, or `preload`. `condition` is the quantity and its wanted value in SI units. [`Question::new`]
+/// states which numbers are searched. The progress that `control` reports is the number of finished profiles.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested. The errors of [`Question::new`] and [`Found::of`] are possible too.
@@ -61,8 +58,8 @@ pub fn find(
 }
 
 impl Found {
-    /// Answers a question on all its random profiles, which `jobs` threads share. The first thread computes with `simulation`.
-    /// The results do not depend on the number of threads. After each profile `report` receives the number of finished
+    /// Answers a question on all its random profiles. `simulation` is the simulation of the first thread, and `jobs` is the
+    /// number of threads, which does not change the results. After each profile `report` receives the number of finished
     /// profiles.
     ///
     /// # Errors
@@ -122,9 +119,9 @@ impl Found {
         Ok(())
     }
 
-    /// Returns for each profile the number, in its SI unit, at which the quantity reaches the target. It is the smallest of
-    /// [`Answer::crossings`]. If a preload is sought and the quantity is at least the target after the smallest searched preload,
-    /// it is the smallest searched preload. On any other profile without crossings it is `None`.
+    /// Returns for each profile the smallest of [`Answer::crossings`], in the SI unit of the number; `None` for a profile
+    /// without a crossing. If a preload is sought and the smallest searched preload suffices to reach the target, this preload
+    /// is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers.iter().map(|answer| answer.value(&self.question)).collect()
     }
@@ -150,8 +147,8 @@ impl Found {
         places
     }
 
-    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. On a profile without
-    /// a value, the number is taken as beyond the searched range. `None` if the quantile lies beyond the searched range.
+    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. A profile without a
+    /// value counts as beyond the searched range. `None` if the quantile lies beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let places = self.ascending();
         let place = share * places.len().checked_sub(1)? as f64;

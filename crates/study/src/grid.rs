@@ -8,21 +8,19 @@ use asperity_scene::{Regime, RoughnessParameter};
 
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// Results of a study in one cell of a [`Grid`]. A cell is the combination of one value on the horizontal axis and one value on
-/// the vertical axis.
+/// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value on the vertical axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridCell {
     /// Statistics over the random profiles for the quantity of each layer, in the order of [`Grid::layers`]; `None` if no
     /// profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from F_a(d=0), the
-    /// second for the regime that follows from F_a(F=0).
+    /// Numbers of profiles in each regime: first for [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime of adhesion. If `quantity` is [`Quantity::RegimeAfterZeroForce`], they are
-    /// for the regime that follows from F_a(F=0). For any other quantity they are for the regime that follows from F_a(d=0).
+    /// Returns the numbers of profiles in each regime. If `quantity` is [`Quantity::RegimeAfterZeroForce`], they are for this
+    /// regime, otherwise for [`Quantity::Regime`].
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -35,9 +33,7 @@ pub struct GridLayer {
     pub quantity: Quantity,
     /// Scale of the quantity, linear or logarithmic.
     pub scale: AxisScale,
-    /// Ends of the scale: the smallest and the largest mean of the quantity over the profiles of a [cell](GridCell), among all
-    /// cells of all grids with this scale. Means that the scale cannot show, such as zero on a logarithmic scale, do not count.
-    /// `None` if no mean remains.
+    /// Smallest and largest mean of the quantity in a [cell](GridCell) that the scale can show; `None` if there is none.
     pub range: Option<(f64, f64)>,
 }
 
@@ -60,8 +56,7 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
-/// Place on a [`Grid`]: the value on the horizontal axis, and the value on the vertical axis. The second value is `None` on a
-/// grid without a vertical axis.
+/// Place on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None` if there is no such axis.
 pub type GridPlace = (f64, Option<f64>);
 
 /// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each combination of values on these axes.
@@ -75,15 +70,15 @@ pub struct Grid {
     pub fixed: Vec<String>,
     /// Quantities that the grid shows. Regimes are not among them: [`GridCell::regimes`] counts the profiles in each regime.
     pub layers: Vec<GridLayer>,
-    /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is computed. An error is the
-    /// reason why the cell cannot be computed.
+    /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is computed. An error states why
+    /// a cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
     /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
 impl Grid {
-    /// Creates a grid. A [cell](GridCell) that is not computed yet is shown as missing, and not by the results of a cell nearby.
+    /// Creates a grid from the values of its public fields.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -119,9 +114,9 @@ impl Grid {
         self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. As long as
-    /// the cell of a [`LiveMap`](crate::maps::LiveMap) in this column and row is not computed, a computed cell nearby is shown.
-    /// `None` if the map shows no cell there.
+    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. An
+    /// incomplete [`LiveMap`](crate::maps::LiveMap) shows a computed cell nearby in place of a missing one. `None` if the map
+    /// shows no cell there.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
@@ -134,10 +129,11 @@ impl Grid {
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
 
-    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is true, a cell that is not computed
-    /// yet has the statistics of the cell that [`Grid::shown`] returns for it. If the quantity is a regime, its value in a cell
-    /// is the most frequent regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If less than three
-    /// quarters of the profiles have this regime, the value is the mean of the values of the two most frequent regimes.
+    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is true, a cell that is not
+    /// computed yet has the statistics of the cell that [`Grid::shown`] returns for it. If the quantity is a regime, its value
+    /// in a cell is the most frequent regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If fewer
+    /// than three quarters of the profiles are in this regime, the value is halfway between the values of the two most frequent
+    /// regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
@@ -155,8 +151,8 @@ impl Grid {
     }
 
     /// Returns the most frequent regime of each [cell](GridCell), row by row; empty if no regime is known in any cell.
-    /// `quantity` chooses the regime that follows from F_a(d=0) or from F_a(F=0), as in [`GridCell::regimes_of`]. If `whole` is
-    /// true, a cell that is not computed yet has the regime of the cell that [`Grid::shown`] returns for it.
+    /// `quantity` chooses the regime as in [`GridCell::regimes_of`]. If `whole` is true, a cell that is not computed yet has
+    /// the regime of the cell that [`Grid::shown`] returns for it.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();

@@ -87,8 +87,7 @@ pub mod folders {
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Maps of results over two axes of a study. The module also has the values of κ or e_el/γ at which adhesion without a preload
-/// vanishes.
+/// Maps of results over two axes of a study, and the values of κ or e_el/γ at which adhesion without a preload vanishes.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
@@ -103,8 +102,7 @@ pub mod checks {
     pub use crate::check::{Check, Verdict};
 }
 
-/// Comparison of a scene computed on one-dimensional profiles with the same scene computed in three dimensions. The difference
-/// is the error of the model.
+/// Comparison of a scene computed on one-dimensional profiles with the same scene computed in three dimensions.
 pub mod half_space {
     pub use crate::reference::{
         Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,

@@ -1,5 +1,4 @@
-//! The map of a scene in the explorer, over H and κ or e_el/γ. It is a study in memory that is computed from coarse to
-//! fine.
+//! The map of a scene in the explorer: a study in memory that is computed from coarse to fine.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -15,8 +14,7 @@ use std::collections::BTreeMap;
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// Resolution of a [`LiveMap`]: the values on the two axes for which the map is computed. Each level contains all values of the
-/// level before.
+/// Resolution of a [`LiveMap`]: the values on the two axes for which the map is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 values of κ or e_el/γ and 5 values of H.
@@ -33,7 +31,7 @@ impl Level {
     /// All levels, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Returns the finest level of a map with this number of springs. Many springs take long, so the map has fewer cells.
+    /// Returns the finest level of a map with this number of springs.
     fn finest(springs: u64) -> Level {
         let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
         Level::ALL[3 - too_fine]
@@ -51,8 +49,7 @@ impl Level {
     }
 }
 
-/// Map of a scene over κ or e_el/γ and the Hurst exponent H. It has a [cell](Plan) for each combination of values of both. The
-/// map is computed from coarse to fine, and can be shown while it is computed.
+/// Map of a scene over κ or e_el/γ and the Hurst exponent H, which can be shown while it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -68,13 +65,12 @@ impl LiveMap {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
 
-    /// Returns the plan of the map. Each [cell](Plan) of the plan is a cell of the map.
+    /// Returns the plan of the map.
     pub fn plan(&self) -> &Plan {
         self.results.plan()
     }
 
-    /// Returns the [cells](Plan) of a level, each by its number in the plan. The cells are in groups: each group has one value
-    /// of H and all values of κ or e_el/γ of this level.
+    /// Returns the numbers of the [cells](Plan) of a level, in groups of cells with the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
@@ -103,21 +99,18 @@ impl LiveMap {
         self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
     }
 
-    /// Returns the finest level that is complete: each of its [cells](Plan) is computed or cannot be computed. `None` if no
-    /// level is complete.
+    /// Returns the finest level of which no [cell](Plan) is left to compute; `None` if there is no such level.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true if no [cell](Plan) is left to compute. If the scene has many springs, only the cells of a coarser level
-    /// than [`Level::Whole`] are computed.
+    /// Returns true if no [cell](Plan) is left to compute.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing [cells](Plan) from coarse to fine. Within a level, all cells with one value of H come before the
-    /// cells with the next value. `report` receives the map after each value of H. If `stop` returns true, the computation ends
-    /// and the map keeps its results. For a cell that cannot be computed the map keeps the reason.
+    /// Computes the missing [cells](Plan) from coarse to fine. `report` receives the map after each value of H. If `stop`
+    /// returns true, the computation ends and the map keeps its results.
     pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
@@ -144,8 +137,7 @@ impl LiveMap {
     }
 
     /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis. Without H the map has
-    /// only a horizontal axis, κ or e_el/γ. The statistics of the [cells](Plan) have no confidence interval, because the
-    /// profiles are too few.
+    /// only a horizontal axis, κ or e_el/γ.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =

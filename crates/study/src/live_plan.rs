@@ -18,8 +18,7 @@ pub const MAP_RECORD: [Quantity; 6] = [
     Quantity::RegimeAfterZeroForce,
     Quantity::AdhesionShare,
 ];
-/// Smallest and largest usual number of springs of a map. A scene with fewer springs keeps its own number, and short waves
-/// need more.
+/// Smallest and largest usual number of springs of a map. Short waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
 /// Values of κ and H that represent all others.
 const ANY: (f64, f64) = (1.0, 0.5);
@@ -36,13 +35,11 @@ fn kappas() -> Vec<f64> {
 }
 
 impl Plan {
-    /// Number of random profiles for each [cell](crate::Plan) of a map of self-affine roughness. On the map of a measured
-    /// surface each cell has one profile.
+    /// Number of random profiles for each [cell](crate::Plan) of a map of self-affine roughness.
     pub const PROFILES_OF_MAP: u64 = 4;
 
-    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. The first axis is κ. If the roughness has a
-    /// Hurst exponent H, the second axis is H. Scenes that differ only in κ, in H or in the number of points of the force curve
-    /// have the same plan.
+    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. Its axes are κ and, if the roughness has a
+    /// Hurst exponent H, also H.
     ///
     /// # Errors
     /// Returns an error with the reason if the scene has no map, for example because the body is smooth.

@@ -1,8 +1,7 @@
-//! The measured files of a study: surfaces, and the table of a form. Their content determines the results as much as the
-//! plan does. The plan therefore holds the hash of the files, and a run computes with exactly the bytes that were hashed.
+//! The measured files of a study: surfaces, and the table of a form. The plan holds the hash of the files, because their
+//! content determines the results as much as the plan does.
 //!
-//! The hash is SHA-256, because one in 4e9 accidental changes would pass a checksum of 32 bits. `sha256sum` identifies the
-//! right copy of a file.
+//! The hash is SHA-256, because one in 4e9 accidental changes would pass a checksum of 32 bits.
 
 use super::error::StudyError;
 use super::plan::{PLAN_FILE, Plan};

@@ -1,9 +1,8 @@
 //! Adhesion of a measured surface with two spreads: over random profiles of one spectrum, and over the spectra that the
 //! measurement allows.
 //!
-//! Each random profile is solved twice with the same phases. Its first spectrum is the fitted one. The second differs a
-//! little, in a direction drawn from the uncertainty of the fit. The first forces differ from profile to profile. Both
-//! forces of one profile differ only because of the spectrum.
+//! Each random profile is solved twice with the same phases: with the fitted spectrum, and with a spectrum that differs a
+//! little in a direction drawn from the uncertainty of the fit.
 
 use super::error::StudyError;
 use super::quantity::Quantity;
@@ -28,18 +27,17 @@ pub struct ProfileAdhesion {
     /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the force of the unloading is
     /// never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N if the spectrum changes at random within the uncertainty of its fit. F_a is computed for a small part
-    /// of the change of the spectrum, and the change of F_a is extrapolated in proportion.
+    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if there is no
+    /// adhesion force before or after the change.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum.
+    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if it is unknown.
     pub regime: Option<Regime>,
-    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum.
+    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if it is unknown.
     pub regime_after_zero_force: Option<Regime>,
 }
 
 impl ProfileAdhesion {
-    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the spectrum of the measured surface
-    /// and the uncertainty of this spectrum.
+    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the spectrum and its uncertainty.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -78,13 +76,12 @@ pub struct MeasuredAdhesion {
 
 impl MeasuredAdhesion {
     /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface. The first profile
-    /// has the seed of the scene, and the others have the seeds that follow. The measured files are read with the options of
-    /// the scene, and their paths are relative to the folder of the scene file. `jobs` threads share the profiles. The results
-    /// do not depend on the number of threads.
+    /// has the seed of the scene, and the others have the seeds that follow. Paths of measured files are relative to the folder
+    /// of the scene file. `jobs` is the number of threads, which does not change the results.
     ///
     /// # Errors
     /// Returns an error if the scene does not make random profiles from a measured surface, if a file cannot be read, or if a
-    /// profile cannot be computed. If several profiles fail, the error is the one of the first profile.
+    /// profile cannot be computed.
     ///
     /// ```
     /// let folder = tempfile::tempdir()?;
@@ -113,8 +110,7 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::of_line(scene, &line, count, jobs)
     }
 
-    /// Largest number of springs for which [`MeasuredAdhesion::quick_deviation`] computes forces. With so many springs it takes
-    /// some seconds.
+    /// Largest number of springs of a scene that [`MeasuredAdhesion::quick_deviation`] computes.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
     /// Computes a scene on `count` random profiles, as [`MeasuredAdhesion::of`] does, and returns
@@ -125,11 +121,10 @@ impl MeasuredAdhesion {
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `line` replaces
-    /// the measured surface of the scene. The options of the scene for reading and analysing its surface are not used.
+    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does.
     ///
     /// # Errors
-    /// Returns an error if a profile cannot be computed. If several profiles fail, the error is the one of the first profile.
+    /// Returns an error if a profile cannot be computed.
     pub fn of_line(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -159,10 +154,9 @@ impl MeasuredAdhesion {
         rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
     }
 
-    /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for fewer
-    /// than two profiles. The ends of the interval are the median divided by a factor and the median times this factor. The
-    /// logarithm of the factor is the root mean square over the profiles of [`ProfileAdhesion::fit_change`] divided by the
-    /// adhesion force of the same profile.
+    /// Returns two forces in N, the median adhesion force divided by a factor and the median times this factor; `None` for
+    /// fewer than two profiles. The factor expresses the uncertainty of the spectrum. Its logarithm is the root mean square of
+    /// [`ProfileAdhesion::fit_change`] divided by [`ProfileAdhesion::adhesion_force`].
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
@@ -172,8 +166,8 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Returns the numbers of profiles in each regime of adhesion. The first numbers are for the regime that follows from
-    /// F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
+    /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))

@@ -14,8 +14,7 @@ const LONGEST_KEPT: u64 = 1 << 22;
 const REVERSED: u64 = 192;
 
 impl Plan {
-    /// Returns the memory in bytes that a study of this plan needs at most on `jobs` threads. This is the memory if each thread
-    /// computes the scene of the plan that needs the most memory.
+    /// Returns the memory in bytes that a study of this plan needs at most on `jobs` threads.
     ///
     /// # Errors
     /// Returns an error if the study needs more memory than the system provides now.

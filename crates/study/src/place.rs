@@ -7,8 +7,7 @@ use asperity_scene::{Adhesion, Document, Governing, RoughnessParameter, Scene, S
 
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no such value. `computed` has
-    /// numbers that follow from the scene, such as κ. These numbers are needed only if the scene has a measured surface,
-    /// because they depend on the file of the surface.
+    /// the numbers that follow from the scene, such as κ, and is needed only for a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -121,9 +120,9 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
 }
 
 impl Axis {
-    /// Returns a copy of a scene file in which the quantity of each axis has the given value. If the scene has a work of
-    /// adhesion and an axis is κ or e_el/γ, the copy has the work of adhesion that belongs to the new value of κ or e_el/γ. If
-    /// an axis is the preload, the copy has a new loading: to this preload, and then to separation.
+    /// Returns a copy of a scene file in which the quantity of each axis has the given value. If an axis is κ or e_el/γ and the
+    /// scene has a work of adhesion, the copy gets the work of adhesion that leads to the given κ or e_el/γ. If an axis is the
+    /// preload, the copy is loaded to this preload and then to separation.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the quantity of an axis, or if the scene does not allow a value.

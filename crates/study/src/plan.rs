@@ -36,31 +36,28 @@ const SAME: [&[&str]; 3] = [
 pub struct Plan {
     /// Title of the study in one line.
     pub title: String,
-    /// Text that readers of the results should see, such as a limit of the study; may be empty.
+    /// Note for readers of the results, such as a limit of the study; may be empty.
     pub notice: String,
     /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
-    /// Axes of the study. Cells are numbered so that the value on the last axis changes first. If the plan has preloads, their
-    /// axis is the last one, and each preload replaces the loading of the scene. Preloads are in N or in units of E* h L, with
-    /// the effective modulus E*, the rms height h and the length L.
+    /// Axes of the study. From one cell to the next, the value on the last axis changes fastest. An axis of preloads is always
+    /// the last one, and each preload replaces the loading of the scene.
     pub axes: Vec<Axis>,
-    /// Number of random profiles for each [cell](Plan), which is one combination of values on the axes.
+    /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
     /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the same in all [cells](Plan).
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) and profile.
     pub record: Vec<Quantity>,
-    /// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
-    /// [`Quantity::ForceExponent`].
+    /// Forces for the fits of [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`].
     pub stiffness: StiffnessRange,
     /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene without such files, and for a
     /// plan that is not in the [`Folder`](crate::Folder) of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Forces at which the contact without adhesion is computed, to fit [`Quantity::StiffnessExponent`] and
-/// [`Quantity::ForceExponent`]. The forces are in units of E* h L, with the effective modulus E*, the rms height h and the length
-/// L of the profile.
+/// Forces at which the contact without adhesion is computed for [`Quantity::StiffnessExponent`] and
+/// [`Quantity::ForceExponent`]. They are in units of E* h L: effective modulus E*, rms height h, length L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -68,12 +65,12 @@ pub struct StiffnessRange {
     pub from: f64,
     /// Largest force of the range.
     pub to: f64,
-    /// Number of forces in the range, at least 2. All neighbouring forces have the same ratio.
+    /// Number of forces in the range, at least 2, with equal ratios of neighbouring forces.
     pub count: u64,
 }
 
 impl Default for StiffnessRange {
-    /// Returns a range from forces that a few waves carry to forces that flatten the long waves.
+    /// Returns 17 forces from 10⁻⁴ to 10⁻² in units of E* h L.
     fn default() -> Self {
         StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
     }
@@ -109,7 +106,7 @@ impl Plan {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Returns the number of [cells](Plan), which is the product of the numbers of values on all axes.
+    /// Returns the number of [cells](Plan).
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }
@@ -156,8 +153,9 @@ impl Plan {
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the axes. It keeps the loading of
-    /// the plan's scene, even if one of the axes is the preload.
+    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the axes. A preload axis is the
+    /// exception: the scene keeps the loading of the plan's scene, because the preload is applied only when the cell is
+    /// computed.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number of an axis, or if a value is out of its range.
@@ -180,8 +178,7 @@ impl Plan {
     }
 }
 
-/// Checks of a plan. The checks of the plan itself are quick. The scenes of its cells are checked when a plan is opened,
-/// but not when the folder of a study is opened again.
+/// Checks of a plan. The scenes of its cells are not checked again when the folder of a study is opened.
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();

@@ -17,10 +17,10 @@ use std::path::Path;
 /// Version of the plan file. No other version is supported.
 pub const PLAN_VERSION: u32 = 1;
 
-/// Changes that [`Plan::open`] makes to a plan after it has read the file. The file stays as it is.
+/// Changes that [`Plan::open`] makes to the plan that it has read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Fields of the scene that get a new value. Each has the path of the field and the new value, written as in a scene file.
+    /// Paths of fields of the scene, each with its new value, written as in a scene file.
     pub set: Vec<(String, String)>,
     /// Number of random profiles for each [cell](Plan); `None` keeps the number in the plan.
     pub lines: Option<u64>,
@@ -67,13 +67,11 @@ impl Plan {
         "self-averaging"
     );
 
-    /// Reads and checks a plan. `name_or_path` is the path of a file if this file exists or the text looks like a path.
-    /// Otherwise it is the name of a built-in plan, such as `figure-6`. If the plan names a file of a scene, the path of this
-    /// file is relative to the folder of the plan. `changes` are made before the plan is checked.
+    /// Reads and checks a plan. `name_or_path` is the name of a built-in plan, such as `figure-6`, or the path of a file. The
+    /// path of a scene file in the plan is relative to the folder of the plan. `changes` are made before the plan is checked.
     ///
     /// # Errors
-    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a [cell](Plan) has an error. The
-    /// error lists all errors of the plan. If the plan itself has none, it lists the errors of the first few cells.
+    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a [cell](Plan) has an error.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};
@@ -94,12 +92,11 @@ impl Plan {
         Plan::parse(plan.text, plan.name, changes)
     }
 
-    /// Makes a plan in which numbers of a scene vary. Each of the `axes` is the path of a number and the values, in SI units,
-    /// that it gets. The quantities in `record` are recorded on `profiles` random profiles for each combination of values.
+    /// Makes a plan of a study that varies numbers of a scene. Each of the `axes` is the path of a number and its values in SI
+    /// units. The quantities in `record` are recorded on `profiles` random profiles for each combination of values.
     ///
     /// # Errors
-    /// Returns an error if the plan or the scene of a [cell](Plan) has an error. The error lists all errors of the plan. If the
-    /// plan itself has none, it lists the errors of the first few cells.
+    /// Returns an error if the plan or the scene of a [cell](Plan) has an error.
     ///
     /// ```
     /// use asperity_study::{Plan, Quantity};
@@ -134,7 +131,7 @@ impl Plan {
     /// Returns the text of the built-in plan with this name.
     ///
     /// # Errors
-    /// Returns an error if there is no plan of this name. The error lists all names.
+    /// Returns an error if there is no plan of this name.
     pub fn built_in(name: &str) -> Result<&'static Preset, StudyError> {
         Plan::BUILT_IN.iter().find(|plan| plan.name == name).ok_or_else(|| {
             let names: Vec<_> = Plan::BUILT_IN.iter().map(|plan| plan.name).collect();
@@ -144,8 +141,8 @@ impl Plan {
         })
     }
 
-    /// Reads and checks the text of a plan. `name` is usually the path of the file of the plan. Errors begin with `name`, and
-    /// the path of a scene file in the plan is relative to the folder of `name`.
+    /// Reads and checks the text of a plan. `name` is usually the path of the plan. Error messages begin with `name`, and the
+    /// path of a scene file in the plan is relative to the folder of `name`.
     ///
     /// # Errors
     /// The errors are the same as those of [`Plan::open`].
@@ -155,8 +152,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Reads a plan and checks it without the scenes of its cells. The plan in the folder of a study is read in this way,
-    /// because its cells were checked when the study began.
+    /// Reads a plan and checks it without the scenes of its cells.
     pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |what: String| StudyError::Plan(vec![format!("{name}: {what}")]);
@@ -214,7 +210,7 @@ impl Plan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
-    /// Returns the plan as text in RON, with the scene written into it. [`Plan::parse`] makes the same plan from this text.
+    /// Returns the plan as text in RON, with the scene written into it.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};

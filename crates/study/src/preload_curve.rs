@@ -1,5 +1,4 @@
-//! The adhesion force of a scene against the preload: first the staircase of its own profile, then the statistics over
-//! random profiles.
+//! The adhesion force of a scene against the preload.
 
 use crate::axis::Axis;
 use crate::error::StudyError;
@@ -24,27 +23,24 @@ fn failed(error: RunError) -> StudyError {
     StudyError::Run { place: String::new(), error }
 }
 
-/// Adhesion force of a scene as a function of the preload. The scene's own profile, which has the seed of the scene, is computed
-/// with all steps of the force. Further random profiles are computed at fixed preloads. A curve whose computation is not finished
-/// lacks steps or profiles.
+/// Adhesion force of a scene as a function of the preload, for the scene's own profile and for further random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     /// Preloads in N at which the random profiles are computed, as an axis.
     pub axis: Axis,
-    /// Adhesion force of the scene's own profile as a function of the preload, with the preload of each step.
+    /// Adhesion force of the scene's own profile as a function of the preload.
     pub staircase: Staircase,
-    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own. If the profile of the scene is
-    /// fixed, there are no other profiles.
+    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own profile.
     pub results: Results,
 }
 
 impl PreloadCurve {
-    /// Number of random profiles of a complete curve. The scene's own profile is one of them.
+    /// Number of random profiles of a complete curve, including the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the adhesion force of a scene at preloads on a linear or logarithmic `scale`. The scene and its outcome are
-    /// given. If `begun` is an incomplete curve on the same scale, only the missing parts are computed. After each part `report`
-    /// receives the curve so far.
+    /// Computes the curve of a scene whose outcome is already known. `scale` is the scale of the preloads, linear or
+    /// logarithmic. If `begun` is an incomplete curve on the same scale, only the missing parts are computed. After each part
+    /// `report` receives the curve so far.
     ///
     /// # Errors
     /// Returns an error if the scene has no adhesion or no stage that presses the bodies together, or if the solver of the scene
@@ -116,7 +112,7 @@ impl PreloadCurve {
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results: results? })
     }
 
-    /// Returns true if the curve is complete: it has all steps on the scene's own profile, and all random profiles.
+    /// Returns true if nothing of the curve is left to compute.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }

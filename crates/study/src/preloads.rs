@@ -1,5 +1,4 @@
-//! The adhesion force against the preload: a study in memory over preloads in N, not in the unit of a plan, and the
-//! staircase of one profile.
+//! Studies in memory over preloads in N, and the staircase of one profile.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
 use super::error::StudyError;
@@ -18,21 +17,21 @@ const USUAL: usize = 64;
 const ALLOWED: &str =
     "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
-/// Share of the axis of preloads within which each step of a staircase is located, which is less than the width of a line
-/// in a figure.
+/// Share of the axis of preloads within which each step of a staircase is located.
 const FINEST: f64 = 1.0 / 2048.0;
 /// Relative difference up to which two adhesion forces count as equal.
 const SAME: f64 = 1e-9;
 
 impl Axis {
-    /// Smallest and largest number of preloads that [`Axis::of_preloads`] and [`Axis::parse_preloads`] allow on an axis.
+    /// Smallest and largest number of preloads on an axis.
     pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
     /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the number of preloads, and `log`
-    /// for equal ratios of neighbouring preloads. The number and `log` may be omitted.
+    /// for equal ratios of neighbouring preloads. Without the number there are 64 preloads, and without `log` neighbouring
+    /// preloads have equal differences.
     ///
     /// # Errors
-    /// Returns an error if the text has another form or if a number is not allowed. The error says what is allowed.
+    /// Returns an error if the text has another form or if a number is not allowed.
     ///
     /// ```
     /// use asperity_study::Axis;
@@ -62,7 +61,7 @@ impl Axis {
     /// Reads two numbers from text such as `1uN..20uN`, the smaller number first. `unit` is their SI unit, here `N`.
     ///
     /// # Errors
-    /// Returns an error if the text has another form or another unit. The error says what is allowed.
+    /// Returns an error if the text has another form or another unit.
     ///
     /// ```
     /// assert_eq!(asperity_study::Axis::parse_range("1nm..2um", "m").ok(), Some((1e-9, 2e-6)));
@@ -78,7 +77,7 @@ impl Axis {
     /// differences on a linear scale and equal ratios on a logarithmic scale.
     ///
     /// # Errors
-    /// Returns an error if a force or the number of preloads is not allowed. The error says what is allowed.
+    /// Returns an error if a force or the number of preloads is not allowed.
     pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, StudyError> {
         check_ends(from, to, count as u64, *Axis::PRELOADS.end() as u64)?;
         let range = LEG_FORCE.range;
@@ -114,9 +113,8 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile as a function of the preload. The force rises in steps. At each step, the loading closes a
-/// patch on which the pull-off force depends. If the work of adhesion is smaller for closing than for opening, the force also
-/// rises between the steps.
+/// Adhesion force of one profile as a function of the preload. The force rises in steps: at certain preloads it jumps to a
+/// larger value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
     /// Scale of the preloads, linear or logarithmic.
@@ -131,10 +129,9 @@ pub struct Staircase {
 }
 
 impl Staircase {
-    /// Computes the staircase of a checked scene at the preloads in N of an axis. If the adhesion force rises between two
-    /// neighbouring preloads, it is computed for the preload halfway between them too, until neighbours with a rise are at most
-    /// 1/2048 of the axis apart, on the scale of the axis. `report` receives the staircase at the preloads of the axis, and again
-    /// after each halving.
+    /// Computes the staircase of a checked scene at the preloads in N of an axis. Further preloads are added until each step
+    /// lies between two preloads that are at most 1/2048 of the axis apart, on the scale of the axis. `report` receives the
+    /// staircase at the preloads of the axis, and again after each refinement.
     ///
     /// # Errors
     /// Returns an error if a preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.
@@ -206,8 +203,7 @@ impl Staircase {
         self.forces.windows(2).filter_map(middle).collect()
     }
 
-    /// Returns the corners of a line that shows the staircase, as pairs of preload and adhesion force in N. From each preload
-    /// the line is horizontal up to the next preload, and at the next preload it is vertical.
+    /// Returns the corners of a line that shows the staircase, each with preload and adhesion force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
         self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()
@@ -223,9 +219,9 @@ impl Results {
         Quantity::DissipatedEnergy,
     ];
 
-    /// For a study whose axis has preloads in N, returns each preload with the statistics over the profiles of the adhesion
-    /// force in N. A preload with fewer than two computed profiles is left out. A profile on which the force is never negative
-    /// has the adhesion force 0 N.
+    /// Returns each preload in N with the statistics of the adhesion force in N over the profiles. The axis of the study must
+    /// have preloads in N. A preload with fewer than two computed profiles is left out. A profile on which the force is never
+    /// negative has the adhesion force 0 N.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let spread = |cell| {
             let (preload, forces) = self.forces_in(cell);
@@ -235,8 +231,8 @@ impl Results {
         (0..self.plan.cells()).filter_map(spread).collect()
     }
 
-    /// For a study whose axis has preloads in N, returns the preload of the axis that is nearest to `preload`, and the adhesion
-    /// force in N after this preload on each computed profile.
+    /// Returns the preload in N on the axis that is nearest to `preload`, and the adhesion force in N after this preload on
+    /// each computed profile. The axis of the study must have preloads in N; `None` if this axis has no values.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));

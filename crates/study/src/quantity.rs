@@ -198,13 +198,13 @@ impl Quantity {
     /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns the loop from which the regimes on a map of this quantity follow: `turned at zero force` for
+    /// Returns where the loading turns for the regimes that are shown on a map of this quantity: `turned at zero force` for
     /// [`Quantity::RegimeAfterZeroForce`], and `turned at first touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }
     }
 
-    /// Returns the turning point of the loop that [`Quantity::protocol`] names: `F=0` for zero force, `d=0` for first touch.
+    /// Returns the text of [`Quantity::protocol`] in short: `F=0` for zero force, `d=0` for first touch.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "d=0" }
     }
@@ -241,8 +241,7 @@ impl Quantity {
     /// Returns the quantity with this symbol or name. The words of a name may be separated by blanks, hyphens or `_`.
     ///
     /// # Errors
-    /// Returns an error if no quantity has this symbol or name, or if several quantities have this symbol. The error names
-    /// quantities that may be meant.
+    /// Returns an error if no quantity has this symbol or name, or if several quantities have this symbol.
     ///
     /// ```
     /// use asperity_study::Quantity;

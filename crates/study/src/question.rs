@@ -1,5 +1,5 @@
-//! The question at which value of a number of a scene, or at which preload, a quantity reaches a target, and its answer on
-//! one profile. The answer has brackets of all crossings, each narrowed until its ends agree to [`WITHIN`].
+//! The question at which value of a number of a scene, or at which preload, a quantity reaches a target, and its answer on one
+//! profile.
 
 use super::axis::{Axis, Spacing, Target};
 use super::cells::Streak;
@@ -29,11 +29,10 @@ const MARGIN: f64 = 0.01;
 const WORK: &str = "adhesion.work";
 
 /// Question: at which value of one number of a scene does a quantity reach a target? It is asked for each of several random
-/// profiles. [`find`](crate::find()) makes and answers such a question.
+/// profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Number whose value is sought. It is an axis without values, which has the path, the name and the unit of the number. The
-    /// unit of a preload is N.
+    /// Number whose value is sought. It is given as an axis without values. The unit of a preload is N.
     pub axis: Axis,
     /// Quantity that must reach the target.
     pub quantity: Quantity,
@@ -54,17 +53,16 @@ pub struct Question {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number at which the quantity crosses the target. Each crossing lies between two values that
-    /// differ by at most 1e-9 of their size, or by 1 for whole numbers. The list has the value of these two at which the
-    /// quantity is at least the target.
+    /// Ascending values of the number at which the quantity crosses the target. Each has a relative error of at most 1e-9, or
+    /// is at most 1 from the crossing if the number is whole. The quantity is at least the target at each listed value.
     pub crossings: Vec<f64>,
-    /// Two flags that are true if the quantity is at least the target. The first is for the smallest searched number, the
-    /// second for the largest.
+    /// True if the quantity is at least the target: first for the smallest, then for the largest searched number.
     pub reached: [bool; 2],
-    /// True if a preload is sought after which the adhesion force reaches the target, and F_a(d=0) reaches the target already.
+    /// True if F_a(d=0) reaches the target already, so that no preload is needed. False if no preload is sought or if the
+    /// quantity is not an adhesion force after the preload.
     pub at_touch: bool,
-    /// Smallest and largest value of the quantity at the numbers that were computed first, spread over the searched range.
-    /// `None` if the quantity has no value at any of these numbers.
+    /// Smallest and largest value of the quantity at several numbers spread over the searched range; `None` if it has no value
+    /// at any of these numbers.
     pub reachable: Option<(f64, f64)>,
 }
 
@@ -73,7 +71,7 @@ impl Question {
     /// a [`Quantity`]. The right side is a value with a unit, and the unit may have a prefix.
     ///
     /// # Errors
-    /// Returns an error if the text has another form, or if the quantity cannot have this value. The error says what is allowed.
+    /// Returns an error if the text has another form, or if the quantity cannot have this value.
     ///
     /// ```
     /// use asperity_study::Quantity;
@@ -104,11 +102,10 @@ impl Question {
         Ok((quantity, target))
     }
 
-    /// Makes the question at which value of the number at `path` a quantity has a given value, for `profiles` random profiles of
-    /// a checked scene. If `path` is `preload`, the question is after which preload the quantity has this value. Numbers from a
-    /// hundredth to a hundred times the value in the scene are searched. For a number whose allowed range is at most 2 wide, such
-    /// as the Hurst exponent, nearly this whole range is searched. Preloads are searched from 0 N to a hundred times the largest
-    /// force to which the scene is loaded.
+    /// Makes a question: at which value of the number at `path` does a quantity have a given value? It is asked for `profiles`
+    /// random profiles of a checked scene. `path` may be `preload`. Numbers from a hundredth to a hundred times the value in
+    /// the scene are searched. For a number with a narrow allowed range, such as the Hurst exponent, nearly this whole range is
+    /// searched. Preloads are searched from 0 N to a hundred times the largest force to which the scene is loaded.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the profile of the scene is

@@ -1,8 +1,8 @@
 //! The same contact as a profile and in three dimensions: means over random profiles and random squares with one spectrum.
 //!
 //! A free rigid square of the side L is compared with a profile (line) of the length L, without a fit. Line and square are
-//! independent draws, so only their means are compared. The areas of contact are not: at the same force the line has 1.1 to
-//! 4.2 times the area in three dimensions.
+//! independent draws, so only their means are compared. At the same force the line has 1.1 to 4.2 times the area of contact in
+//! three dimensions.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_threads_received};
@@ -30,8 +30,7 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 const LONGEST: f64 = 86_400.0;
 
-/// Options of a [`Reference`]: the number of random profiles, the number of random squares, and the number of grid cells along
-/// the side of a square.
+/// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells along the side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of grid cells along the side of a square, a power of two.
@@ -47,8 +46,7 @@ const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
     /// Returns the usual options for a scene: 64 grid cells along the side of a square, and 16 random profiles for each square.
-    /// `maps` is the number of squares. If it is `None`, there are 24 squares for a scene without adhesion. For a scene with
-    /// adhesion there are 12 squares, because a square with adhesion takes about ten times as long.
+    /// `maps` is the number of squares. `None` means 12 squares for a scene with adhesion, and 24 without adhesion.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
@@ -64,8 +62,7 @@ pub struct Compared {
     pub half_space: Statistics,
     /// Mean over the profiles divided by the mean over the squares.
     pub ratio: f64,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], from the standard errors of both means; `None`
-    /// for fewer than two profiles or squares.
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`]; `None` for fewer than two profiles or squares.
     pub error: Option<f64>,
 }
 
@@ -92,8 +89,8 @@ pub struct Reference {
     /// Longest and shortest wave of the roughness on profiles and squares, each as its number of periods over the length L;
     /// `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Number of periods over L of the shortest wave of the scene, if the grid of the squares is too coarse for this wave;
-    /// otherwise `None`. Neither profiles nor squares then have waves shorter than the shortest one in [`Reference::waves`].
+    /// Number of periods over L of the shortest wave of the scene, if the comparison omits this wave because the grid of the
+    /// squares is too coarse; otherwise `None`.
     pub omitted: Option<u64>,
     /// Preload in N of the scene on the profile with the seed of the scene. The squares are pressed to this force.
     pub preload: f64,
@@ -107,8 +104,7 @@ pub struct Reference {
     pub dissipated_energy: Option<Compared>,
     /// Errors of the comparison, one for each source of errors.
     pub budget: ReferenceBudget,
-    /// Number of convolutions that were computed for all squares together. Convolutions take most of the computing time of the
-    /// squares.
+    /// Number of convolutions that were computed for all squares together.
     pub convolutions: u64,
     /// Computing time in s: first of all profiles together, then of all squares together.
     pub seconds: [f64; 2],
@@ -120,18 +116,18 @@ pub struct Reference {
 /// adhesion force, or of the indentation at the preload if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest error of the gap at any grid cell of any square, in the contacts without adhesion. It is divided by the rms
-    /// height of the square. Without error the gap is zero in contact and at least zero elsewhere.
+    /// Largest error of the gap between the bodies in the contacts without adhesion, at any grid cell of any square, divided by
+    /// the rms height of the square.
     pub solver: f64,
     /// Relative difference between the mean over the squares and the mean over the same squares with half as many grid cells
     /// along the side; `None` if half as many cells are too few.
     pub grid: Option<f64>,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this ratio. It is due to the finite
-    /// numbers of squares and profiles.
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this ratio; `None` for fewer than two
+    /// profiles or squares.
     pub sample: Option<f64>,
     /// Difference between [`Compared::ratio`] and 1, without its sign.
     pub model: f64,
-    /// Name of the source with the largest error: `solver`, `grid`, `sample` or `model`.
+    /// Name of the field with the largest error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,
 }
 
@@ -142,22 +138,20 @@ pub enum ReferenceEvent {
     Begins {
         /// Number of squares, which is one for a body without random roughness.
         maps: u64,
-        /// Number of threads that share the squares. It is smaller than the requested number if the memory does not suffice.
+        /// Number of threads that share the squares.
         threads: usize,
         /// Memory in bytes that all threads need together.
         bytes: u64,
         /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
-        /// Adhesion force of each profile in N. If the scene has no adhesion, it is the indentation of each profile at the
-        /// preload in m.
+        /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene has no adhesion.
         lines: Vec<f64>,
     },
     /// The computation of a square is finished.
     Square {
         /// Points of the force curve of the square, each with indentation in m and force in N.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N. If the scene has no adhesion, it is the indentation of the square at the preload
-        /// in m.
+        /// Adhesion force of the square in N, or its indentation at the preload in m if the scene has no adhesion.
         headline: f64,
     },
 }
@@ -171,15 +165,14 @@ struct OfSquare {
 }
 
 impl Reference {
-    /// Returns the comparison of the main quantity: of the adhesion force, or of the indentation at the preload if the scene
-    /// has no adhesion.
+    /// Returns the comparison of the adhesion force, or of the indentation at the preload if the scene has no adhesion.
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
     }
 
     /// Compares the contact of a checked scene on random profiles with its contact on random squares in three dimensions.
-    /// `simulation` knows the folder of the measured files of the scene. `jobs` threads share the profiles and then the
-    /// squares. Only the computing times depend on the number of threads. `report` receives each event.
+    /// `simulation` knows the folder of the measured files of the scene. `jobs` is the number of threads, on which only the
+    /// computing times depend. `report` receives each event.
     ///
     /// # Errors
     /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of grid cells is

@@ -17,8 +17,7 @@ use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
-/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random profile. Values that are not
-/// computed yet are missing.
+/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random profile.
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
@@ -29,12 +28,12 @@ pub struct Results {
     failed: BTreeMap<u64, String>,
 }
 
-/// What [`merge`](crate::merge) found in the files of a study. Each file was written by one process. A record has the values of
-/// one [cell](Plan) on one random profile.
+/// What [`merge`](crate::merge) found in the files of a study. A record has the values of one [cell](Plan) on one random
+/// profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of different records in the files. A record that occurs again is not counted again.
+    /// Number of records in the files, each counted once.
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
@@ -45,7 +44,7 @@ pub struct Merged {
     pub total: u64,
     /// Number of repetitions: records that occur again with exactly the same values.
     pub duplicates: u64,
-    /// Number of incomplete or damaged lines in the files. These lines are left out.
+    /// Number of incomplete or damaged lines in the files.
     pub damaged: u64,
     /// Number of [cells](Plan) that lack the records of some profiles.
     pub missing_cells: u64,
@@ -58,7 +57,7 @@ pub struct Merged {
 }
 
 impl PartialEq for Results {
-    /// Studies are equal if their plans are equal and their values are equal bit by bit. Missing values are equal.
+    /// Returns true for equal plans and values that are equal bit by bit. Missing values are equal.
     fn eq(&self, other: &Self) -> bool {
         self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
     }
@@ -96,9 +95,8 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// Makes a study in memory that has no values yet. The study has no axis: it is a checked scene on `lines` random profiles,
-    /// with the recorded quantities `record`. If `preloads` is an axis of preloads in N, the study has this axis, and each
-    /// preload replaces the loading of the scene.
+    /// Makes a study in memory that has no values yet. It is a checked scene on `lines` random profiles, with the recorded
+    /// quantities `record`. Its only axis, if given, is `preloads`: preloads in N that replace the loading of the scene.
     ///
     /// # Errors
     /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an error if `preloads` are
@@ -118,7 +116,7 @@ impl Results {
     }
 
     /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the scene are relative to `folder`.
-    /// `jobs` threads share the profiles. The results do not depend on the number of threads.
+    /// `jobs` is the number of threads, which does not change the results.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed. The errors of [`Results::begin`] are possible too.
@@ -330,8 +328,7 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true if there is nothing left to compute in a [cell](Plan): on each profile it is either computed or cannot be
-    /// computed.
+    /// Returns true if nothing is left to compute in a [cell](Plan).
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
@@ -360,8 +357,8 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a [cell](Plan) in each regime of adhesion. The first numbers are for the regime that
-    /// follows from F_a(d=0), the second for the regime that follows from F_a(F=0).
+    /// Returns the numbers of profiles of a [cell](Plan) in each regime: first for [`Quantity::Regime`], then for
+    /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))

@@ -36,7 +36,7 @@ pub struct StudyProgress {
     pub before: u64,
     /// Number of records of the shard once it is complete.
     pub total: u64,
-    /// Time from the moment at which the run created the file of its results to the moment at which it wrote the last records.
+    /// Time from the beginning of this run to its last written records.
     pub elapsed: Duration,
 }
 
@@ -64,7 +64,7 @@ impl StudyProgress {
 ///
 /// # Errors
 /// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file cannot be read or written.
-/// Earlier records are kept.
+/// Records written before the error are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,

@@ -54,8 +54,7 @@ pub struct Selected {
     pub grid: Grid,
     /// Quantities of the figure, one for each panel.
     pub quantities: Vec<Quantity>,
-    /// True if the figure shows each row of a grid with two axes as a curve over the horizontal axis. False if it shows the
-    /// grid as a map, or if the grid has one axis.
+    /// True if the figure shows the rows of a grid with two axes as curves over the horizontal axis.
     pub curves: bool,
     /// Sentence that states the preload of the figure, if the study has several preloads and the figure shows the first one
     /// because the user chose none; otherwise `None`.
@@ -70,9 +69,8 @@ impl Selection {
     /// Returns the part of a study that the fields of this selection choose.
     ///
     /// # Errors
-    /// Returns an error if the study lacks a chosen quantity, axis or value. The error lists the quantities, axes or values of
-    /// the study. It is also an error if more than two axes have several values of which [`Selection::at`] fixes none. An axis
-    /// of preloads that is not named then has its first value.
+    /// Returns an error if the study lacks a chosen quantity, axis or value. It is also an error if, apart from the axis of
+    /// preloads, more than two axes have several values and are not fixed by [`Selection::at`].
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;

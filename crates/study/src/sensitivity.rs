@@ -1,5 +1,5 @@
-//! The sensitivity of the results of a scene: how the medians over random profiles change when each number of the scene
-//! changes by a tenth. Each number is changed on the same profiles, so that another profile does not count as an influence.
+//! The sensitivity of the results of a scene: how the medians over random profiles change when each number of the scene changes
+//! by a tenth.
 
 use super::axis::{Axis, Shapes};
 use super::cells::Streak;
@@ -50,8 +50,7 @@ pub struct Sensitivity {
     /// Smallest results, then largest results of the unchanged scene among the profiles, in SI units and in the order of
     /// [`Sensitivity::RESULTS`]; `None` if the profile of the scene is fixed.
     pub range: Option<[Values; 2]>,
-    /// Results for changes of each number of the scene. Numbers that are zero and numbers of things, such as springs, are left
-    /// out.
+    /// Results for changes of each number of the scene. Zeros and counts, such as the number of springs, are left out.
     pub influences: Vec<Influence>,
 }
 
@@ -66,12 +65,12 @@ impl Sensitivity {
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
-    /// Computes a checked scene, and scenes with one number changed, on the same random profiles. There are as many profiles as
-    /// [`Ensemble::profiles_of`] returns. All other numbers of the scene keep their values. If the scene has κ instead of a work
-    /// of adhesion, the work of adhesion follows from κ again after each change.
+    /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random profiles. There are as many
+    /// profiles as [`Ensemble::profiles_of`] returns. A scene with κ instead of a work of adhesion keeps κ when another number
+    /// changes.
     ///
-    /// `jobs` threads share the profiles, and the first thread computes with `simulation`. The results do not depend on the
-    /// number of threads. After each profile `report` receives the sensitivity over the profiles so far.
+    /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads, which does not change the
+    /// results. After each profile `report` receives the sensitivity over the profiles so far.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
@@ -160,22 +159,20 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if one of both is
-    /// missing, or if the result in [`Sensitivity::present`] is zero.
+    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if a value is
+    /// missing, or if the value in [`Sensitivity::present`] is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// Returns a sentence for users which states why no change of the adhesion force is known; `None` if the scene has an
-    /// adhesion force.
+    /// Returns a sentence that states why the adhesion force has no changes; `None` if the scene has an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known)
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// Returns the influences, sorted by how much each changes one result: the influence with the largest relative change comes
-    /// first. `result` is the index of this result in [`Sensitivity::RESULTS`].
+    /// Returns the influences on result number `result` of [`Sensitivity::RESULTS`], the largest relative change first.
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {

@@ -7,19 +7,16 @@ use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Force curves of the random squares of a [`Reference`]. They are for a figure that shows them beside the force curve of the
-/// profile while the squares are computed.
+/// Force curves of the random squares of a [`Reference`].
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of squares of the complete comparison.
     pub maps: u64,
     /// Force curve of each computed square from first touch on: points with indentation in m and force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force in N of each random profile. If the scene has no adhesion, the values are the indentations in m at the
-    /// preload.
+    /// Adhesion force of each random profile in N, or its indentation at the preload in m if the scene has no adhesion.
     pub lines: Vec<f64>,
-    /// Adhesion force in N of each computed square. If the scene has no adhesion, the values are the indentations in m at the
-    /// preload.
+    /// Adhesion force of each computed square in N, or its indentation at the preload in m if the scene has no adhesion.
     pub squares: Vec<f64>,
     /// Comparison of all squares with the random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
@@ -54,15 +51,14 @@ impl SquareLoops {
         Ok(SquareLoops { reference: Some(reference), ..loops })
     }
 
-    /// Compares the adhesion force of the profiles with the adhesion force of the computed squares. If the scene has no
-    /// adhesion, the indentations at the preload are compared. `None` before the first square is computed.
+    /// Compares [`SquareLoops::lines`] with [`SquareLoops::squares`]; `None` before the first square is computed.
     pub fn headline(&self) -> Option<Compared> {
         compared(self.lines.iter().copied(), self.squares.iter().copied())
     }
 
-    /// Returns the mean and the scatter of the force of the computed squares as a function of the indentation. There is one band
-    /// for loading, and a second band for unloading if the scene has adhesion. A band is three curves: mean force minus standard
-    /// deviation, mean force, and mean force plus standard deviation. Each band ends at the indentation that all squares reach.
+    /// Returns the mean and the scatter of the force of the computed squares as a function of the indentation. There is one
+    /// band for loading, and a second band for unloading if the scene has adhesion. A band is three curves: mean force minus
+    /// standard deviation, mean force, and mean force plus standard deviation.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let stages = |curve: &Vec<(f64, f64)>| {
             let deepest = (0..curve.len()).max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0)).unwrap_or(0);

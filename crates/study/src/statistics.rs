@@ -16,7 +16,7 @@ const MOST_OF_ONE: f64 = 0.5;
 /// Statistics over random profiles of one quantity, in the SI unit of the quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
-    /// Number of profiles with a value. Profiles without a value are left out.
+    /// Number of profiles with a value. The statistics are over these profiles.
     pub count: usize,
     /// Mean of the values.
     pub mean: f64,
@@ -32,7 +32,7 @@ pub struct Statistics {
 /// Spread of several values, and confidence interval of their mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Sample standard deviation of the values. The sum of squares is divided by the number of values minus 1.
+    /// Sample standard deviation of the values, with the divisor `count − 1`.
     pub standard_deviation: f64,
     /// Standard error of the mean: the standard deviation divided by the square root of the number of values.
     pub standard_error: f64,
@@ -93,8 +93,8 @@ impl Statistics {
         ("max", |all| Some(all.range.1)),
     ];
 
-    /// Returns text with the median, the quartiles and the range, each with two digits. If there is only one value, the text
-    /// has this value. `unit` is the SI unit of the quantity.
+    /// Returns text with the median, the quartiles and the range, or with the value if there is only one. `unit` is the SI unit
+    /// of the quantity.
     ///
     /// ```
     /// let all = asperity_study::Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
@@ -124,8 +124,7 @@ impl Statistics {
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a single value, which has no
-    /// interval, both ends are the mean.
+    /// Returns both ends of the 95 % confidence interval of the mean. For a single value both are the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
@@ -136,9 +135,9 @@ impl Statistics {
     }
 }
 
-/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added to the mean. With one
-/// bound it is added to the logarithm of the distance from the bound, with two bounds to the logarithm of the ratio of both
-/// distances. The interval never reaches a bound. A narrow interval hardly changes.
+/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added to the mean. With one bound
+/// it is added to the logarithm of the distance from the bound, with two bounds to the logarithm of the ratio of both
+/// distances. The interval never reaches a bound.
 fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     let (above, below) = (mean - least, most - mean);
     // Rounding may have carried the mean itself across a bound.
@@ -183,13 +182,12 @@ impl RegimeCounts {
         [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
     }
 
-    /// Returns the number of all profiles. Profiles of unknown regime are included.
+    /// Returns the number of all profiles, with known or unknown regime.
     pub fn profiles(self) -> usize {
         self.known().iter().sum::<usize>() + self.none
     }
 
-    /// Returns the most frequent regime and the number of profiles in this regime. If two regimes are equally frequent, the
-    /// regime with more adhesion is returned. `None` if no regime is known.
+    /// Returns the most frequent regime and the number of profiles in this regime. `None` if no regime is known.
     ///
     /// ```
     /// use asperity_scene::Regime;

@@ -13,7 +13,7 @@ use std::path::Path;
 /// profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Number of different records that exist. A record that occurs again is not counted again.
+    /// Number of records that exist, each counted once.
     pub done: u64,
     /// Number of records that the study has once it is complete.
     pub total: u64,
@@ -21,9 +21,9 @@ pub struct Status {
     pub missing: u64,
     /// Number of existing records that have no values because they cannot be computed.
     pub failed: u64,
-    /// Number of incomplete or damaged lines in the files. These lines do not count as records.
+    /// Number of incomplete or damaged lines in the files.
     pub damaged: u64,
-    /// Progress of each [`Shard`] on which a process has worked. A shard is the part of the plan that one process computes.
+    /// Progress of each [`Shard`], a part of the plan, on which a process has worked.
     pub shards: Vec<ShardStatus>,
 }
 
@@ -34,7 +34,8 @@ pub struct ShardStatus {
     pub shard: String,
     /// Number of records of the shard once it is complete.
     pub total: u64,
-    /// Number of records of the shard that exist. It does not matter which process computed them.
+    /// Number of records of the shard that are already in files of the study. A record has the results of one
+    /// [cell](crate::Plan) on one random profile.
     pub done: u64,
     /// Processes that have worked on the shard, each with the records that it wrote.
     pub attempts: Vec<Attempt>,

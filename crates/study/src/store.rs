@@ -1,8 +1,7 @@
 //! The folder of a study: its plan, and one file for each process that has worked on it.
 //!
-//! A shard file is only ever appended to, by the process that made it. Each record is a line with a checksum. However a
-//! process ends, its written records remain, and an incomplete line is ignored. A crash of the machine loses the records
-//! that have not reached the disk. They are computed again.
+//! A shard file is only ever appended to, by the process that made it. Each record is a line with a checksum. However a process
+//! ends, its written records remain, and an incomplete line is ignored.
 
 use super::error::StudyError;
 use super::measured::{changed, file_of, with_hash};
@@ -37,15 +36,14 @@ const FAILED: &str = ",:";
 /// Number of characters of the checksum and the comma after it.
 const CHECKSUM: usize = 9;
 
-/// Folder of a study on disk. It has the plan of the study and, for each process that has worked on the study, a file with the
-/// results of the process.
+/// Folder of a study on disk, with the plan and one file of results for each process that has worked on the study.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
     plan: Plan,
 }
 
-/// Header of a [`ShardFile`], the first line of the file. It states which process computes which part of which plan.
+/// Header of a [`ShardFile`], the first line of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
     /// Version of the format of shard files.
@@ -69,7 +67,7 @@ pub struct ShardHeader {
 pub struct ShardFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// First line of the file. It states which process wrote the file.
+    /// First line of the file, which states the process that wrote it.
     pub header: ShardHeader,
     /// Time at which the file was last written, in s since 1970.
     pub written: f64,
@@ -135,7 +133,7 @@ impl Folder {
         path.join(PLAN_FILE).is_file()
     }
 
-    /// Opens an existing folder of a study. The scenes that follow from the plan are not checked again.
+    /// Opens an existing folder of a study.
     ///
     /// # Errors
     /// Returns an error if the folder contains no study, or if its plan cannot be read.
@@ -194,8 +192,7 @@ impl Folder {
         Ok((path, file))
     }
 
-    /// Returns the files with the results of all processes, sorted by name. The file of a process that ended before it wrote
-    /// the header is left out, because it has no results.
+    /// Returns the files with the results of all processes, sorted by name.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read, or if it belongs to another plan or has another version of the format.

@@ -1,5 +1,4 @@
-//! The maps of a finished study over H and κ or over other axes. Each combination of values on the remaining axes has one
-//! map.
+//! The maps of a finished study over two of its axes.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -10,8 +9,8 @@ use super::results::Results;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
-/// Results of a study as maps over two of its axes. There is a map for each combination of values on the other axes. If the
-/// study has only one axis, each map is a curve.
+/// Results of a study as maps over two of its axes, one map for each combination of values on the other axes. If the study has
+/// only one axis, the map is a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
@@ -67,7 +66,7 @@ impl StudyMap {
         self.study.plan()
     }
 
-    /// Returns the number of maps, one for each combination of values on the axes over which the maps do not extend.
+    /// Returns the number of maps, one for each combination of values on the axes of the study that are not axes of the maps.
     pub fn slices(&self) -> u64 {
         self.others.iter().map(|&other| self.plan().axes[other].count()).product()
     }
@@ -118,7 +117,7 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// Returns the scene of the first map as a scene file for the explorer. The name of the scene file is the path of the folder.
+    /// Returns the scene of the first map as a scene file for the explorer.
     ///
     /// # Errors
     /// Returns an error if the scene is invalid.
@@ -127,8 +126,8 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` is the scene of map number `slice`. The values on the axes of the map and the number of points
-    /// of the force curve may differ.
+    /// Returns true if `scene` belongs to map number `slice`. It may have any values on the axes of the map and any number of
+    /// points of the force curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
@@ -144,7 +143,7 @@ impl StudyMap {
         }
     }
 
-    /// Returns a copy of a scene file with the values that map number `slice` has on the axes over which the maps do not extend.
+    /// Returns a copy of a scene file with the values of map number `slice` on the axes that are not axes of the maps.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow these values.

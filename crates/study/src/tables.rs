@@ -35,8 +35,8 @@ impl Merged {
 }
 
 /// Merges the results of all processes in the folder of a study, and writes the tables [`Merged::RESULTS`] and
-/// [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. Each file is written completely or not at all. If some
-/// results are missing, the tables have the existing ones, and the returned [`Merged`] counts the cells that lack results.
+/// [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. If some results are missing, the tables have the existing
+/// ones.
 ///
 /// # Errors
 /// Returns an error if two files have different results for the same [cell](Plan) and profile, or if a file cannot be read or

@@ -26,7 +26,7 @@ pub struct Case {
     /// Name of the case, such as `jkr-sphere`.
     pub name: &'static str,
     /// Family of the case: `closed-forms` for bodies with a known force curve, `laws` for laws that hold for every body, or
-    /// `hard-cases` for input at the limits of numbers and rules.
+    /// `hard-cases` for extreme input, such as nearly equal gaps or very large loads.
     pub family: &'static str,
     /// Statement that must hold for the result, as a sentence.
     pub holds: &'static str,
@@ -104,8 +104,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates a body with one of several kinds of profiles. Its adhesion ranges from almost none to far more than full
-    /// contact needs. The seed determines the same body on every machine.
+    /// Creates a body with one of several kinds of profiles. The seed determines the same body on every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);

@@ -1,9 +1,7 @@
-//! The catalogue of checks. Its statements about scenes and profiles, each with its evidence and an error bound, are
-//! checked on this machine through the public interface.
+//! The catalogue of checks of scenes and profiles, computed through the public interface.
 //!
-//! A check computes one number, the error, and compares it with a bound that was set beforehand. The evidence is a closed
-//! form, a law that holds for every body, or the stepwise solver, which applies the rules without tree and thresholds. A
-//! check that cannot be computed fails with a sentence that says why.
+//! A check computes one number, the error, and compares it with a bound that was set beforehand. The evidence is a closed form,
+//! a law that holds for every body, or the stepwise solver, which applies the rules without tree and thresholds.
 
 pub(crate) mod case;
 pub(crate) mod closed_forms;
@@ -29,8 +27,7 @@ pub struct Check {
 }
 
 impl Check {
-    /// Returns the checks of all cases for which `choose` returns true. A case that is checked with both rules in [`Edges`] has
-    /// two checks.
+    /// Returns the checks of all cases for which `choose` returns true.
     ///
     /// ```
     /// use asperity_study::checks::Check;
@@ -43,7 +40,7 @@ impl Check {
         Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
     }
 
-    /// Computes the case and measures the error of [`Case::error_of`].
+    /// Computes the case and the error of the quantity that [`Case::error_of`] names.
     pub fn judge(self) -> Verdict {
         let (clock, edges) = (Instant::now(), self.edges);
         let error = match self.case.subject {
