@@ -106,8 +106,7 @@ impl ScenesReport<'_> {
 
 impl Report for ScenesReport<'_> {
     /// Returns the titles, the fields in which each scene differs from the first one, and tables of the results with their ratios
-    /// to the results of the first scene. The medians over random profiles come first. The results on the profile that each scene
-    /// itself states follow.
+    /// to the results of the first scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let first = self.scenes.first()?.document;
