@@ -64,9 +64,10 @@ pub struct MeasuredCurve {
 impl MeasuredCurve {
     /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be compressed by gzip.
     ///
+    /// # Errors
     /// Returns an error if the file cannot be read or has no columns of displacement and force. It also returns an
-    /// error if the curve has no points before contact, no points in contact, or no retraction.
-    /// [`CurveOptions::segments`] can allow a curve without a retraction.
+    /// error if the curve has no points before contact, no points in contact, or no retraction. A curve without a
+    /// retraction is allowed if [`CurveOptions::segments`] selects only the first approach.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::parse(path, &content(path)?, options)
     }

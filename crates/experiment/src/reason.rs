@@ -38,10 +38,11 @@ const CUT: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact fills the whole profile, whose length in m is given here. The scene needs a larger length.
+    /// The contact fills the whole profile, so that the scene needs a larger length. The value is the present length in
+    /// m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
-    /// Too few springs are in contact. The number is the largest number of springs in contact.
+    /// Too few springs are in contact. The value is the largest number of springs in contact.
     #[error(
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]
@@ -70,7 +71,7 @@ pub enum Reason {
         format_quantity(*.0, "N")
     )]
     Step(f64),
-    /// The Tabor number, which is given here, is below 5. The attraction then reaches too far for JKR theory.
+    /// The attraction reaches too far for JKR theory. The value is the Tabor number, which is below 5.
     #[error(
         "The Tabor number is {}, below {}: attraction of this range is not that of Johnson, Kendall and \
          Roberts.",

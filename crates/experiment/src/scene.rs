@@ -81,9 +81,9 @@ pub(crate) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// Returns the scene with the stiffness of the instrument of the measured curve, and a sentence for the user if the
-    /// stiffness in the file differs from the stiffness in the scene. For a displacement of the body the instrument is
-    /// rigid.
+    /// Returns the scene with the stiffness of the instrument: the `loading_stiffness` of the scene, or else the
+    /// stiffness in the file of the curve. For a measured displacement of the body the instrument becomes rigid. The
+    /// second value is a sentence about this choice; `None` if scene and file do not differ.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this stiffness.

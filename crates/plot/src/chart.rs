@@ -352,9 +352,9 @@ pub struct Class {
 /// Line in a heat map along which a quantity has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Values of the quantity of the line in the cells, in the order of [`HeatMap::values`]; `None` for a cell without a value.
+    /// Value of this quantity in each cell of the map, in the order of [`HeatMap::values`]; `None` for a cell without a value.
     pub field: Vec<Option<f64>>,
-    /// Value of the quantity along the line, in the unit of [`Self::field`].
+    /// Value of this quantity along the line, in the same unit as [`Self::field`].
     pub level: f64,
     /// Name of the line in the legend.
     pub name: Label,

@@ -49,7 +49,7 @@ impl Palette {
     };
 }
 
-/// Meaning of a line, area or text in a chart, such as loading. Its colour depends on the output format.
+/// Meaning of a line, area or text in a chart, such as loading. The colour of an ink depends on the output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
@@ -70,11 +70,11 @@ pub enum Ink {
     Manual,
     /// Earlier curve that stays in the background while a new one is shown.
     Kept,
-    /// One of several curves that are kept for comparison, by its number from 0.
+    /// One of several curves that are kept for comparison. The value is the number of this curve, from 0.
     Compared(usize),
     /// State of the contact that the user selected with the cursor.
     Cursor,
-    /// One of several curves in a figure, by its number from 0.
+    /// One of several curves in a figure. The value is the number of this curve, from 0.
     Series(usize),
 }
 

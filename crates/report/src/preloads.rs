@@ -125,7 +125,7 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// Returns a figure of a [`preload_chart`]. If `beside` is given, this [`distribution`] is drawn on the right.
+/// Returns the figure of `chart`, a [`preload_chart`], with `beside`, a [`distribution`], on its right.
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else { return Figure::of_chart(title, chart) };
     let chart = Chart { heading: Label::quantity("adhesion force", "F_a"), ..chart };

@@ -13,7 +13,7 @@ const HASH: &str = "sha256: ";
 const COMMAND: &str = "command: ";
 
 /// Returns the first lines of a table, which say how to compute it again: version, command, measured files with their SHA-256,
-/// and scene. File names in the scene are relative to `folder`. The table will be in the folder `destination`.
+/// and scene. `folder` is the folder of the scene, and `destination` is the folder of the table.
 ///
 /// # Errors
 /// Returns an error if a measured file cannot be read.
@@ -47,8 +47,8 @@ pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     program.into_iter().chain(command.map(|command| ("command", command))).collect()
 }
 
-/// Returns the first lines of a table without a scene: version, command, and measured files with their SHA-256. The table will be
-/// in the folder `destination`.
+/// Returns the first lines of a table without a scene: version, command, and measured files with their SHA-256. `destination` is
+/// the folder of the table.
 ///
 /// # Errors
 /// Returns an error if a file cannot be read.
@@ -103,7 +103,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Returns the path of a file, relative to `folder`, as it is written into a table in the folder `destination`.
+/// Returns the path by which a table in the folder `destination` names a file. `file` is the path relative to `folder`. If the
+/// two folders differ, the result is an absolute path.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

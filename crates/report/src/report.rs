@@ -35,7 +35,7 @@ pub trait Report {
 
 /// Value that can be written as JSON.
 pub trait Json {
-    /// Writes the value as JSON. The entries of `head` come first if the value is an object.
+    /// Writes the value as JSON. If the value is an object, the keys and texts of `head` become its first entries.
     fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 

@@ -25,7 +25,7 @@ pub struct ComparedScene<'a> {
 pub struct ScenesReport<'a> {
     /// Computed scenes, in the order of the command.
     pub scenes: &'a [ComparedScene<'a>],
-    /// True if the figure has a chart for each scene; false for one chart of all loops.
+    /// True if the figure has a chart for each scene; false for one chart with the force curves of all scenes.
     pub panels: bool,
 }
 

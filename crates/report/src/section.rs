@@ -120,7 +120,7 @@ impl SectionContact<'_> {
         self.summit - self.indentation
     }
 
-    /// Returns the runs of neighbouring springs in contact within the range `springs`.
+    /// Returns the index ranges of neighbouring springs in contact within the range `springs`.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let begun = self.patches.partition_point(|patch| patch.last < springs.start);
         let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);

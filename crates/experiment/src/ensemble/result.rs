@@ -52,8 +52,8 @@ pub struct EnsembleFit {
     /// Results of each measured curve when it is used without the others.
     pub curves: Vec<CurveOfEnsemble>,
     /// Standard deviation of ln γ between measured curves, divided by the standard deviation of ln γ between random
-    /// profiles; usually 0.8 to 1.2. If E* is free, it is the root mean square Mahalanobis distance of (ln γ, ln E*),
-    /// divided by √2. `None` for fewer than 4 curves.
+    /// profiles; usually 0.8 to 1.2. If E* is free, the ratio is the root mean square Mahalanobis distance of (ln γ, ln
+    /// E*), divided by √2. `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
     /// True if random profiles describe the measured curves, so that none of [`Self::deviations`] is significant.
     pub described: bool,
@@ -138,6 +138,6 @@ pub struct SummaryDeviation {
     pub logarithm: f64,
     /// [`Self::logarithm`] divided by its standard error.
     pub deviation: f64,
-    /// True if the difference is significant at a level of 1 %, which holds for all summaries tested together.
+    /// True if the difference is significant. The level of 1 % holds for all summaries together, not for each of them.
     pub deviates: bool,
 }
