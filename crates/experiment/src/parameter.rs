@@ -138,8 +138,8 @@ impl Parameter {
     }
 }
 
-/// Parameter that a fit searches, with the range of the search if one is given. A text such as `work` can be parsed to
-/// it, or `work=10mJ/m^2..1J/m^2` with a range.
+/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed from a text: `work`,
+/// or `work=10mJ/m^2..1J/m^2` with a range.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};

@@ -38,8 +38,7 @@ const CUT: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact fills the whole profile, so that the scene needs a larger length. The value is the present length in
-    /// m.
+    /// The contact fills the whole profile, which should be longer. The value is the length of the profile in m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
     /// Too few springs are in contact. The value is the largest number of springs in contact.
