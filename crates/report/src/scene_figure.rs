@@ -83,7 +83,7 @@ impl ContactSets {
     }
 
     /// Returns the figure that shows at which positions along the profile there is contact at each indentation, with a chart for
-    /// each of the first four loading stages.
+    /// each of the first four loading stages with contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;
