@@ -21,17 +21,17 @@ const NO_NOISE: f64 = 1e-6;
 /// sign of the file is in doubt.
 const PULLS: f64 = -5.0;
 
-/// Measured force curve in SI units: displacement of the instrument in m and force in N. The displacement grows when the
-/// body is pressed on. The force is positive in compression, and zero before contact except for noise and drift.
+/// Measured force curve in SI units. The displacement grows when the body is pressed on. The force is positive in
+/// compression; before contact it is zero except for noise and drift.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// Displacement of the drive of the instrument at each point, in m. If the file has only the displacement of the
-    /// body, and the stiffness of the instrument is unknown, the field has the displacement of the body.
+    /// Displacement of the instrument at each point, in m. If the file has only the displacement of the body, and no
+    /// stiffness of the instrument is known, these values are displacements of the body.
     pub displacement: Vec<f64>,
     /// Force at each point, in N.
     pub force: Vec<f64>,
-    /// Index, from 0, of the segment to which each point belongs. A segment is a motion in one direction. The body is
-    /// pressed in segments with even indices, and pulled in segments with odd indices.
+    /// Index, from 0, of the segment of each point. The body is pressed in segments with even indices, and pulled in
+    /// segments with odd indices.
     pub segment: Vec<usize>,
     /// Number of points at the beginning of the curve that lie before contact.
     pub(crate) free: usize,
@@ -39,8 +39,8 @@ pub struct MeasuredCurve {
     pub touch: f64,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Number of points of the file that are used. In a long curve each point of [`Self::force`] is the mean of several
-    /// points of the file.
+    /// Number of points of the file that are used. It is larger than the number of values of [`Self::force`] if the
+    /// curve is long, because neighbouring points are then averaged.
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
@@ -57,8 +57,7 @@ pub struct MeasuredCurve {
     pub(crate) stiffness: Option<(String, f64)>,
     /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
     pub(crate) of_body: Option<String>,
-    /// Sentences about the assumptions and changes made when the curve was read. The first sentence states the columns,
-    /// their units and the number of points that are used.
+    /// Sentences on the assumptions and changes made when the curve was read, such as the columns and units.
     pub statements: Vec<String>,
 }
 
@@ -66,16 +65,14 @@ impl MeasuredCurve {
     /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be compressed by gzip.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read, or if it has no columns of displacement and force. It also returns
-    /// an error if the curve has no points without contact, or no contact. A curve without a retraction is an error
-    /// unless [`CurveOptions::segments`] selects only the first approach.
+    /// Returns an error if the file cannot be read or has no columns of displacement and force. It also returns an
+    /// error if the curve has no points before contact, no points in contact, or no retraction. A curve without a
+    /// retraction is allowed if [`CurveOptions::segments`] selects only the first approach.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
 
-    /// Reads a curve from the content of a file. `name` is the name of this file. For a file in a binary format other
-    /// than a NumPy array it returns an error. The error names the format if the extension of `name` or the first bytes
-    /// identify it.
+    /// Reads a curve from `bytes`, the content of a file with this name. No file is opened.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`MeasuredCurve::read`].
@@ -123,7 +120,7 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
     }
 
-    /// Returns true if the file has columns of displacement and force. [`MeasuredCurve::read`] may still refuse the curve.
+    /// Returns true if the file has columns of displacement and force.
     pub fn is_in(path: &Path) -> bool {
         let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
@@ -225,8 +222,8 @@ impl MeasuredCurve {
         self.displacement.iter().copied().zip(self.force.iter().copied())
     }
 
-    /// Returns the largest tensile force on the body during the retractions in N, as a positive number. Returns `None` if
-    /// it is at most 5 times the [`Self::noise`].
+    /// Returns the largest tensile force during the retractions in N, as a positive number; `None` if this force is at
+    /// most 5 times the [`Self::noise`].
     pub fn pull_off_force(&self) -> Option<f64> {
         let pulled = self.force.iter().zip(&self.segment).filter(|(_, segment)| *segment % 2 == 1);
         let force = -ends(pulled.map(|(force, _)| *force)).0;

@@ -5,7 +5,7 @@ use asperity_scene::RunError;
 use asperity_surface::SurfaceError;
 use thiserror::Error;
 
-/// Reason why a curve cannot be read or fitted. The caller puts the name of the file or scene before the message.
+/// Reason why a curve cannot be read or fitted.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExperimentError {

@@ -55,7 +55,7 @@ pub struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// Makes a fit of a scene. It has no free parameters until [`Fit::free`] adds them.
+    /// Makes a fit of a scene, so far without free parameters. [`Fit::free`] adds them.
     pub fn of(document: &'a Document) -> Self {
         Fit { document, free: Vec::new() }
     }
@@ -68,20 +68,8 @@ impl<'a> Fit<'a> {
         self
     }
 
-    /// Fits the free parameters to a curve on one thread. Through `control` the caller stops the fit, and learns the number
-    /// of force curves computed so far.
-    ///
-    /// The search is a sequential Monte Carlo method. Many sets of parameter values are drawn over the ranges, for most
-    /// parameters evenly in their logarithm. The likelihood of a set assumes a noise that is first large, so that jumps
-    /// of the force count little, and is lowered in steps to the noise of the curve. At each step likely sets are
-    /// copied, unlikely sets are dropped, and all sets are changed at random. A residual (measured minus computed
-    /// force) above 5 times the noise counts by its logarithm instead of its square, because such a point is on the
-    /// wrong side of a jump.
-    ///
-    /// Zero, drift and tilt of the force that were subtracted on reading are estimated anew for each set. If the residuals
-    /// remain larger than the noise, the search is repeated with other sets, and the better result is kept. If they are still
-    /// larger, each segment is divided into four parts. The error of a parameter is then at least the scatter of its value as
-    /// the weights of the parts change (jackknife).
+    /// Fits the free parameters to a curve on one thread, by a sequential Monte Carlo method. `control` reports the
+    /// number of force curves computed so far, and can stop the fit.
     ///
     /// # Errors
     /// Returns an error if no parameter is free, if a parameter is given twice, or if the scene lacks a free parameter,

@@ -14,14 +14,14 @@ pub struct FittedParameter {
     /// Which parameter of the scene or of the curve was fitted.
     #[serde(skip)]
     pub parameter: Parameter,
-    /// Value of the parameter in the set of values that describes the curve best.
+    /// Value with which the scene describes the curve best.
     pub value: f64,
-    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, the interval is the whole
-    /// [`Self::range`], except for the offset and the zero.
+    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, they are the ends of
+    /// [`Self::range`], unless the parameter is the offset or the zero.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
-    /// Standard error of the value: the error due to noise, or the error from the scatter between parts of the curve (see
-    /// [`Fit::run`](crate::Fit::run)), whichever is larger.
+    /// Standard error of the value due to the noise of the force. If the model does not describe the curve, it is at
+    /// least the scatter of the value between parts of the curve (jackknife).
     pub noise_error: f64,
     /// Value before the fit: an estimate from the curve, or the value in the scene.
     pub start: f64,
@@ -38,8 +38,7 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 
 impl FittedParameter {
     /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower the
-    /// [`Self::interval`], the more digits the text has. If the interval is the whole [`Self::range`], the number of
-    /// digits is not limited.
+    /// [`Self::interval`], the more digits the text has.
     pub fn text(&self, value: f64) -> String {
         let half = 0.5 * (self.interval.1 - self.interval.0);
         format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
@@ -59,12 +58,11 @@ pub struct FitResult {
     pub residual_over_noise: f64,
     /// Share of the points, from 0 to 1, whose residual exceeds 5 times the noise in magnitude.
     pub beyond_five_sigma: f64,
-    /// Root mean square of the residuals divided by the noise of the curve, over all points except those before
-    /// contact. The residual of a point counts as 0 if its force is between the two ends of a computed jump next to the
-    /// point. A residual above 5 times this root mean square counts as 5 times the root mean square.
+    /// Robust root mean square of the residuals divided by the noise, without the points before contact. Points near a
+    /// jump of the force and outliers count less. The model describes the curve if the value is at most 1.5.
     pub misfit: f64,
-    /// Upper bound of the work of adhesion, J/m², if a scene without adhesion describes the curve equally well;
-    /// otherwise `None`. It is the upper end of the 95 % interval.
+    /// Upper end of the 95 % interval of the work of adhesion, J/m², if a scene without adhesion describes the curve as
+    /// well; otherwise `None`.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values; `None` without adhesion or without a radius of curvature, as for a
@@ -82,12 +80,11 @@ pub struct FitResult {
     pub assumptions: Vec<String>,
     /// Number of force curves that the fit computed.
     pub evaluations: usize,
-    /// Computed force at each point of the curve in N, to compare with
-    /// [`MeasuredCurve::force`](crate::MeasuredCurve::force). The zero, drift and tilt that the fit estimates anew are
-    /// added.
+    /// Computed force at each point of the curve in N, with the fitted zero, drift and tilt. It can be compared with
+    /// [`MeasuredCurve::force`](crate::MeasuredCurve::force).
     #[serde(skip)]
     pub model: Vec<f64>,
-    /// Scene with the fitted values. The stages of its loading end at the turning points of the measured curve.
+    /// Scene with the fitted values and with the loading of the measurement.
     #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
 }

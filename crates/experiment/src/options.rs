@@ -20,7 +20,7 @@ pub enum Negate {
     Both,
 }
 
-/// Treatment of a drift of the force. A drift is a straight line over time; the number of a point serves as its time.
+/// Treatment of a drift of the force, which is a change along a straight line over time. Time is counted in points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drift {
     /// Subtracts no drift from the force.
@@ -28,12 +28,12 @@ pub enum Drift {
     Keep,
     /// Subtracts the straight line over time that fits the force at the points without contact best.
     Remove,
-    /// Subtracts a straight line over time. The line rises from the first to the last point by this force in N.
+    /// Subtracts a straight line over time that rises by this force in N from the first to the last point.
     Known(f64),
 }
 
-/// Treatment of a tilt of the force. A tilt is a straight line over the displacement. It occurs if the moving cantilever
-/// reflects the laser beam askew (virtual deflection).
+/// Treatment of a tilt of the force, which is a change along a straight line over the displacement. An example is the
+/// virtual deflection of a cantilever.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Tilt {
@@ -73,8 +73,8 @@ fn positive_length(text: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err("allowed: a length above 0, such as 500nm".to_owned()) }
 }
 
-/// Options with which a [`MeasuredCurve`](crate::MeasuredCurve) is read. What an omitted option would state is taken
-/// from the file, or estimated from the points of the curve.
+/// Options for reading a [`MeasuredCurve`](crate::MeasuredCurve). By default columns, units, signs, zero and noise are
+/// found from the file and its points.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
@@ -136,9 +136,8 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument in N/m that the scene states; if it is `None`, the stiffness in the file is used. A
-    /// stiffness is needed only if the file has the displacement of the body, because reading converts it to the
-    /// displacement of the instrument.
+    /// Stiffness of the instrument in N/m, which converts displacements of the body to displacements of the instrument.
+    /// If it is `None`, the stiffness in the file is used.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
     /// Number of points before contact; default: found from the force

@@ -107,8 +107,8 @@ impl Parameter {
         format!("two values{above}, the first below the second")
     }
 
-    /// Returns in words a measurement that would separate two parameters which a curve alone cannot separate. If both are
-    /// the same parameter, it is a measurement that would determine this parameter.
+    /// Returns in words a further measurement that helps if a fit cannot separate these two parameters. If both are the
+    /// same parameter, the measurement determines this parameter.
     ///
     /// ```
     /// use asperity_experiment::Parameter;
@@ -138,8 +138,8 @@ impl Parameter {
     }
 }
 
-/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed from a text: the name
-/// of the parameter, or `NAME=LOW..HIGH` with a range.
+/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed from a text: `work`,
+/// or `work=10mJ/m^2..1J/m^2` with a range.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};
@@ -158,12 +158,12 @@ pub struct Free {
 }
 
 impl Free {
-    /// Makes a free parameter with a given range of the search: its lower and its upper end in the SI unit of the
-    /// parameter.
+    /// Makes a free parameter with the lower and the upper end of its range, in the SI unit of the parameter.
     ///
     /// # Errors
-    /// Returns an error if the first value is not below the second, or a value is not finite. `Offset` and `Zero` allow
-    /// any sign, a work of adhesion allows 0 and positive values, and all other parameters allow only positive values.
+    /// Returns an error if an end is not finite, if the lower end is not below the upper end, or if the parameter
+    /// cannot have these values. Only `Offset` and `Zero` can be negative, and of the others only a work of adhesion
+    /// can be 0.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range) {
             return Ok(Free { parameter, range: Some(range) });

@@ -33,21 +33,20 @@ const LEAPS: f64 = 0.02;
 /// Residual in units of the median above which residuals are cut off. Such points are on the wrong side of a jump.
 const CUT: f64 = 5.0;
 
-/// Reason why a model does not describe a measured curve. The text of a reason is a sentence with the option that helps.
+/// Reason why a model does not describe a measured curve. `Display` writes a reason as one sentence. If an option of
+/// `asperity fit` or a field of the scene can remove the cause, the sentence names it.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact reaches the ends of the profile, so that the scene needs a larger length. The value is the length of
-    /// the profile in m.
+    /// The contact fills the whole profile, which should be longer. The value is the length of the profile in m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
-    /// Too few springs are in contact. The value is the largest number of springs in contact. The profile needs more
-    /// springs or a smaller length.
+    /// Too few springs are in contact. The value is the largest number of springs in contact.
     #[error(
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]
     CoarseProfile(u64),
-    /// The measured force jumps by this value in N between two points, but the scene has a rigid instrument.
+    /// The measured force jumps by this value in N between two points, but the instrument of the scene is rigid.
     #[error(
         "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
         format_quantity(*.0, "N")
@@ -64,15 +63,14 @@ pub enum Reason {
         "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
     )]
     DriftAndTilt,
-    /// The measured forces before and after contact differ by this value in N, for example because of the drag of a
-    /// fluid.
+    /// The measured forces before and after contact differ by this value in N.
     #[error(
         "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
          alone.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
-    /// The attraction reaches too far for the rule of Hess. The value is the Tabor number, which is below 5.
+    /// The attraction reaches too far for JKR theory. The value is the Tabor number, which is below 5.
     #[error(
         "The Tabor number is {}, below {}: attraction of this range is not that of Johnson, Kendall and \
          Roberts.",
@@ -80,35 +78,34 @@ pub enum Reason {
         Governing::LEAST_TABOR_NUMBER
     )]
     TaborNumber(f64),
-    /// The profile of the scene is random, and the specimen has another profile.
+    /// The profile of the scene is one of many random profiles, and the specimen has another profile.
     #[error(
         "The profile of the scene is one of many random ones, and the specimen has another one: --profiles compares the curve with \
          many of them."
     )]
     OtherProfile,
-    /// Approach and retraction differ more than in an elastic contact. The material is viscoelastic, or the work of
-    /// adhesion is smaller on closing than on opening.
+    /// Approach and retraction differ more than in an elastic contact with a single work of adhesion.
     #[error(
         "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
          closing. --free {} tries the second, --segments 2 fits the retraction alone.",
         Parameter::ClosingWork.name()
     )]
     Branches,
-    /// The measured force rises over the displacement with this slope in N/m. The slope cannot be larger than the
-    /// stiffness of the instrument, so that the stiffness in the scene is too small.
+    /// The measured force rises over the displacement with this slope in N/m, which is larger than the stiffness of the
+    /// instrument in the scene.
     #[error(
         "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
         format_quantity(*.0, "N/m")
     )]
     Stiffness(f64),
-    /// The measured force deviates from the model on approach and retraction in the same way. The stiffness of the
-    /// instrument, the form or the profile of the scene is wrong.
+    /// Approach and retraction deviate from the model in the same way. The stiffness of the instrument, the form or the
+    /// profile of the scene is likely to be wrong.
     #[error(
         "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
          another form or profile."
     )]
     StiffnessOrForm,
-    /// The residuals have none of the other patterns, so that the form or the profile of the scene is likely to be wrong.
+    /// No other reason was found. The form or the profile of the scene is likely to be wrong.
     #[error("Another form or profile than that of the scene is likely.")]
     Form,
 }

@@ -81,10 +81,9 @@ pub(crate) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// Returns the scene with a loading stiffness that suits the measured curve. A scene without `loading_stiffness`
-    /// gets the stiffness that the file of the curve states. If the measured displacement is the displacement of the
-    /// body, the `loading_stiffness` of the scene is removed. The second value is a sentence for the user. It states
-    /// such a change, or that the file and the scene have different stiffnesses.
+    /// Returns the scene with the stiffness of the instrument: the `loading_stiffness` of the scene, or else the
+    /// stiffness in the file of the curve. For a measured displacement of the body the instrument becomes rigid. The
+    /// second value is a sentence about this choice; `None` if scene and file do not differ.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this stiffness.

@@ -13,8 +13,8 @@ const SHORT: (f64, f64) = (1e-3, 1e6);
 pub struct ChartAxis {
     /// Scale of the axis, linear or logarithmic.
     pub scale: AxisScale,
-    /// Range of coordinates that the axis shows. On a linear axis the coordinate of a number is the number itself. On a
-    /// logarithmic axis it is the decadic logarithm of the number.
+    /// Range of coordinates that the axis shows. A coordinate is the number itself on a linear axis, and the decadic logarithm of
+    /// the number on a logarithmic axis.
     pub span: Span,
     /// Name of the quantity in words; may be empty.
     pub name: String,
@@ -22,8 +22,7 @@ pub struct ChartAxis {
     pub symbol: String,
     /// SI unit of the quantity without a prefix; `1` or empty for plain numbers.
     pub unit: String,
-    /// Names along the axis in place of numbers, the first at the coordinate 0, the next at 1, and so on. Empty for an axis with
-    /// numbers.
+    /// Names along the axis in place of numbers, at the coordinates 0, 1, 2 and so on. Empty for an axis with numbers.
     pub names: Vec<Label>,
     /// True if the quantity is a count, so that the axis has ticks only at whole numbers.
     pub counts: bool,
@@ -36,22 +35,19 @@ impl ChartAxis {
         ChartAxis { scale, span, name, symbol, unit, names: Vec::new(), counts: false }
     }
 
-    /// Creates a linear axis with names in place of numbers. The first name is at the coordinate 0, the next at 1, and so on. The
-    /// axis extends by ½ beyond the first and the last name.
+    /// Creates a linear axis with these names at the coordinates 0, 1, 2 and so on, in place of numbers.
     pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
         ChartAxis { names, ..ChartAxis::new(AxisScale::Linear, span, "", "", "") }
     }
 
-    /// Returns the position of a number along the axis, from 0 at the lower end to 1 at the upper end. The position is not
-    /// finite if the scale has no coordinate for the number, as for 0 on a logarithmic axis.
+    /// Returns the position of a number along the axis, from 0 at the lower end to 1 at the upper end. For 0 or a negative number
+    /// on a logarithmic axis the position is not finite.
     pub fn share(&self, number: f64) -> f64 {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Returns by what the numbers at the ticks are divided, and their unit after this division, such as 1e-6 and `µN`. If no SI
-    /// prefix makes the numbers of a linear axis short, the divisor is a power of ten, and the returned unit begins with this
-    /// power, as `10⁶ rad/m` does. If the ticks of a logarithmic axis are powers of ten, the divisor is 1.
+    /// Returns the divisor of the numbers at the ticks, and the unit of the divided numbers, such as 1e-6 and `µN`.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
@@ -77,7 +73,7 @@ impl ChartAxis {
         ChartAxis { span, symbol: format!("{}/{symbol}", self.symbol), unit: "1".to_owned(), ..self.clone() }
     }
 
-    /// Returns the label of the axis: name and symbol, then in brackets the unit of [`Self::prefix`].
+    /// Returns the label of the axis: name and symbol, then the unit in brackets, which has the prefix of [`Self::prefix`].
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -97,8 +93,7 @@ impl ChartAxis {
         if label.width() <= most { label } else { self.symbol_with_unit() }
     }
 
-    /// Returns a short label of the axis: the symbol, then in brackets the unit of [`Self::prefix`]. A quantity without a symbol
-    /// has the name in place of the symbol.
+    /// Returns a short label of the axis: the symbol, or the name if there is no symbol, then the unit in brackets.
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
     }
@@ -115,8 +110,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the ticks of the axis: about `most` ticks with a number, and minor ticks without a number between them. If fewer
-    /// than two ticks would have a number, `most` is raised by up to 2. An axis with names has a tick at each name.
+    /// Returns the ticks of the axis: about `most` ticks with a number, and minor ticks without a number between them. An axis
+    /// with names has a tick at each name.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };

@@ -1,5 +1,4 @@
-//! Content of a figure: charts with axes, and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
-//! decides on the appearance.
+//! Content of a figure: charts with axes, and layers of data in SI units.
 
 use super::axis::ChartAxis;
 use super::colour::{Ink, Rgb, Shades};
@@ -16,19 +15,16 @@ pub struct Figure {
     pub notes: Vec<Label>,
     /// Charts of the figure, which are placed in rows from left to right.
     pub charts: Vec<Chart>,
-    /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given, only the ratio of frame width
-    /// to frame height counts.
+    /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given, only their ratio counts.
     pub size: (f64, f64),
-    /// Lines that say how to compute the figure again: version, command and scene. Of all formats only SVG contains these lines,
-    /// as metadata.
+    /// Lines that say how to compute the figure again: version, command and scene. Only an SVG document contains them, as
+    /// metadata.
     pub origin: String,
     /// Lines of text in a box below the legend, such as the numbers of the scene.
     pub parameters: Vec<Label>,
-    /// Width of the picture in px (1/96 inch). The frames are fitted to this width, while letters and lines keep their size. If
-    /// it is `None`, the frames have [`Self::size`], and the picture is as wide as they need.
+    /// Width of the picture in px (1/96 inch), to which the frames are fitted. If it is `None`, the frames have [`Self::size`].
     pub width: Option<f64>,
-    /// Height of the picture in px (1/96 inch). If it is `None`, the picture is as high as the frames need. A picture with a
-    /// given [`Self::width`] is then at most as high as a page.
+    /// Height of the picture in px (1/96 inch). If it is `None`, the picture is as high as the frames need.
     pub height: Option<f64>,
     /// True if the picture is drawn without the title, because a caption outside the picture has the title.
     pub untitled: bool,
@@ -64,8 +60,8 @@ impl Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }
 
-    /// Creates a figure without a title from the charts of several figures. The title and the notes of each given figure become
-    /// part of the headings of its charts.
+    /// Creates a figure without a title from the charts of several figures. The headings of the charts contain the titles and
+    /// notes of the given figures.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
@@ -79,12 +75,10 @@ impl Figure {
         Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
-    /// Keeps the charts with these letters, in the order of `letters`, such as `ac` for the first and the third chart. The kept
-    /// charts are lettered anew from `a` on.
+    /// Keeps the charts with these letters, in the order of `letters`, such as `ac` for the first and the third chart.
     ///
     /// # Errors
-    /// Returns an error if a letter belongs to no chart, or if no letter is given. The text of the error consists of the letters
-    /// that the charts have.
+    /// Returns an error if a letter belongs to no chart, or if no letter is given. The error lists the letters of the charts.
     pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
         let panel =
             |letter: char| (letter as usize).checked_sub('a' as usize).and_then(|at| self.charts.get(at));
@@ -102,8 +96,7 @@ impl Figure {
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend. Layers of the same name share one entry, which shows the line, area or marker of each
-    /// of these layers in the colour of the layer.
+    /// Returns the entries of the legend. Layers of the same name share one entry.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
@@ -136,9 +129,8 @@ impl Chart {
         self
     }
 
-    /// Expresses the quantity of an axis in another unit, for example F in units of F_a,max. The numbers on the axis and the
-    /// numbers of the layers are divided by the unit; heat maps are not changed. A unit is given by its value and its symbol;
-    /// `None` leaves an axis as it is.
+    /// Divides the numbers on an axis and the numbers of the layers by a unit, for example F by F_a,max. Each unit has a value
+    /// and a symbol; `None` leaves an axis as it is. Heat maps are not changed.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
             *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
@@ -179,7 +171,7 @@ impl Chart {
         })
     }
 
-    /// Returns the first heat map of the chart, so that the caller can change it; `None` for a chart without one.
+    /// Returns the first heat map of the chart for changes; `None` for a chart without one.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
         self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
             Shape::Map(map) => Some(map.as_mut()),
@@ -188,12 +180,12 @@ impl Chart {
     }
 }
 
-/// One set of data in a chart, such as a curve, with its name in the legend. Layers of the same name share an entry.
+/// One set of data in a chart, such as a curve, with its name in the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Name in the legend. A layer with an empty name has no entry.
     pub name: Label,
-    /// What the data are, such as a loading. Each output format chooses the colour for it.
+    /// Meaning of the data, such as a loading, which determines their colour.
     pub ink: Ink,
     /// The data, and the shape in which they are drawn, such as a curve or a heat map.
     pub shape: Shape,
@@ -210,8 +202,8 @@ impl Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
 
-    /// Returns the points (x, y) of a curve. For an [`Shape::Envelope`] these are the lowest and the highest point of each
-    /// column. For other shapes the list is empty.
+    /// Returns the points (x, y) of a curve, or the lowest and the highest point of each column of a [`Shape::Envelope`]. For
+    /// other shapes the list is empty.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -251,11 +243,10 @@ pub enum Shape {
         /// Marker at each point; `None` for no markers.
         sign: Option<Sign>,
     },
-    /// Area between two curves, as points (x, lower y, upper y). If the lower or upper y is beyond the axis, the area ends at
-    /// the end of the axis.
+    /// Area between two curves, as points (x, lower y, upper y).
     Band(Vec<(f64, f64, f64)>),
-    /// Line with more points than a picture resolves. The range of x is divided into columns of equal width, and only the lowest
-    /// and the highest y of each column are kept.
+    /// Line with more points than a picture resolves. Only the lowest and the highest y in each of many columns of equal width
+    /// are kept.
     Envelope {
         /// The x of the left edge of the first column, and of the right edge of the last column.
         x: (f64, f64),
@@ -312,13 +303,12 @@ pub enum Sign {
     Cross,
     /// Open diamond.
     HollowDiamond,
-    /// Smallest marker of an output format; in a terminal it is one Braille dot. Lines drawn over thousands of these markers
-    /// remain legible.
+    /// Smallest marker of an output format, for curves of thousands of points.
     Point,
 }
 
 impl Sign {
-    /// Returns the marker for one of several curves of a chart. `number` is the number of this curve, from 0.
+    /// Returns the marker for one of several curves of a chart, which have the numbers 0, 1, 2 and so on.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
@@ -337,8 +327,8 @@ pub struct HeatMap {
     pub key: ChartAxis,
     /// Colours of the values, from low to high.
     pub shades: Shades,
-    /// Class of each cell as an index of [`Self::class_names`], in the order of [`Self::values`]. `None` for a cell without a
-    /// class; empty for a map without classes.
+    /// Class of each cell as an index of [`Self::class_names`], in the order of [`Self::values`]; `None` for a cell without a
+    /// class. The list is empty for a map without classes.
     pub classes: Vec<Option<usize>>,
     /// Classes that cells can have, such as regimes of adhesion; empty for a map without classes.
     pub class_names: Vec<Class>,
@@ -351,8 +341,7 @@ pub struct HeatMap {
 pub struct Class {
     /// Marker of the class in an SVG, PNG or PDF figure.
     pub sign: Sign,
-    /// Letter that marks the class in a terminal if the cells of the map are wide enough. `None` for a class without a letter,
-    /// for example if the colour of a cell already shows the class.
+    /// Letter that marks the class in a terminal; `None` for a class without a letter.
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,
@@ -360,12 +349,12 @@ pub struct Class {
     pub ink: Ink,
 }
 
-/// Line in a heat map along which a quantity has a given value. This quantity may differ from the quantity that the colours show.
+/// Line in a heat map along which a quantity has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Values of the quantity of the line in the cells, in the order of [`HeatMap::values`]; `None` for a cell without a value.
+    /// Value of this quantity in each cell of the map, in the order of [`HeatMap::values`]; `None` for a cell without a value.
     pub field: Vec<Option<f64>>,
-    /// Value of the quantity along the line, in the unit of [`Self::field`].
+    /// Value of this quantity along the line, in the same unit as [`Self::field`].
     pub level: f64,
     /// Name of the line in the legend.
     pub name: Label,
@@ -377,15 +366,13 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
-    /// Returns the number of the colour band to which a value belongs, from 0 for the lowest values to [`Shades::BANDS`] − 1 for
-    /// the highest. [`Shades::of_band`] returns the colour of a band.
+    /// Returns the number of the colour band of a value, from 0 for the lowest values to [`Shades::BANDS`] − 1 for the highest.
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the borders of the map cells along an axis, each cell around one of these values. They are coordinates as in
-    /// [`ChartAxis::span`], and one more than there are values. Inner borders are halfway between the coordinates of neighbouring
-    /// values.
+    /// Returns the coordinates of the borders of map cells along an axis, with one cell around each of these values. There is one
+    /// border more than there are values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
@@ -397,8 +384,7 @@ impl HeatMap {
         [vec![before], between, vec![after]].concat()
     }
 
-    /// Returns the range of coordinates of an axis with a map cell around each of these values: from the first border to the
-    /// last.
+    /// Returns the range of coordinates of an axis that has a map cell around each of these values.
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
         Span { low: borders[0], high: borders[borders.len() - 1] }
@@ -410,7 +396,7 @@ impl HeatMap {
 pub struct Entry {
     /// Name of the layers.
     pub name: Label,
-    /// What the legend shows before the name, each with its ink. There are several if the layers of this name look different.
+    /// Lines, areas or markers that the legend shows before the name, each with its ink.
     pub samples: Vec<(Ink, Sample)>,
 }
 
@@ -432,8 +418,7 @@ pub enum Sample {
 }
 
 impl Entry {
-    /// Returns the legend entries for the layers of charts. Each name has one entry. Entries have the order in which the layers
-    /// are drawn, but areas come last.
+    /// Returns the legend entries for the layers of charts. Layers of the same name share one entry.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         let mut add = |name: &Label, ink: Ink, sample: Sample| {

@@ -28,8 +28,7 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// Light colours on a dark background. Red, green, blue and magenta also differ in lightness, for readers with red-green
-    /// colour blindness.
+    /// Light colours on a dark background, which are also distinct to readers with red-green colour blindness.
     pub const DARK: Palette = Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
@@ -39,7 +38,7 @@ impl Palette {
         ]),
     };
 
-    /// Dark colours on a white background. As in [`Palette::DARK`], red, green, blue and magenta also differ in lightness.
+    /// Dark colours on a white background, which are also distinct to readers with red-green colour blindness.
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -50,7 +49,7 @@ impl Palette {
     };
 }
 
-/// Meaning of a line, area or text in a chart, such as loading. Each output format chooses a colour for each ink.
+/// Meaning of a line, area or text in a chart, such as loading. The colour of an ink depends on the output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
@@ -71,11 +70,11 @@ pub enum Ink {
     Manual,
     /// Earlier curve that stays in the background while a new one is shown.
     Kept,
-    /// One of several curves that are kept for comparison, by its number from 0.
+    /// One of several curves that are kept for comparison. The value is the number of this curve, from 0.
     Compared(usize),
     /// State of the contact that the user selected with the cursor.
     Cursor,
-    /// One of several curves in a figure, by its number from 0.
+    /// One of several curves in a figure. The value is the number of this curve, from 0.
     Series(usize),
 }
 
@@ -126,8 +125,7 @@ impl Shades {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
 
-    /// Returns nine colours at equal distances along the scale, from the colour of the lowest value to the colour of the highest
-    /// value.
+    /// Returns nine colours at equal distances along the scale, from the lowest value to the highest.
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,

@@ -3,8 +3,8 @@
 use super::label::Label;
 use roxmltree::Document;
 
-/// Returns two values: each tag of an SVG document as its name with its attributes, and the whole text of the document. Panics if
-/// the document is not well-formed.
+/// Returns the tags of an SVG document, each as its name with its attributes, and the whole text of the document. Panics if the
+/// document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
     let tag = |element: roxmltree::Node<'_, '_>| {
@@ -55,7 +55,8 @@ pub fn check_picture(svg: &str) {
     }
 }
 
-/// Returns the number in the attribute `name` of an element that [`elements`] returned; NaN if it has no such number.
+/// Returns the value of the attribute `name` of an SVG element as a number. `element` is one of the texts that [`elements`]
+/// returns. Returns NaN if the attribute is missing or is not a number.
 pub fn attribute(element: &str, name: &str) -> f64 {
     let value = element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
     value.and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)

@@ -18,8 +18,7 @@ pub(crate) enum Face {
 /// Blank at which no line breaks, written as an ordinary blank.
 const FIXED: char = '\u{a0}';
 
-/// Text in a figure, which can have italic symbols, indices and exponents. Its `to_string` returns plain text such as `F_a` or
-/// `10⁻³`.
+/// Text in a figure, which can have italic symbols, indices and exponents. Its `to_string` returns plain text such as `F_a`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     runs: Vec<(Face, String)>,
@@ -67,8 +66,7 @@ impl Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
-    /// Creates a label of a statement such as `H = 0.3`, with an italic symbol and an upright value. Text without ` = ` is
-    /// upright.
+    /// Creates a label of a statement such as `H = 0.3`, with an italic symbol and an upright value.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => statement("", symbol, value),
@@ -104,13 +102,12 @@ impl Label {
         &self.runs
     }
 
-    /// Returns the width of the label divided by the font size, in the widest of the usual sans-serif fonts.
+    /// Returns the width of the label divided by the font size, for a wide sans-serif font.
     pub fn width(&self) -> f64 {
         self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
     }
 
-    /// Divides the label into lines. No line has a [`Self::width`] above `most`. Lines break at blanks; a word that is longer
-    /// than a line is divided.
+    /// Divides the label into lines, at blanks where possible. No line has a [`Self::width`] above `most`.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
         let all = self.runs.iter().flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
         let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
@@ -191,8 +188,7 @@ fn raised(character: char) -> char {
 }
 
 /// Chooses an SI prefix with which numbers up to `largest` are short. Returns the divisor of the numbers and the unit with the
-/// prefix: 1e-3 and `mN` for 0.02 N. For a unit that takes no prefix, such as rad/m, the divisor is 1. For numbers without a unit
-/// (`1` or empty) the returned unit is empty.
+/// prefix, such as 1e-3 and `mN` for 0.02 N.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());

@@ -19,8 +19,7 @@ const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
-    /// Draws the figure and returns the content of a PNG file. The picture has 600 dpi if [`Self::width`] is given, otherwise 192
-    /// dpi.
+    /// Draws the figure and returns the content of a PNG file, with 600 dpi if [`Self::width`] is given, otherwise with 192 dpi.
     ///
     /// # Errors
     /// Returns an error if the picture would have more than 67 million pixels (2^26).

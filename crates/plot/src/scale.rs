@@ -15,9 +15,8 @@ pub struct Span {
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
-    /// Returns the range from the smallest to the largest finite coordinate, widened at each end by `room` times its width. If
-    /// all coordinates are equal, the range extends to both sides of their common value. If there are no coordinates, the range
-    /// is 0 to 1.
+    /// Returns the range from the smallest to the largest finite coordinate, widened at each end by `room` times its width.
+    /// Without coordinates the range is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
@@ -40,9 +39,8 @@ impl Span {
         Span { low: low - margin, high: high + margin }
     }
 
-    /// Returns the range of coordinates for an axis that shows these values. On a linear scale the range begins at zero if no
-    /// value is negative and the lowest value is at most 0.3 times the highest. On a logarithmic scale the range has at most
-    /// `decades` decades, and smaller values are outside it.
+    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it may be extended to zero. On a
+    /// logarithmic scale it ends at the largest value and has at most `decades` decades.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {

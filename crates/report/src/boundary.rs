@@ -35,8 +35,7 @@ impl Report for Boundaries {
     }
 
     /// Returns an entry for each boundary: the κ or e_el/γ at which adhesion without a preload falls to a stated share of
-    /// F_a,max. If this value lies outside the studied range, the entry has the nearest end of the range under `below` or
-    /// `above`.
+    /// F_a,max.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let object = |boundary: &AdhesionBoundary| {
             let mut object = Map::new();

@@ -31,8 +31,8 @@ pub struct CostReport<'a> {
 }
 
 impl<'a> CostReport<'a> {
-    /// Makes a report on the measured times and errors of a scene. `reference` is a comparison of the scene with a computation in
-    /// three dimensions. If it is given, the report also has the error of the model.
+    /// Makes a report on the measured times and errors of a scene. With `reference` the report also has the error of the model,
+    /// by a comparison with three dimensions.
     pub fn new(
         title: &'a str,
         scene: &'a Scene,
@@ -44,8 +44,7 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
-    /// Returns text. It begins with the numbers of springs that give errors of 1 % and 0.1 %, and with their computing times. It
-    /// ends with the settings that were not tried or needed too much time or memory.
+    /// Returns text on the numbers of springs that give errors of 1 % and 0.1 %, with their computing times.
     fn text(&self) -> Option<String> {
         let table = self.table;
         let mut sheet = Sheet::default();

@@ -112,8 +112,7 @@ pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
     }
 }
 
-/// An ensemble, the results of a scene on several random profiles. JSON has medians, quartiles and regimes; the table has a row
-/// for each profile, with its seed and all recorded quantities.
+/// An ensemble, the results of a scene on several random profiles. The table has a row for each profile.
 impl Report for Ensemble {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(ensemble_value(self)))
@@ -134,7 +133,7 @@ impl Report for Ensemble {
     }
 }
 
-/// Results of a parameter study that are in memory. JSON has the scene, the axes of the study and the table of all results.
+/// Results of a parameter study that are in memory.
 impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let Plan { scene, axes, lines, .. } = self.plan();

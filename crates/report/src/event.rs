@@ -6,9 +6,8 @@ use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 /// force.
 const NEAR: f64 = 0.01;
 
-/// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or `contact spreads`. `legs` are the
-/// loading stages of the history. `branch` is the loading or unloading among these stages on which the point lies. Returns `None`
-/// if the body does not move on this branch.
+/// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or `contact spreads`. The point lies on
+/// `branch`, a loading or unloading among the stages `legs`. Returns `None` if the body does not move on this branch.
 pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
     let stages = &legs[branch.stages.clone()];
     let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);

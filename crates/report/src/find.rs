@@ -19,13 +19,12 @@ pub struct FindReport<'a> {
     pub title: &'a str,
     /// Scene in which the number is varied.
     pub scene: &'a Scene,
-    /// Answer: the values of the number that were found, on each profile.
+    /// Values of the number that were found, on each profile.
     pub found: &'a Found,
 }
 
-/// Returns one sentence with the value of the number at which the result reaches the wanted value: median and quartiles over the
-/// profiles. If there is no such value, the sentence says whether the wanted value is reached always or never, and states the
-/// range of the result.
+/// Returns the answer of a search in one sentence. It has the median and the quartiles, over the profiles, of the number at which
+/// the result reaches the wanted value.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
     let (axis, count) = (&question.axis, found.answers.len());
@@ -212,8 +211,8 @@ impl Report for FindReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each profile. A row has the value of the number that was found, how often the result
-    /// crosses the wanted value, and the range of the result.
+    /// Returns a table with a row for each profile: the number that was found, how often the result crosses the wanted value, and
+    /// the range of the result.
     fn table(&self) -> Option<Table<'_>> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());

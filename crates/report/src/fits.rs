@@ -22,14 +22,14 @@ pub struct CurveRow {
     pub file: String,
     /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if the curve was not fitted.
     pub parameters: Vec<[f64; 3]>,
-    /// Four numbers: the pull-off force in N, the work of adhesion in J/m² of a smooth sphere with this pull-off force, the rms
-    /// residual divided by the noise, and the noise in N. A number that is unknown is `None`.
+    /// Pull-off force in N, work of adhesion in J/m² of a smooth sphere with this pull-off force, rms residual divided by the
+    /// noise, and noise in N; `None` for an unknown number.
     pub facts: [Option<f64>; 4],
     /// Number of points of the curve that are used; `None` if the curve was not fitted.
     pub points: Option<u64>,
     /// True if the model describes the curve; `None` if the curve was not fitted.
     pub described: Option<bool>,
-    /// Reason why the model does not describe the curve; empty if there is no such reason, or if the curve was not fitted.
+    /// Reason why the model does not describe the curve; empty if there is none.
     pub reason: String,
     /// Reason why the curve was not read or not fitted; empty if the curve was fitted.
     pub error: String,
@@ -74,8 +74,8 @@ impl CurveRow {
         }
     }
 
-    /// Reads a row from a line of a CSV table that [`FitsReport`] wrote. `parameters` is the number of free parameters. Returns
-    /// `None` if the number of cells in the line is wrong, or if a cell that must have a number has none.
+    /// Reads a row from a line of a CSV table that [`FitsReport`] wrote; `None` for any other line. `parameters` is the number of
+    /// free parameters.
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
         let (file, rest) = cells.split_first()?;

@@ -6,7 +6,7 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use asperity_scene::Outcome;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 
-/// Which two quantities of a force loop a chart shows. A loop is the curve of loading and unloading.
+/// Two quantities of a force loop that a chart shows. A loop is the curve of loading and unloading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
     /// Force over the indentation.
@@ -21,8 +21,8 @@ pub enum LoopQuantities {
 }
 
 impl LoopQuantities {
-    /// Returns the pair of quantities that the explorer shows next after this pair. `deflects` is true for an instrument that is
-    /// not rigid. If it is false, `ForceDisplacement` is left out.
+    /// Returns the pair of quantities that the explorer shows next. If `deflects` is false, as for a rigid instrument, the pair
+    /// `ForceDisplacement` is left out.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -73,9 +73,8 @@ impl LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
 
-    /// Returns these quantities for a chart of a computed scene, whose instrument has the stiffness in the scene. If `normalised`
-    /// is true, the indentation is in units of the rms height h, the force in units of F_a,max and lengths in units of L;
-    /// otherwise all are in SI units.
+    /// Returns these quantities for a chart of a computed scene. If `normalised` is true, the indentation is in units of the rms
+    /// height h, the force in units of F_a,max, and lengths in units of L; otherwise all are in SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
         LoopUnits {
@@ -100,8 +99,7 @@ impl LoopUnits {
         self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
-    /// Returns true if a chart of these quantities shows this kind of marked point, such as the pull-off. A chart over the
-    /// displacement of the instrument does not show the jumps into and out of contact.
+    /// Returns true if a chart of these quantities shows this kind of marked point, such as the pull-off.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
@@ -158,27 +156,24 @@ impl LoopUnits {
     }
 }
 
-/// Force loop in a chart: the curves of loading and unloading, and how they are drawn. If the loop has no name, ink or stroke of
-/// its own, loading and unloading differ in name, ink or stroke.
+/// Force loop in a chart: the curves of loading and unloading, and how they are drawn.
 #[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
     /// Points of the force curve of each loading stage, with the direction of the stage.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
-    /// Stiffness of the instrument in N/m; `None` for a rigid instrument. In a chart over the displacement, a jump of the force
-    /// that this instrument shows is drawn dashed.
+    /// Stiffness of the instrument in N/m; `None` for a rigid instrument.
     pub stiffness: Option<f64>,
-    /// Marked points of the curves, such as preload and pull-off. The legend has the names of these points if [`Self::name`] is
-    /// `None`.
+    /// Marked points of the curves, such as preload and pull-off.
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name of the loop in the legend; `None` for the two names `loading` and `unloading`.
     pub name: Option<Label>,
-    /// True if the legend has the names of the marked points without their forces, because several charts share the legend.
+    /// True if the legend has the names of the marked points without their forces.
     pub without_forces: bool,
     /// Ink of the loop; `None` for [`Ink::Loading`] and [`Ink::Unloading`].
     pub ink: Option<Ink>,
-    /// Stroke of the loop. If it is `None`, the loading is dotted, and the unloading has the stroke [`Self::unloading`].
+    /// Stroke of loading and unloading; `None` for a dotted loading and an unloading with the stroke [`Self::unloading`].
     pub stroke: Option<Stroke>,
-    /// Stroke of the unloading, which is used if [`Self::stroke`] is `None`. If both are `None`, the unloading is a solid line.
+    /// Stroke of the unloading if [`Self::stroke`] is `None`; `None` for a solid line.
     pub unloading: Option<Stroke>,
 }
 
@@ -258,7 +253,7 @@ impl<'a> ForceLoop<'a> {
     }
 }
 
-/// Returns a chart of force loops, with a line where the vertical quantity is zero. Later loops are drawn over earlier ones.
+/// Returns a chart of force loops. Later loops are drawn over earlier ones.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let lines = loops.iter().flat_map(|one| one.lines(units));
     let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
@@ -268,9 +263,7 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     Chart::new(x, y, layers)
 }
 
-/// Returns a figure of the force curves of computed scenes, each given with its title, in one chart. A single scene has one
-/// colour for loading and another for unloading. Several scenes differ in colour, and neighbouring scenes in the stroke of the
-/// unloading too. The legend then explains the dotted loading and each marker once.
+/// Returns a figure with one chart of the force curves of computed scenes, which are given with their titles.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         return Figure::of_chart(title, loop_chart(&[ForceLoop::new(&outcome.history.legs)], units));
@@ -294,8 +287,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     Figure::of_chart("", chart)
 }
 
-/// Returns a figure with a chart of the force curve for each of several computed scenes, which are given with their titles. The
-/// heading of a chart has the title and the adhesion force of the scene.
+/// Returns a figure with a chart for the force curve of each computed scene. The scenes are given with their titles.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let figure = |(title, outcome): &(&str, &Outcome)| {
         let one = ForceLoop { without_forces: true, ..ForceLoop::new(&outcome.history.legs) };

@@ -8,8 +8,7 @@ use asperity_study::{Quantity, Statistics};
 
 impl Report for Grid {
     /// Returns a table with a row for each computed combination of values on the axes of a study. A row has these values, the
-    /// number of profiles, the most frequent regimes, and the statistics of each quantity over the profiles, in SI units. The
-    /// heading of the column of an axis is the path of a field of the scene, such as `adhesion.kappa`.
+    /// number of profiles, the most frequent regimes, and the statistics of each quantity over the profiles, in SI units.
     fn table(&self) -> Option<Table<'_>> {
         let columns = self.across.values.len();
         let mut table = Table::of(move || {

@@ -42,8 +42,8 @@ pub struct SurfaceFile {
     pub points: Vec<usize>,
     /// Length of a row, and for a map the length of a column, m; 0 if the points are not evenly spaced.
     pub lengths: Vec<f64>,
-    /// Numbers of columns and of rows left out at the borders of a map because they have no measured heights. For a profile it is
-    /// the number of points without a height left out at both ends.
+    /// Numbers of columns and rows without measured heights that were left out at the borders of a map, or number of points
+    /// without a height that were left out at the ends of a profile.
     pub cropped: Vec<usize>,
     /// Number of points without a measured height, whose heights were interpolated.
     pub interpolated: usize,
@@ -81,8 +81,7 @@ impl SurfaceFile {
         path_name(&self.path) + &name
     }
 
-    /// Returns the facts in one line: name, format, numbers of points and lengths, then the points that were left out or
-    /// interpolated.
+    /// Returns the facts in one line of text.
     pub fn describe(&self) -> String {
         let counts: Vec<String> = self.points.iter().map(|count| grouped(*count as u64)).collect();
         let lengths: Vec<String> = self.lengths.iter().map(|length| format_quantity(*length, "m")).collect();
@@ -109,13 +108,12 @@ impl SurfaceFile {
     }
 }
 
-/// Measured surfaces (profiles or maps) of one body, and their common analysis. The analysis takes all surfaces as samples of the
-/// same roughness.
+/// Measured surfaces (profiles or maps) of one body, and their common analysis as samples of the same roughness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
     /// Facts about each surface and its file.
     pub files: Vec<SurfaceFile>,
-    /// Spectrum, moments and fit of all these surfaces together.
+    /// Spectrum and moments of all these surfaces together, with a fit of the spectrum.
     pub analysis: Analysis,
 }
 

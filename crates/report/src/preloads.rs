@@ -21,18 +21,15 @@ pub struct PreloadReport<'a> {
     pub choice: Option<&'a Choice>,
     /// Values computed so far for each preload on each profile: the quantities [`Results::OF_PRELOADS`].
     pub results: &'a Results,
-    /// Adhesion force of the first profile over the preload, a staircase with the exact place of each step. If it is `None`,
-    /// there is no figure, and [`Self::curves`] has no effect.
+    /// Adhesion force of the first profile as a function of the preload. If it is `None`, there is no figure.
     pub staircase: Option<&'a Staircase>,
-    /// Choice of the rows of a table. If it is true, there is one row for each preload of the [`Self::staircase`]. If it is
-    /// false, there is one row for each preload on each profile.
+    /// True for a table with a row for each preload of the [`Self::staircase`]; false for a row for each preload on each profile.
     pub curves: bool,
 }
 
 impl PreloadReport<'_> {
-    /// Returns the figure with the [`preload_chart`], and beside it the [`distribution`] of the adhesion force at the largest
-    /// preload. If `has_values` is true, the legend has the values of F_a(d=0) and F_a(F=0). Returns `None` if
-    /// [`Self::staircase`] is `None`.
+    /// Returns the figure with the [`preload_chart`] and the [`distribution`] at the largest preload; `None` without a
+    /// [`Self::staircase`]. If `has_values` is true, the legend has the values of F_a(d=0) and F_a(F=0).
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
         let chart = preload_chart(staircase, &spread, has_values);
@@ -114,9 +111,8 @@ impl Report for PreloadReport<'_> {
         }))
     }
 
-    /// If [`Self::curves`] is true and there is a [`Self::staircase`], returns a row for each preload of the staircase, with the
-    /// adhesion force of the first profile, and with the statistics over the random profiles where they are known. Otherwise a
-    /// row is the unloading of one profile from one preload; the row of a random profile begins with its seed.
+    /// Returns a table with a row for each unloading of a profile, or for each preload of the staircase if [`Self::curves`] is
+    /// true.
     fn table(&self) -> Option<Table<'_>> {
         Some(match self.staircase.filter(|_| self.curves) {
             Some(staircase) => curve_table(self.results, staircase),
@@ -129,8 +125,7 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// Returns the figure of `chart`, which [`preload_chart`] made. If `beside` is given, the figure also has this chart, which
-/// [`distribution`] made.
+/// Returns the figure of `chart`, a [`preload_chart`], with `beside`, a [`distribution`], on its right.
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else { return Figure::of_chart(title, chart) };
     let chart = Chart { heading: Label::quantity("adhesion force", "F_a"), ..chart };
@@ -158,8 +153,7 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
 }
 
 /// Returns a warning if, at some preload, a single profile contributes more than half of the mean adhesion force; otherwise
-/// `None`. The warning names the preload at which this share is largest. `spread` has pairs of a preload in N and the statistics
-/// of the adhesion force over the profiles.
+/// `None`. `spread` has pairs of a preload in N and the statistics of the adhesion force over the profiles.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
     let (preload, most) = spread.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
@@ -204,10 +198,9 @@ pub(crate) fn unloadings(
 const LOGARITHMIC_RATIO: f64 = 30.0;
 const MOST_DECADES: f64 = 6.0;
 
-/// Returns the chart of the adhesion force over the preload. It shows the staircase of one profile, the statistics over several
-/// profiles, and the forces without a preload F_a(d=0) and F_a(F=0). If `has_values` is true, the legend has the values of these
-/// two forces. If the axis of preloads is logarithmic and the forces differ 30-fold or more, the axis of forces is logarithmic
-/// too. `spread` has pairs of a preload in N and the statistics over the profiles.
+/// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for the statistics over several
+/// profiles. `spread` has pairs of a preload in N and these statistics. If `has_values` is true, the legend has the values of
+/// F_a(d=0) and F_a(F=0).
 pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;
@@ -277,9 +270,8 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     )
 }
 
-/// Returns the chart of the cumulative distribution of the adhesion force: the force over the share of profiles with at most this
-/// force. The forces are those after the computed preload that is nearest to `preload`, in N. Returns `None` for fewer than two
-/// profiles. If `forces` is given, it becomes the vertical axis, so that a chart beside this chart can have the same axis.
+/// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the computed preload nearest to
+/// `preload` in N; `None` for fewer than two profiles. If `forces` is given, it is the vertical axis.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

@@ -13,8 +13,10 @@ const HASH: &str = "sha256: ";
 const COMMAND: &str = "command: ";
 
 /// Returns the first lines of a table, which say how to compute it again: version, command, measured files with their SHA-256,
-/// and scene. Names of files in the scene are relative to `folder`; the table will be in the folder `destination`. An error is
-/// returned if a file cannot be read.
+/// and scene. `folder` is the folder of the scene, and `destination` is the folder of the table.
+///
+/// # Errors
+/// Returns an error if a measured file cannot be read.
 pub fn scene_provenance(
     command: &str,
     scene: &Scene,
@@ -30,8 +32,8 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-/// Returns lines for the metadata of a figure, which say how to compute it again: version, command and scenes with their names.
-/// Scenes without a name are left out.
+/// Returns lines for the metadata of a figure, which say how to compute it again: version, command, and the scenes that have a
+/// name.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     let named = scenes.iter().filter(|(name, _)| !name.is_empty());
     let texts = named.map(|(name, scene)| format!("scene {}:\n{}", printable(name), to_ron(scene)));
@@ -45,8 +47,11 @@ pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     program.into_iter().chain(command.map(|command| ("command", command))).collect()
 }
 
-/// Returns the first lines of a table without a scene: version, command, and measured files with their SHA-256. The table will
-/// be in the folder `destination`. An error is returned if a file cannot be read.
+/// Returns the first lines of a table without a scene: version, command, and measured files with their SHA-256. `destination` is
+/// the folder of the table.
+///
+/// # Errors
+/// Returns an error if a file cannot be read.
 pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
@@ -69,8 +74,7 @@ fn version_and_command(command: &str, hashes: &str) -> String {
     format!("asperity {version}\n{hashes}{COMMAND}{}\n", printable(&command))
 }
 
-/// Checks that the measured files of a scene, which was read from the head of a table, are the same as when the table was
-/// written.
+/// Checks that the measured files of a scene are the same as when the table with this scene was written.
 ///
 /// # Errors
 /// Returns an error if a file cannot be read, or if its SHA-256 differs from the one in the table.
@@ -99,8 +103,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Returns the path of a file as it is written into a table in the folder `destination`. `file` is the path relative to `folder`.
-/// If both folders are the same, the path does not change; otherwise it becomes absolute.
+/// Returns the path by which a table in the folder `destination` names a file. `file` is the path relative to `folder`. If the
+/// two folders differ, the result is an absolute path.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

@@ -53,7 +53,7 @@ impl Default for ReferenceProgress {
 
 impl ReferenceProgress {
     /// Returns a line of text on an event of the comparison, such as a finished square. The second value is true if the line
-    /// announces a comparison that will take at least 10 s.
+    /// announces a comparison of at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
             ReferenceEvent::Begins { maps, threads, bytes, seconds, .. } => {
@@ -85,9 +85,8 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. After the
-/// first square, the words also have a ratio: the adhesion force of the profiles divided by the adhesion force in three
-/// dimensions. If `is_adhesive` is false, it is the ratio of the indentations.
+/// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. The words
+/// can have the ratio of profiles to three dimensions: of adhesion forces, or of indentations if `is_adhesive` is false.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some(compared) = loops.headline() else {
@@ -260,9 +259,8 @@ impl Report for ReferenceReport<'_> {
         }))
     }
 
-    /// Returns a table of the loading without adhesion, which is computed with profiles and in three dimensions. A row has a
-    /// force and two quantities at this force, the indentation and the stiffness. Each quantity has three numbers: the mean over
-    /// profiles, the mean in three dimensions, and the ratio of the means.
+    /// Returns a table of the loading without adhesion. A row has a force, then indentation and stiffness at this force: the mean
+    /// over profiles, the mean in three dimensions, and the ratio of these means.
     fn table(&self) -> Option<Table<'_>> {
         let rows = move || self.reference.loading.iter();
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);
@@ -280,8 +278,7 @@ impl Report for ReferenceReport<'_> {
         Some(table.done())
     }
 
-    /// Returns a chart of the loading without adhesion: mean and quartiles of the indentation at each force, for profiles and
-    /// for three dimensions.
+    /// Returns a chart of the loading without adhesion: mean and quartiles of the indentation at each force, in both models.
     fn figure(&self) -> Option<Figure> {
         let loading = &self.reference.loading;
         let force = |loaded: &Loaded| loaded.force;

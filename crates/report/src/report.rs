@@ -9,8 +9,8 @@ use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
-/// Result that can be written in one or more of four forms: text, JSON, table, figure. If a result lacks a form, the method of
-/// this form returns `None`.
+/// Result that can be written in one or more of four forms: text, JSON, table, figure. The method of a missing form returns
+/// `None`.
 pub trait Report {
     /// Returns the result as plain text of at most 80 columns.
     fn text(&self) -> Option<String> {
@@ -35,7 +35,7 @@ pub trait Report {
 
 /// Value that can be written as JSON.
 pub trait Json {
-    /// Writes the value as JSON. If it is an object, the keys and texts of `head` become its first entries.
+    /// Writes the value as JSON. If the value is an object, the keys and texts of `head` become its first entries.
     fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 
@@ -45,7 +45,7 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// A figure can be written as a figure. If it has a single chart, it can also be written as a table of the points of the curves.
+/// A figure. If it has a single chart, it can also be written as a table of the points of the curves.
 impl Report for Figure {
     /// Returns a table with a row for each point of each curve; `None` for a figure of several charts.
     fn table(&self) -> Option<Table<'_>> {
@@ -69,8 +69,8 @@ impl Report for Figure {
     }
 }
 
-/// Writes a report in a format. `provenance` has the lines of [`scene_provenance`](crate::scene_provenance), which say how to
-/// compute the result again. CSV and SVG contain all lines, JSON only version and command, and the other formats none.
+/// Writes a report in a format. `provenance` has the lines of [`scene_provenance`](crate::scene_provenance), which only CSV, SVG
+/// and JSON contain.
 ///
 /// # Errors
 /// Returns an error if the report lacks the form that the format needs, or if the output cannot be written.
@@ -141,12 +141,11 @@ impl Format {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
-    /// Returns the format in which a result is written. If `file` has an extension, it is the format of this extension. Otherwise
-    /// it is the format `chosen` by the user, or `usual` if the user chose none. `formats` are the formats that the result has.
+    /// Returns the format of a result: the format of the extension of `file`, otherwise `chosen` by the user, otherwise `usual`.
+    /// `formats` are the formats that the result has.
     ///
     /// # Errors
-    /// Returns an error if the chosen format is not among `formats`, if the extension belongs to none of them, or if the
-    /// extension contradicts the chosen format.
+    /// Returns an error if the chosen format or the format of the extension is not among `formats`, or if they differ.
     pub fn of_file(
         file: Option<&Path>,
         chosen: Option<Format>,

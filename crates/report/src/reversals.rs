@@ -27,8 +27,7 @@ pub struct ReversalReport<'a> {
     /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
     /// bodies together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force as a function of the preload, a staircase with the exact place of each step. Only the figure shows it;
-    /// `None` leaves it out.
+    /// Adhesion force of one profile as a function of the preload, for the figure; `None` leaves it out.
     pub staircase: Option<&'a Staircase>,
 }
 
@@ -102,8 +101,8 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
         .done()
 }
 
-/// Returns a heat map of the Everett function E(d_r, d) in N, which [`ReversalReport`] defines. The horizontal axis is the
-/// indentation d, and the vertical axis is the turning point d_r.
+/// Returns a heat map of the Everett function E(d_r, d) in N, over the indentation d and the turning point d_r.
+/// [`ReversalReport`] defines the function.
 pub fn everett_chart(map: &ReversalMap) -> Chart {
     // A subset of the points of a fine map: the eye cannot distinguish more cells.
     let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();

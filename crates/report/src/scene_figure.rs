@@ -25,8 +25,7 @@ struct Patches {
     patches: Vec<Patch>,
 }
 
-/// Collection of contact patches of a scene, from which figures are drawn. It is filled while the loading stages are computed. It
-/// has the patches at the largest force, and on request the patches at many indentations of each stage.
+/// Contact patches of a scene, which are collected while its loading is computed. Figures are drawn from them.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
@@ -38,8 +37,7 @@ pub struct ContactSets {
 }
 
 impl ContactSets {
-    /// Begins a collection without patches. If `over_indentation` is true, patches at many indentations will be collected for
-    /// [`Self::patches_figure`].
+    /// Begins a collection without patches. [`Self::patches_figure`] needs `over_indentation` to be true.
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
@@ -68,8 +66,7 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// Returns the figure of the contact at the largest force: heights of the rigid profile, of the elastic surface, and of the
-    /// parts in contact, over the position.
+    /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic surface over the position.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
@@ -85,8 +82,8 @@ impl ContactSets {
         Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
     }
 
-    /// Returns the figure that shows at which positions along the profile there is contact at each indentation. It has a chart
-    /// for each of the first four loading stages with contact.
+    /// Returns the figure that shows at which positions along the profile there is contact at each indentation, with a chart for
+    /// each of the first four loading stages with contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;

@@ -19,11 +19,9 @@ const BYTES: u64 = 40;
 /// Power spectra of a rough scene, and moments such as the rms height of its random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
-    /// Spectra of the measured surfaces, the spectrum that the profile should have, and the spectrum of the heights computed for
-    /// the profile.
+    /// Spectra of the measured surfaces and of the profile.
     pub spectra: Spectra,
-    /// Moments of random profiles with the measured spectrum, with their errors. `None` if the roughness is not measured, or if
-    /// the scene uses the measured profile itself.
+    /// Moments of random profiles with the measured spectrum, with their errors; `None` without such profiles.
     pub moments: Option<LineMoments>,
     /// Reason why a spectrum could not be computed; `None` if all spectra were computed.
     pub missing: Option<String>,

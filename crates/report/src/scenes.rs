@@ -25,7 +25,7 @@ pub struct ComparedScene<'a> {
 pub struct ScenesReport<'a> {
     /// Computed scenes, in the order of the command.
     pub scenes: &'a [ComparedScene<'a>],
-    /// True if the figure has a chart for each scene; false for one chart of all loops.
+    /// True if the figure has a chart for each scene; false for one chart with the force curves of all scenes.
     pub panels: bool,
 }
 
@@ -106,8 +106,7 @@ impl ScenesReport<'_> {
 
 impl Report for ScenesReport<'_> {
     /// Returns the titles, the fields in which each scene differs from the first one, and tables of the results with their ratios
-    /// to the results of the first scene. The medians over random profiles come first. The results on the profile that each scene
-    /// itself states follow.
+    /// to the results of the first scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let first = self.scenes.first()?.document;

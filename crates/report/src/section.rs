@@ -19,23 +19,22 @@ pub struct SectionContact<'a> {
     pub patches: &'a [Patch],
 }
 
-/// Range of springs that a chart shows, at least one spring, and the number of columns of equal width into which the chart
-/// divides this range.
+/// Range of springs that a chart shows, and the number of columns of equal width into which the chart divides this range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
     /// Index of the first spring.
     pub first: usize,
     /// Number of springs.
     pub springs: usize,
-    /// Number of columns. If there are more columns than springs, a spring fills several columns.
+    /// Number of columns.
     pub columns: usize,
 }
 
 /// Largest number of columns of a profile in a picture.
 const DRAWN: usize = 1200;
 
-/// Lowest and highest point of a profile in each column of a [`Part`], which [`SectionContact::section`] keeps here. The next
-/// call of this function with the same part reuses these points.
+/// Lowest and highest point of a profile in each column of a [`Part`]. [`SectionContact::section`] stores them here for its next
+/// call.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
@@ -62,8 +61,7 @@ pub struct Section {
 pub struct Column {
     /// Heights of the lowest and the highest point of the rigid profile, m.
     pub line: (f64, f64),
-    /// Heights of the lowest and the highest point of the elastic surface, m. In contact the surface follows the profile,
-    /// elsewhere it is undeformed.
+    /// Heights of the lowest and the highest point of the elastic surface, m.
     pub surface: (f64, f64),
     /// Heights of the lowest and the highest point of those springs of the column that are in contact, m; `None` without contact.
     pub contact: Option<(f64, f64)>,
@@ -91,13 +89,12 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the part with these springs for a picture in a file. Several springs share a column only if a picture cannot
-    /// resolve single springs.
+    /// Returns the part with these springs for a picture in a file.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs.min(DRAWN) }
     }
 
-    /// Returns the part with these springs for a table. Each spring has its own column.
+    /// Returns the part with these springs and a column for each spring, for a table.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs }
     }
@@ -123,16 +120,15 @@ impl SectionContact<'_> {
         self.summit - self.indentation
     }
 
-    /// Returns the runs of neighbouring springs in contact within the range `springs`. A run that crosses an end of the range is
-    /// cut off there.
+    /// Returns the index ranges of neighbouring springs in contact within the range `springs`.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let begun = self.patches.partition_point(|patch| patch.last < springs.start);
         let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);
         touching.map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
-    /// Reduces a part of the profile and its contact to the columns of a chart. `line` keeps the heights of the profile for the
-    /// next call, so that each profile needs its own `line`.
+    /// Reduces a part of the profile and its contact to the columns of a chart. Each profile needs its own `line`, which stores
+    /// heights for the next call.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let Part { first, springs, columns } = part;
         if line.part != part {

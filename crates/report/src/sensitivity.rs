@@ -92,10 +92,9 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
     numbers.chain(profiles).collect()
 }
 
-/// Returns a table of the changes of the median results. The first two rows are headings and the medians of the unchanged scene.
-/// Two rows follow for each of at most `most` numbers, one for each change. The number with the largest influence on the adhesion
-/// force comes first. The first three columns are name, value and change of the number. The next two are the change of F_a and
-/// the range of this change on single profiles. The last two columns are the changes of F_a(d=0) and of the dissipated energy.
+/// Returns a table of the changes of the median results: a row of headings, a row of medians of the unchanged scene, then two
+/// rows for each of at most `most` numbers. The columns are name, value and change of the number, change of F_a with its range
+/// over the profiles, change of F_a(d=0), and change of the dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
@@ -119,9 +118,8 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// Returns a bar chart of the changes of one result in per cent, with two bars for each changed number. `result` chooses this
-/// result; it is an index of [`Sensitivity::RESULTS`]. At most `most` numbers have bars, the number with the largest influence at
-/// the top.
+/// Returns a bar chart of the changes of one result in per cent, with two bars for each of at most `most` numbers. `result` is an
+/// index of [`Sensitivity::RESULTS`].
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
@@ -218,8 +216,7 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// Returns a table of median results: a row for the unchanged scene, then a row for each change of each number. A row ends
-    /// with the smallest and the largest relative change of the adhesion force on single profiles.
+    /// Returns a table of median results: a row for the unchanged scene, then a row for each change of each number.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();

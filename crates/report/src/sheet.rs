@@ -12,8 +12,7 @@ const INDENT: usize = 4;
 /// Width in characters of the labels before the values of rows.
 const LABEL: usize = 26;
 
-/// Plain text of at most 80 columns, to which headings, rows with a label and a value, tables and paragraphs are added one by
-/// one.
+/// Plain text of at most 80 columns, to which headings, rows, tables and paragraphs are added one by one.
 #[derive(Default)]
 pub struct Sheet {
     text: String,
@@ -38,14 +37,14 @@ impl Sheet {
         self.paragraph(heading);
     }
 
-    /// Adds a paragraph, which is broken into lines of at most 80 columns. An empty text adds nothing.
+    /// Adds a paragraph, which is broken into lines of at most 80 columns.
     pub fn paragraph(&mut self, text: &str) {
         for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
             self.line(&line);
         }
     }
 
-    /// Adds a row of a label and a value. A value too long for one line continues on the next lines.
+    /// Adds a row of a label and a value.
     pub fn row(&mut self, label: &str, value: impl AsRef<str>) {
         let mut label = label;
         for line in wrap(value.as_ref(), WIDTH - LABEL) {
@@ -67,8 +66,7 @@ impl Sheet {
         }
     }
 
-    /// Adds a table with aligned columns. If the table is wider than 80 characters, its last columns follow as another table,
-    /// which repeats the first column. A last cell that is too long continues on the next lines.
+    /// Adds a table with aligned columns.
     pub fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
         let length = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());

@@ -18,8 +18,7 @@ const SELF_AFFINE: Stroke = Stroke::Dotted;
 /// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density in m³.
 pub type SpectrumPoint = (f64, f64);
 
-/// Three kinds of power spectra: of measured surfaces, of the random profile that replaces these surfaces, and of the heights
-/// that were computed for this profile.
+/// Power spectra of measured surfaces and of the random profile that replaces them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,
@@ -88,9 +87,8 @@ impl Spectra {
         Spectra { measured: layers, line: over(&|q| isotropic.line(q)), heights: Vec::new() }
     }
 
-    /// Returns the spectra of the measured surfaces of one body, or of both bodies in contact. Each [`Analysis`] belongs to one
-    /// body. If there is one body, the result also has the fits to its spectrum. If there are two bodies, [`Self::line`] is the
-    /// sum of their spectra, that is the spectrum of a profile that replaces both rough surfaces.
+    /// Returns the spectra of one rough body, or of both bodies in contact, with one [`Analysis`] for each body. [`Self::line`]
+    /// is the sum of their spectra.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),

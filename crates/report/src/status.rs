@@ -9,8 +9,7 @@ use std::time::Duration;
 /// Largest number of characters of the name of a machine in the table.
 const LONGEST_HOST: usize = 20;
 
-/// Returns as text how many results of a parameter study are computed, missing or damaged. A table has the number of computed
-/// results for each shard, the part of a study that one process computes.
+/// Returns as text how many results of a parameter study are computed, missing or damaged.
 pub fn status_text(plan: &Plan, status: &Status) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&plan.title);

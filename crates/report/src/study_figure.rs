@@ -29,8 +29,7 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
     (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
-/// Returns a figure with these charts of a parameter study. Lines below the title state the axes of the study that do not vary in
-/// the charts, each with its value.
+/// Returns a figure with these charts of a parameter study. Lines below the title state the axes that do not vary in the charts.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
@@ -38,10 +37,9 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// Returns a heat map of a quantity, which is the mean over the random profiles, over both axes of `grid`. Returns `None` if
-/// `grid` has one axis. Markers, in a terminal letters, show the regimes. A line shows where the adhesion force without a preload
-/// falls to [`Regime::VANISHING_SHARE`] of F_a,max. A cell of the map whose values are not computed yet is empty. If `whole` is
-/// true, it shows the value of a computed cell nearby instead.
+/// Returns a heat map of the mean of a quantity over the random profiles, over both axes of `grid`; `None` if `grid` has one
+/// axis. Markers (in a terminal letters) show the regimes of adhesion. If `whole` is true, a cell that is not computed yet shows
+/// the value of a computed cell nearby.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.statistics(quantity, whole));
@@ -90,8 +88,8 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the second axis. If the quantity
-/// extends over many decades, a second chart shows the same curves with a logarithmic vertical axis.
+/// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the second axis. For a quantity
+/// over many decades a second chart follows, with a logarithmic vertical axis.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);

@@ -20,9 +20,8 @@ const LINE_PER_DECADE: f64 = 10.0;
 
 const LINE: &str = "equivalent line";
 
-/// Returns in words median, quartiles and range of the adhesion force over random profiles that replace a measured surface. At
-/// the end they have the interval of the adhesion force that follows from errors of the fitted spectrum. Returns `None` for fewer
-/// than two profiles.
+/// Returns in words the median, quartiles and range of the adhesion force over random profiles that replace a measured surface.
+/// Returns `None` for fewer than two profiles.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
     let fit = computed.fit_interval().map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));
@@ -40,8 +39,8 @@ pub struct SurfaceReport {
     pub modulus: Option<f64>,
     /// Work of adhesion γ, J/m²; `None` if it is not given.
     pub work: Option<f64>,
-    /// Scene with the random profiles of [`Self::line`], and the adhesion computed on them; `None` if no adhesion was requested.
-    /// The second value alone is `None` if the scene has many springs and the user did not request its results.
+    /// Scene with the random profiles of [`Self::line`], and the adhesion computed on them. The whole is `None` if no adhesion
+    /// was requested, and the second value is `None` if it was not computed.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
@@ -86,8 +85,7 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// Returns the analysis of the first body, and in the entry `opposite` the analysis of the opposite body. The analysis of the
-    /// first body also has the random profiles that replace both surfaces (`equivalent_line`) and the adhesion of these profiles.
+    /// Returns the analysis of the first body. The analysis of the opposite body is its entry `opposite`.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
@@ -113,7 +111,7 @@ impl Report for SurfaceReport {
     }
 
     /// Returns a table of the spectra. A row has the name of the spectrum, a wave number in rad/m, the power spectral density in
-    /// m³, and the number of waves over which a measured value is averaged.
+    /// m³, and the number of averaged waves.
     fn table(&self) -> Option<Table<'_>> {
         let names = || {
             self.faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {

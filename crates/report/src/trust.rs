@@ -6,8 +6,7 @@ use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::trust::{Budget, Criterion, criteria};
 
-/// Returns a warning if the Tabor number of a computed scene is below 1, where neither JKR theory nor the rule of Hess applies;
-/// otherwise `None`.
+/// Returns a warning if the Tabor number of a computed scene is below 1, where JKR theory does not apply; otherwise `None`.
 pub fn without_jkr(outcome: &Outcome) -> Option<String> {
     let number = outcome.tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
     let number = asperity_data::format_rounded(number, 2, "1");
@@ -39,9 +38,8 @@ pub(crate) fn trust(
     }
 }
 
-/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has two texts: the name of a
-/// theory, and its number, such as e_el/γ, with the verdict whether the bodies adhere. If a theory has several rows, only the
-/// first has the name. The last rows have the result of this program.
+/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has the name of a theory, and its
+/// verdict whether the bodies adhere. The last rows have the result of this program.
 pub fn theory_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -59,8 +57,8 @@ pub fn theory_rows(
     smooth.into_iter().chain(criteria.into_iter().map(row)).collect()
 }
 
-/// Returns the sources of error of the adhesion force: number of springs, sample of profiles, measured surface, and model. A row
-/// has the name of a source and its relative error in words. The last row names the largest source.
+/// Returns the errors of the adhesion force by their sources: number of springs, sample of profiles, measured surface, and model.
+/// A row has a source and its relative error in words. The last row names the largest source.
 pub fn error_rows(
     scene: &Scene,
     estimate: Option<&Estimate>,

@@ -5,13 +5,9 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
 use asperity_study::half_space::Reference;
 
-/// Returns the figure of relative errors over computing time. For each kind of setting, such as the number of springs, a curve
-/// shows error and time as this setting is refined; the legend has the observed order of convergence. The curves show the error
-/// of the adhesion force, or the error of the force curve if there is no adhesion force.
-///
-/// If the comparison with three dimensions, `reference`, is given, the error of the model is a lower limit of the curves, because
-/// more springs do not reduce this error. A further marker shows time and error of the computation in three dimensions. The error
-/// of this computation is its difference from the result on a coarser grid.
+/// Returns the figure of relative errors over computing time, with a curve for each kind of setting, such as the number of
+/// springs. The error is the error of the adhesion force, or of the force curve if there is no adhesion force. If `reference`,
+/// the comparison with three dimensions, is given, the figure also has the error of the model.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
     let floor = model.unwrap_or(0.0);

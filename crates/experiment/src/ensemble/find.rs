@@ -38,10 +38,8 @@ const PROSPECTS: [u64; 3] = [16, 64, 256];
 /// Finds the work of adhesion of a rough body from curves measured at different places of it. `curves` has pairs of a
 /// name and a curve. If [`EnsembleOptions::is_modulus_free`] is true, the effective modulus is found too.
 ///
-/// The curves are compared with curves computed for random profiles that have the roughness of the scene. The scene
-/// also gives the form, the stiffness of the instrument, and the ratio of the works of adhesion on closing and on
-/// opening. Each computed curve has the preload, the points and the noise of one of the measured curves. `control`
-/// informs the caller of the number of curves computed so far, and lets the caller stop the search.
+/// The curves are compared with curves computed for random profiles that have the roughness of the scene. `control`
+/// reports the number of curves computed so far, and can stop the search.
 ///
 /// # Errors
 /// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an approach, or if its

@@ -30,17 +30,15 @@ pub struct EnsembleFit {
     pub closing_over_opening: f64,
     /// Correlation of the errors of ln γ and ln E*, from −1 to 1; 0 for a given E*.
     pub correlation: f64,
-    /// How much the number of curves, the number of profiles and the errors of the roughness contribute to the
-    /// uncertainty of the work of adhesion.
+    /// Sources of the uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// How narrow the interval of the work of adhesion would be with 16, 64 and 256 measured curves. Numbers that do
-    /// not exceed the present number of curves are left out.
+    /// Precision of the work of adhesion with 16, 64 and 256 measured curves, for those of these numbers that exceed
+    /// the present number of curves.
     pub prospects: Vec<Prospect>,
-    /// Changes of γ and E* that errors of the rms height and of the Hurst exponent of the scene cause; `None` for a
-    /// measured roughness.
+    /// Effect of a wrong roughness on γ and E*; `None` for a measured roughness.
     pub roughness: Option<RoughnessShifts>,
-    /// Sentence about the stiffness of the instrument that the files of the curves state; `None` if the scene is used
-    /// unchanged.
+    /// Sentence on the stiffness of the instrument if the scene and the files of the curves do not agree on it;
+    /// otherwise `None`.
     #[serde(skip)]
     pub instrument: Option<String>,
     /// Number of random profiles with which the curves were compared.
@@ -49,28 +47,25 @@ pub struct EnsembleFit {
     pub computed: usize,
     /// Mean preload (largest force) of the measured curves, N.
     pub preload: f64,
-    /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise only. If there is a value,
-    /// each random profile is loaded to the preload of one of the curves, otherwise to the mean preload.
+    /// Standard deviation of the preloads divided by their mean; `None` if the preloads differ only by noise.
     pub preload_scatter: Option<f64>,
     /// Results of each measured curve when it is used without the others.
     pub curves: Vec<CurveOfEnsemble>,
     /// Standard deviation of ln γ between measured curves, divided by the standard deviation of ln γ between random
-    /// profiles. Each curve and each profile gives one γ. If E* is free, the scatter of ln E* is included. The ratio
-    /// should be about 0.8 to 1.2. It is `None` for fewer than 4 curves.
+    /// profiles; usually 0.8 to 1.2. If E* is free, the ratio is the root mean square Mahalanobis distance of (ln γ, ln
+    /// E*), divided by √2. `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
-    /// True if random profiles describe the measured curves. This means that [`SummaryDeviation::deviates`] is false in
-    /// all [`Self::deviations`].
+    /// True if random profiles describe the measured curves, so that none of [`Self::deviations`] is significant.
     pub described: bool,
-    /// Differences between the measured curves and the random profiles, one for each number that is computed from a
-    /// curve, such as the pull-off force.
+    /// Differences between the measured curves and the random profiles, such as the difference of their pull-off
+    /// forces.
     pub deviations: Vec<SummaryDeviation>,
-    /// True if the interval of γ or E* reaches an end of the range of values for which curves were computed. The true
-    /// interval is then wider.
+    /// True if the interval of γ or E* ends where the computed range of values ends. The true interval is then wider.
     pub at_end_of_table: bool,
 }
 
-/// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of its interval. The three
-/// shares have the sum 1.
+/// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of the interval of ln γ.
+/// Their sum is 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Shares {
@@ -92,18 +87,18 @@ pub struct Prospect {
     pub half_width: f64,
 }
 
-/// Derivatives of the results ln γ and ln E* with respect to the roughness of the scene: how far an error of the roughness
-/// shifts the results.
+/// Derivatives of ln γ and ln E* with respect to ln h and to H, the rms height and Hurst exponent of the scene. They
+/// show how far a wrong roughness shifts the result.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RoughnessShifts {
-    /// Derivative of ln γ with respect to the logarithm of the rms height.
+    /// Derivative of ln γ with respect to ln h.
     pub work_by_height: f64,
-    /// Derivative of ln γ with respect to the Hurst exponent.
+    /// Derivative of ln γ with respect to H.
     pub work_by_hurst: f64,
-    /// Derivative of ln E* with respect to the logarithm of the rms height.
+    /// Derivative of ln E* with respect to ln h.
     pub modulus_by_height: f64,
-    /// Derivative of ln E* with respect to the Hurst exponent.
+    /// Derivative of ln E* with respect to H.
     pub modulus_by_hurst: f64,
 }
 
@@ -117,17 +112,17 @@ pub struct CurveOfEnsemble {
     pub preload: f64,
     /// Largest tensile force of the curve, N; `None` if it is at most 5 times the noise.
     pub pull_off_force: Option<f64>,
-    /// Area between approach and retraction in a chart of the force over the displacement of the instrument, J.
+    /// Energy dissipated in the loop, J: area between approach and retraction over the displacement of the instrument.
     pub loop_area: f64,
     /// Stiffness at the beginning of the retraction, N/m: half the preload, divided by the change of the displacement
     /// while the force falls from the preload to half the preload.
     pub stiffness: f64,
     /// Work of adhesion found from this single curve, J/m².
     pub work: IntervalEstimate,
-    /// True if the interval from this single curve reaches an end of the range of values for which curves were computed.
+    /// True if the interval of [`Self::work`] ends where the computed range of values ends. The true interval is then
+    /// wider.
     pub at_end_of_table: bool,
-    /// True if this curve deviates from the mean of the random profiles by more than 999 of 1000 random profiles do.
-    /// The place of the specimen at which it was measured may then differ from the other places.
+    /// True if this curve differs from the mean of the random profiles by more than 999 of 1000 random profiles do.
     pub foreign: bool,
 }
 
@@ -143,7 +138,6 @@ pub struct SummaryDeviation {
     pub logarithm: f64,
     /// [`Self::logarithm`] divided by its standard error.
     pub deviation: f64,
-    /// True if the magnitude of [`Self::deviation`] exceeds a limit. Random profiles replace the measured curves to
-    /// find this limit: in 99 % of such trials no summary exceeds it.
+    /// True if the difference is significant. The level of 1 % holds for all summaries together, not for each of them.
     pub deviates: bool,
 }

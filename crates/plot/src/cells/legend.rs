@@ -29,8 +29,7 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Returns the legend of charts for a terminal: a list of coloured texts for each entry. The first texts show the line, marker or
-/// area of all layers with one name, and the last text is this name.
+/// Returns the legend of charts for a terminal. Each entry is a list of coloured texts, of which the last is the name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
     let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);

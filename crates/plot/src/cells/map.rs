@@ -10,8 +10,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use std::ops::Range;
 
-/// Characters that show the values of a heat map in a terminal without colours, from the lowest to the highest values. A cell of
-/// the map without a value is blank.
+/// Characters for the values of a heat map in a terminal without colours, from the lowest to the highest values.
 pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
 /// Smallest number of columns with which a cell shows the letter of its class.
 const WITH_LETTER: usize = 3;
@@ -85,9 +84,9 @@ fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
     below(cell).zip(below(other)).is_some_and(|(here, there)| here != there)
 }
 
-/// Returns the colour scale of a heat map as texts with styles, to be written one after the other. Between numbers there are five
-/// coloured pieces, or the [`SHADES`] in a terminal without colours. If the scale would need more than `columns` columns of the
-/// terminal, only the first and the last number are shown.
+/// Returns the colour scale of a heat map as texts with styles, to be written one after the other. The scale has six numbers and,
+/// between each two neighbours, one coloured piece. In a terminal without colours the pieces are made of [`SHADES`]. A scale that
+/// would need more than `columns` columns shows only the first and the last number.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

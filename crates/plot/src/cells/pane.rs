@@ -25,19 +25,17 @@ const BELOW: RangeInclusive<u16> = 3..=7;
 /// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
-/// Chart in a pane, which is a part of the screen of the terminal. The names of the curves are written beside the curves. A
-/// second chart can be on the right, and a third one below.
+/// Chart in a pane, which is a part of the screen of the terminal. The names of the curves are written beside the curves.
 pub struct PaneChart {
     /// Main chart.
     pub chart: Chart,
-    /// Further texts to write beside points of the chart. The names of the layers are always written and are not listed here.
+    /// Texts to write beside points of the chart, in addition to the names of the curves.
     pub names: Vec<Name>,
     /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
-    /// Chart of a few rows below the main chart, with the same horizontal axis. It is shown only in a pane with at least 11 rows
-    /// of text.
+    /// Chart of a few rows below the main chart, with the same horizontal axis. A pane with fewer than 11 rows does not show it.
     pub below: Option<Chart>,
-    /// Row of characters directly below the plot that shows which springs are in contact. It is omitted if it has no springs.
+    /// Row of characters directly below the plot that shows which springs are in contact.
     pub contact: ContactRow,
 }
 
@@ -47,8 +45,7 @@ pub struct PaneChart {
 pub struct ContactRow {
     /// For each spring, from left to right, true if the spring is in contact. Empty for no row.
     pub springs: Vec<bool>,
-    /// Part of the axis that brackets mark, as positions of its two ends: 0 is the left end of the axis, 1 the right end. `None`
-    /// for no brackets.
+    /// Part of the axis between two brackets, given by its ends from 0 (left) to 1 (right); `None` for no brackets.
     pub marked: Option<(f64, f64)>,
 }
 
@@ -91,8 +88,8 @@ impl PaneChart {
         PaneChart { chart, names: Vec::new(), beside: None, below: None, contact: ContactRow::default() }
     }
 
-    /// Divides an area of the screen in the same way as [`Self::draw`]. Returns the place of the main chart and the area of the
-    /// chart on the right. The latter is `None` if no chart is shown on the right.
+    /// Returns the place of the main chart in an area of the screen, and the area of the chart on the right. The area is `None`
+    /// if no chart is shown on the right.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() { split(area) } else { (area, None) };
         let left = Rect { height: left.height - self.rows_below(area), ..left };
@@ -150,7 +147,7 @@ impl PaneChart {
         }
     }
 
-    /// Draws all charts and texts into `area`. Returns the legend entries of those curves whose names found no room in the chart.
+    /// Draws all charts and texts into `area`. Returns the legend entries of curves whose names found no room in the chart.
     pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;

@@ -35,8 +35,7 @@ pub struct Name {
     pub ink: Ink,
 }
 
-/// Area of the screen for one chart, divided into the plot and its scales. The scales are the numbers on the left of the plot and
-/// below it.
+/// Area of the screen for one chart, divided into the plot and the numbers on the left and below.
 pub struct CellPlot {
     /// Area of the plot without the scales.
     pub plot: Rect,
@@ -50,15 +49,13 @@ pub struct CellPlot {
 }
 
 impl CellPlot {
-    /// Divides an area of the screen between the plot and the scales of a chart. If the area is low or narrow, scales are left
-    /// out.
+    /// Divides an area of the screen between the plot and the scales of a chart. A small area has no scales.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let line = area.height >= WITH_LINE_BELOW;
         CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
     }
 
-    /// Divides an area of the screen as [`Self::within`], but leaves `between` rows free between the plot and the numbers below
-    /// it. The caller draws these rows.
+    /// Divides an area of the screen as [`Self::within`], but leaves `between` rows free directly below the plot.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
@@ -75,9 +72,8 @@ impl CellPlot {
         CellPlot { plot, left, between, line: false, below, label }
     }
 
-    /// Returns the point (x, y) on the axes of the chart at a cell of the screen, which is given by column and row. In a chart
-    /// without a heat map this is the middle of the cell; a cell outside the plot counts as the nearest cell of the plot. In a
-    /// heat map it is the pair of axis values whose map cell is drawn there, and `None` outside the map.
+    /// Returns the point (x, y) on the axes of the chart at a cell of the screen, which is given by column and row. For a heat
+    /// map it is the pair of axis values of the map cell that is drawn there, or `None` outside the map.
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {

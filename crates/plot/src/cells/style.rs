@@ -6,7 +6,7 @@ use ratatui::style::{Color, Style};
 
 /// Appearance of a chart in a terminal: the style of each [`Ink`], and the colours that the terminal has.
 pub struct CellStyle<'a> {
-    /// Function that returns the style in which things of an ink are drawn, such as their colour.
+    /// Function that returns the style of an ink, such as its colour.
     pub ink: &'a dyn Fn(Ink) -> Style,
     /// Colours that the terminal can show.
     pub colours: Colours,
@@ -24,8 +24,8 @@ pub enum Colours {
 }
 
 impl Colours {
-    /// Converts red, green and blue to a colour that this terminal can show. If the terminal has 256 fixed colours, the result is
-    /// a similar one of these colours. A terminal without colours uses its default colour.
+    /// Converts red, green and blue to the same or a similar colour that this terminal can show. A terminal without colours uses
+    /// its default colour.
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;

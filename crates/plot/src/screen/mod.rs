@@ -53,7 +53,7 @@ fn dots(character: char) -> Option<u8> {
     Some(dots.fold(0, |bits, (_, place)| bits | 1 << place))
 }
 
-/// Returns a screen as plain text, with a line for each row. Lines have no blanks at their ends, and each ends with a line feed.
+/// Returns a screen as plain text, with a line for each row. The lines have no blanks at their ends.
 pub fn screen_text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {

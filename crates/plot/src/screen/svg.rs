@@ -31,7 +31,7 @@ enum Kind {
     Dots,
 }
 
-/// Draws a screen of the terminal as an SVG document, which refers to no other file. Equal screens give documents of equal bytes.
+/// Draws a screen of the terminal as an SVG document. Equal screens give documents of equal bytes.
 pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
