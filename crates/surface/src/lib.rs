@@ -43,7 +43,7 @@ pub mod files {
     pub use crate::topography::open::{content, unpacked};
 }
 
-/// Rigid profiles with random or measured roughness. Programs that compute whole scenes need them.
+/// Rigid profiles with random or measured roughness, for programs that compute a contact from a scene file.
 pub mod lines {
     pub use crate::line::equivalent::MeasuredRoughness;
     pub use crate::line::form::{power_law_factor, struve_0};
@@ -54,7 +54,7 @@ pub mod lines {
     pub use crate::line::table::Rows;
 }
 
-/// Spectra of measured surfaces over the wave number, for figures.
+/// Spectra of measured surfaces over the wave number, for charts.
 pub mod spectra {
     pub use crate::spectrum::isotropic::{End, IsotropicSpectrum, Node};
     pub use crate::spectrum::periodogram::{Along, Bin, line_spectrum};
