@@ -29,7 +29,7 @@ pub enum Place {
     Field(&'static str),
     /// Place in one of several measurements in a file: the name of the measurement, and the place in it.
     Measurement(String, Box<Place>),
-    /// Place in one of several surfaces, with the index of the surface from 0.
+    /// Place in one of several surfaces that are analysed together, with the index of the surface from 0.
     Surface(usize, Box<Place>),
     /// Place in a file that a field of the scene names. The values are the path of the field, the path of the file, and the
     /// place in the file.

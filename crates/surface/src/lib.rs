@@ -35,8 +35,8 @@ pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Functions for programs that read other files, such as force curves. They read the bytes of a file, decompress gzip and parse
-/// columns of NumPy arrays.
+/// Functions for programs that read files of other data, such as measured force curves. They read the bytes of a file,
+/// decompress gzip and parse columns of NumPy arrays.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;
