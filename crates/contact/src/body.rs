@@ -38,7 +38,7 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// Result of [`Body::move_to`]: the leg of a motion and the range of its indentations.
+/// Result of [`Body::move_to`]: the [`Leg`] of the motion and the range of indentations that the body passed.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -58,9 +58,9 @@ pub struct Body {
 pub struct Motion {
     /// Leg of the motion, which gives the contact at each indentation of the motion.
     pub leg: Leg,
-    /// Smallest indentation of the motion in m.
+    /// Smallest indentation in m that the body passed on the motion.
     pub low: f64,
-    /// Largest indentation of the motion in m.
+    /// Largest indentation in m that the body passed on the motion.
     pub high: f64,
     goal: Goal,
 }
@@ -72,7 +72,7 @@ impl Body {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body in the middle of the motion `leg`, at this indentation in m.
+    /// Creates a body that is at this indentation in m on the motion `leg`, and can continue it or turn back.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise).
@@ -91,7 +91,7 @@ impl Body {
         self.point_of(self.state)
     }
 
-    /// Moves the body to a target without recording a force curve. Returns `None` if the body is there already.
+    /// Moves the body to a target without recording a force curve. Returns `None` if the body is at the target already.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
@@ -366,9 +366,9 @@ impl MovingBody for Body {
 pub struct Reversal {
     /// Turning point: the point of the force curve at which the unloading begins.
     pub turn: CurvePoint,
-    /// Point of the smallest force on the unloading.
+    /// Point of the force curve at which the force of the unloading is smallest.
     pub smallest: CurvePoint,
-    /// Indentation in m at which the last patch detaches.
+    /// Indentation in m at which the last contact patch detaches on the unloading.
     pub separation: f64,
     /// Energy in J dissipated on the way from separation to the turning point and back to separation.
     pub dissipated_energy: f64,

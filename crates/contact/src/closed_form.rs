@@ -20,9 +20,9 @@ use std::f64::consts::PI;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosedForm {
-    /// Coefficient c of the equivalent profile in m^(1−n).
+    /// Coefficient c of the equivalent profile c |x|ⁿ in m^(1−n).
     pub line_coefficient: f64,
-    /// Exponent n of the equivalent profile, above 1/2.
+    /// Exponent n of the equivalent profile c |x|ⁿ, above 1/2.
     pub exponent: f64,
     /// Effective modulus E* in Pa.
     pub effective_modulus: f64,
@@ -82,15 +82,15 @@ impl ClosedForm {
         }
     }
 
-    /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m. The fields explain c, n, E* and γ.
+    /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m. The fields are c, n, E* and γ.
     pub fn indentation(&self, radius: f64) -> f64 {
         // Rule of Hess, eq. (3).
         let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
         self.line_coefficient * radius.powf(self.exponent) - stretch
     }
 
-    /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a in m. The fields explain c,
-    /// n, E* and γ.
+    /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a in m. The fields are c, n,
+    /// E* and γ.
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
         let pressed =

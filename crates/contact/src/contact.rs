@@ -86,7 +86,7 @@ impl ContactBuilder {
         ContactBuilder { edges, ..self }
     }
 
-    /// Builds the contact from the values set.
+    /// Builds the contact with the properties that were set, and with the defaults of all others.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a value out of its range.
@@ -162,7 +162,7 @@ impl Contact {
         indentation + force / self.loading_stiffness
     }
 
-    /// Returns the profile of the rigid body.
+    /// Returns the profile of the rigid body in contact.
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
@@ -193,7 +193,7 @@ impl Contact {
         self.foundation.contact_radius(patches, point)
     }
 
-    /// Returns true if the work of adhesion is above zero.
+    /// Returns true if the contact has adhesion: its work of adhesion on opening is above zero.
     pub fn has_adhesion(&self) -> bool {
         self.hess.is_some()
     }

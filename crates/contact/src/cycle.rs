@@ -44,7 +44,7 @@ impl<'a> LoadOptions<'a> {
         LoadOptions { samples: Some(samples), ..self }
     }
 
-    /// Sets further indentations in m, in ascending order, at which forces are computed. [`Cycle::at`] returns the results.
+    /// Sets further indentations in m, in ascending order, at which forces are computed. [`Cycle::at`] returns the points.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions { indentations, ..self }
@@ -58,8 +58,8 @@ impl<'a> LoadOptions<'a> {
     }
 }
 
-/// Result of loading a separated body through several stages: the force curve, figures such as the pull-off force, and the
-/// patches in contact at the end.
+/// Result of [`Contact::load`], which loads a separated body through several stages: the force curve, figures such as the
+/// pull-off force, and the patches in contact at the end.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -122,7 +122,7 @@ pub struct Curve {
 }
 
 impl Contact {
-    /// Moves the body, which is separated at first, through these loading stages one after the other.
+    /// Moves the body, which is separated at first, to the target of each loading stage, one after the other.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and [`ContactError::Stage`] for a
@@ -258,7 +258,7 @@ impl Cycle {
     }
 
     /// Returns the preload in N: the largest force on loading before the last unloading. An earlier contact that ended in
-    /// separation does not count. Returns `None` if there is no such force.
+    /// separation does not count. Returns `None` if the body is never in contact on that loading.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload

@@ -30,14 +30,14 @@ pub enum ContactError {
     /// A value of a profile, a modulus or a contact is out of its range.
     #[error("{name} = {}; allowed: {allowed}", shown(*value))]
     Value {
-        /// Name of the value.
+        /// Name of the refused value, such as `spacing`.
         name: String,
-        /// The given value in SI units.
+        /// The refused value in SI units.
         value: f64,
         /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
-    /// A loading stage cannot be computed.
+    /// A loading stage cannot be computed; the fields state which one and why.
     #[error("stage {}: {}", index + 1, reason.in_words(*target))]
     Stage {
         /// Index of the stage, from 0.
@@ -47,7 +47,7 @@ pub enum ContactError {
         /// Reason why the stage cannot be computed, as an error of another variant.
         reason: Box<ContactError>,
     },
-    /// An array does not fit into memory.
+    /// An array that the computation needs does not fit into memory. The message states its size in MiB.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
     /// A target is infinite or not a number; the field has the value of the target.
@@ -56,16 +56,16 @@ pub enum ContactError {
     /// A body that is separated cannot move to a tensile force.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
-    /// The body is not in contact at a target from which it should turn back.
+    /// The body is not in contact at a target of [`Contact::reversals`](crate::Contact::reversals), where it should turn back.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
-    /// The contact detaches before the force falls to the target.
+    /// The contact detaches before the force falls to the force of the target.
     #[error("the contact detaches before that force; smallest force within reach: {smallest:e} N")]
     DetachesBefore {
-        /// Smallest force in N that the contact bears.
+        /// Smallest force in N that the contact reaches on this unloading.
         smallest: f64,
     },
-    /// The force of the target is not reached at any finite indentation.
+    /// The force of the target is not reached at any finite indentation on this foundation.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,
     /// The [stepwise solver](crate::motion::Stepwise) would need too many steps; the field has the length of a step in m.
@@ -80,7 +80,8 @@ pub enum ContactError {
     /// The program has a defect; the field describes the state that should not occur.
     #[error("internal error, please report it: {0}")]
     Internal(&'static str),
-    /// The computation ended because a function of the caller requested this.
+    /// The computation ended because a function of the caller requested this, such as the function of
+    /// [`LoadOptions::before_stage`](crate::LoadOptions::before_stage).
     #[error("interrupted")]
     Interrupted,
 }
@@ -97,7 +98,7 @@ impl ContactError {
         if let ContactError::DetachesBefore { smallest } = self.reason() { Some(*smallest) } else { None }
     }
 
-    /// Returns true if the contact cannot reach the force of the target.
+    /// Returns true if the target is a force that the contact cannot reach.
     pub fn is_out_of_reach(&self) -> bool {
         use ContactError::{DetachesBefore, NothingToPull, OutOfReach};
         matches!(self.reason(), NothingToPull | DetachesBefore { .. } | OutOfReach)

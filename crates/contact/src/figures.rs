@@ -5,7 +5,7 @@ use super::branches::{Branch, ROUNDING};
 use super::history::{CurvePoint, Direction, History, LegRecord};
 use super::target::Move;
 
-/// Figures of a loading history: preload, pull-off and dissipated energy. A figure is `None` if the history does not have it.
+/// Figures of a loading history: preload, pull-off and dissipated energy. A figure is `None` if the history has no such value.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -22,7 +22,7 @@ use super::target::Move;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// Preload F_n in N: the largest force on loading before the last unloading. An earlier contact that ended in separation
-    /// does not count. `None` if there is no such force.
+    /// does not count. `None` if the body is never in contact on that loading.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
@@ -112,8 +112,8 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Finds the marked points of a loading history, in the order of the variants of [`Mark`]. `legs` has the record of each
-    /// stage.
+    /// Finds the points of a force curve that have a mark, in the order of the variants of [`Mark`]. `legs` has the record of
+    /// each loading stage.
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
         let into_contact = |leg: &LegRecord| {
             let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
@@ -143,7 +143,7 @@ impl Mark {
         found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
     }
 
-    /// Returns the name of the mark as figures print it, such as `pull-off`.
+    /// Returns the name of the mark as charts print it beside the point, such as `pull-off`.
     pub fn name(self) -> &'static str {
         match self {
             Mark::JumpIn => "jump-in",

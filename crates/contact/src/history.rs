@@ -144,11 +144,12 @@ pub struct History {
     pub legs: Vec<LegRecord>,
     /// Patches in contact after the last stage, from left to right.
     pub contacts: Vec<Patch>,
-    /// Counts of the computing work for all stages.
+    /// Counts of the computing work of the solver for all stages together.
     pub work: Work,
 }
 
-/// Counts of computing work, such as evaluated rules and passes over a tree. Unlike times, they are the same on every machine.
+/// Counts of computing work, such as how often the rule of Hess was evaluated and how often the solver passed over the
+/// [contact tree](crate::motion::ContactTree). Unlike times, they are the same on every machine.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -193,13 +194,13 @@ pub struct Work {
     /// Number of springs that detached during the loading history. In result files this field is `leaves`.
     #[cfg_attr(feature = "serde", serde(rename = "leaves"))]
     pub detached: u64,
-    /// Number of load steps of the [stepwise solver](crate::motion::Stepwise).
+    /// Number of small steps of the indentation by the [stepwise solver](crate::motion::Stepwise).
     pub steps: u64,
     /// Number of times that the stepwise solver swept over all springs to relax to equilibrium.
     pub relaxation_sweeps: u64,
     /// Number of visits of the stepwise solver to springs. A spring counts again at each visit.
     pub spring_updates: u64,
-    /// Number of heights that were sorted into the bins of a histogram of heights.
+    /// Number of heights of the profile that were sorted into the bins of a histogram.
     pub heights_binned: u64,
 }
 
@@ -289,7 +290,7 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Returns the indices of the springs of the patch.
+    /// Returns the range of the indices of the springs of the patch, from `first` to `last`.
     pub fn springs(self) -> Range<usize> {
         self.first..self.last + 1
     }

@@ -67,8 +67,8 @@ pub use modulus::Modulus;
 pub use profile::Profile;
 pub use target::Move;
 
-/// Bodies that move from one target to the next, for models of instruments and for particle codes. [`Body`](motion::Body) is
-/// the exact solver. [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check the exact one.
+/// Bodies that move from one target to the next, for models of instruments and for simulations of particles.
+/// [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check it.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion};

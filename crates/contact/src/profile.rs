@@ -148,12 +148,12 @@ impl Profile {
         &self.springs.gaps
     }
 
-    /// Returns the largest gap in m.
+    /// Returns the largest gap in m: the depth of the lowest point below the highest point.
     pub fn deepest(&self) -> f64 {
         self.springs.deepest
     }
 
-    /// Returns the height of each point in m. Rounding may change the last digit of a given height.
+    /// Returns the height of each point in m. Rounding may change the last digit of a height that was given.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps().iter().map(|gap| self.summit - gap)
     }

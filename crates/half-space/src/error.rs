@@ -7,10 +7,10 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HalfSpaceError {
-    /// The number of cells along a side is not allowed; the field has this number.
+    /// The number of cells along a side is not a power of two from 32 to 8192; the field has this number.
     #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]
     Cells(usize),
-    /// The number of heights is not the number of cells of the solver.
+    /// The number of heights of the square is not the number of cells of the solver.
     #[error("{found} heights; allowed: {allowed}, one for each cell")]
     Heights {
         /// The given number of heights.
@@ -21,14 +21,14 @@ pub enum HalfSpaceError {
     /// A value of the square, of its load, of its adhesion or of the tolerance is out of its range.
     #[error("{name} = {found:e}; allowed: {allowed}")]
     Value {
-        /// Name of the value.
+        /// Name of the refused value, such as `tolerance`.
         name: &'static str,
-        /// The given value in SI units.
+        /// The refused value in SI units.
         found: f64,
         /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
-    /// An array does not fit into memory.
+    /// An array of the solver does not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
     /// The computation ended because the function `stop` of the caller returned true.

@@ -49,8 +49,8 @@ pub struct Pressed {
     /// gap of a cell in contact, and the depth of penetration of any other cell. For a flat square, whose rms height is
     /// zero, the error is divided by the given indentation, or by F/(E* L) for a given force F and the side L.
     pub residual: f64,
-    /// True if `residual` is at most the required tolerance and no pressure is negative. False if the solver used up its steps
-    /// before.
+    /// True if `residual` is at most the required tolerance and no pressure is negative. False if the solver ended
+    /// before, because it had used all its steps.
     pub is_reached: bool,
     /// Number of convolutions that the solver computed on the grid of the cells of the square, a measure of the computing work.
     pub convolutions: u64,
@@ -165,7 +165,7 @@ impl HalfSpace {
     }
 }
 
-/// Checks that a number of cells along a side is allowed.
+/// Checks that a solver allows a number of cells along a side: a power of two from 32 to 8192.
 ///
 /// # Errors
 /// Returns an error if the number is not a power of two from 32 to 8192.

@@ -25,11 +25,11 @@ pub enum Place {
     Byte(usize),
     /// Named part of a file: a file in an archive, an element of XML, or a channel.
     Part(String),
-    /// Field of a scene, by its path in the scene, such as `roughness.file`.
+    /// Field of a scene file, by its path in the scene, such as `roughness.file`.
     Field(&'static str),
     /// Place in one of several measurements in a file: the name of the measurement, and the place in it.
     Measurement(String, Box<Place>),
-    /// Place in one of several surfaces, with the index of the surface from 0.
+    /// Place in one of several surfaces that are analysed together, with the index of the surface from 0.
     Surface(usize, Box<Place>),
     /// Place in a file that a field of the scene names. The values are the path of the field, the path of the file, and the
     /// place in the file.
@@ -76,28 +76,28 @@ impl Place {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SurfaceError {
-    /// A value, a file or a request is not allowed.
+    /// A file has a fault, a value is out of its range, or an option does not fit the file.
     #[error("{place}{found}; allowed: {allowed}")]
     Refused {
         /// Place of the fault.
         place: Place,
         /// What was found there, in words.
         found: String,
-        /// What is allowed there, and the option that helps, in words.
+        /// What is allowed there, in words, and where possible an option with which the file can be read.
         allowed: String,
     },
-    /// The system cannot read a file.
+    /// The operating system cannot read a file.
     #[error("{place}{reason}")]
     Unreadable {
         /// File that cannot be read.
         place: Place,
-        /// Reason that the system gives.
+        /// Reason that the operating system gives.
         reason: String,
     },
-    /// The Fourier transform refused its input.
+    /// The Fourier transform of heights failed; the field has its message.
     #[error("the Fourier transform failed: {0}")]
     Transform(String),
-    /// An array does not fit into memory.
+    /// An array, such as the heights of a surface, does not fit into memory.
     #[error("{place}{error}")]
     OutOfMemory {
         /// Surface, or field of a scene, for which the array is needed.
@@ -145,7 +145,7 @@ impl SurfaceError {
         self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
     }
 
-    /// Returns the same error with the place that `outer` makes from its present place.
+    /// Returns the same error with a longer place, which `outer` makes from the present place.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }

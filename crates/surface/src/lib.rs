@@ -35,15 +35,15 @@ pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Functions for programs that read other files, such as force curves. They read the bytes of a file, decompress gzip and parse
-/// columns of NumPy arrays.
+/// Functions for programs that read files of other data, such as measured force curves. They read the bytes of a file,
+/// decompress gzip and parse columns of NumPy arrays.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;
     pub use crate::topography::open::{content, unpacked};
 }
 
-/// Rigid profiles with random or measured roughness. Programs that compute whole scenes need them.
+/// Rigid profiles with random or measured roughness, for programs that compute a contact from a scene file.
 pub mod lines {
     pub use crate::line::equivalent::MeasuredRoughness;
     pub use crate::line::form::{power_law_factor, struve_0};
@@ -54,7 +54,7 @@ pub mod lines {
     pub use crate::line::table::Rows;
 }
 
-/// Spectra of measured surfaces over the wave number, for figures.
+/// Spectra of measured surfaces over the wave number, for charts.
 pub mod spectra {
     pub use crate::spectrum::isotropic::{End, IsotropicSpectrum, Node};
     pub use crate::spectrum::periodogram::{Along, Bin, line_spectrum};

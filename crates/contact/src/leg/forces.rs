@@ -23,12 +23,12 @@ const AT_ONCE: usize = 16;
 const STRIDE: usize = 16;
 
 impl Leg {
-    /// Returns the point of the force curve at an indentation in m.
+    /// Returns the point of the force curve of this motion at an indentation in m.
     pub fn point(&self, indentation: f64) -> Result<CurvePoint, ContactError> {
         Ok(self.state(indentation)?.point(self.contact.foundation))
     }
 
-    /// Returns the points of the force curve at ascending indentations in m.
+    /// Returns the points of the force curve of this motion at ascending indentations in m.
     pub fn curve(&self, indentations: &[f64]) -> Result<Vec<CurvePoint>, ContactError> {
         if indentations.is_empty() {
             return Ok(Vec::new());

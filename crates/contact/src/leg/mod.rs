@@ -208,7 +208,7 @@ impl Leg {
         &self.contact
     }
 
-    /// Returns the direction of the motion.
+    /// Returns the direction of the motion: loading or unloading.
     pub fn direction(&self) -> Direction {
         self.direction
     }

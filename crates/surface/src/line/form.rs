@@ -50,7 +50,7 @@ pub enum Form {
     Table {
         /// Path of the file, relative to the scene file.
         file: String,
-        /// Unit of the numbers if the file states none; empty for m.
+        /// Unit of the radii and depths if the file states none; empty for m.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
         /// Rows of the table, after [`Form::load`] has read them.

@@ -21,7 +21,7 @@ pub struct MeasuredOptions {
     /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. Otherwise the rigid
     /// profile is an equivalent line, a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
-    /// Options for reading the files.
+    /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
     /// Options of the analysis of the spectrum.
     pub spectrum: AnalysisOptions,

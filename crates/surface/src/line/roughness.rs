@@ -15,7 +15,8 @@ const MANY_MODES: usize = 1 << 16;
 /// on longer profiles are worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Computes random profiles one after the other. It keeps the planned Fourier transform and its memory for the next profile.
+/// Computes random self-affine profiles one after the other. It keeps the planned Fourier transform and its memory for
+/// the next profile.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,

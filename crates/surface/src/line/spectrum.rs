@@ -68,7 +68,7 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m.
+    /// Returns the roughness amplitude of a profile that has this spectrum, the rms height 1 m and the length L in m.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 512, roll_off_mode: 0.0 };

@@ -143,7 +143,7 @@ impl FormTable {
         Some(curvature).filter(|curvature| is_round && *curvature >= 0.0)
     }
 
-    /// Computes the contribution of the interval behind a row to g(x)/x: ∫ f′(r)/√(x² − r²) dr up to the radius `end` (m) in
+    /// Computes the contribution of the interval after a row to g(x)/x: ∫ f′(r)/√(x² − r²) dr up to the radius `end` (m) in
     /// the interval, which is at most x.
     ///
     /// Let δ be the difference of the angles arcsin(r/x) of r and of the row. Then r = u + c sin δ − u (1 − cos δ), where u is
@@ -177,7 +177,7 @@ impl FormTable {
         angle * RULE.iter().map(slope).sum::<f64>()
     }
 
-    /// Computes the contribution of the intervals behind these rows to g(x)/x. All of them end at x or below, in m.
+    /// Computes the contribution of the intervals after these rows to g(x)/x. All of them end at x or below, in m.
     fn parts(&self, rows: Range<usize>, x: f64) -> f64 {
         rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
     }

@@ -57,19 +57,20 @@ pub struct AnalysisOptions {
 pub struct Analysis {
     /// Statistics of the heights of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height in m of each surface, after removal of the polynomial.
+    /// Rms height in m of each surface, after removal of the polynomial of [`AnalysisOptions::detrend`].
     pub rms_heights: Vec<f64>,
     /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
-    /// Isotropic spectrum fitted to the surfaces.
+    /// Isotropic spectrum fitted to the measured power spectra of all surfaces together.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine spectrum fitted to the surfaces; `None` if the fit does not converge or finds no Hurst exponent between 0
-    /// and 1.
+    /// Self-affine spectrum fitted to the same power spectra; `None` if the fit does not converge or finds no Hurst
+    /// exponent between 0 and 1.
     pub power_law: Option<SelfAffineFit>,
     /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms height.
     pub line: LineMoments,
-    /// Shortest wavelength in m that the tip resolves reliably. `None` if no tip radius is given, or if the tip resolves all
-    /// waves.
+    /// Shortest wavelength in m that the tip of radius R resolves reliably: no curvature measured over this length is
+    /// below −1/(2R). If no length fulfils this, it is half the length of a row. `None` if no tip radius is given, or if the
+    /// tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -394,7 +395,8 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Returns the share of the mean square height that comes from waves longer than a quarter of [`Analysis::length`].
+    /// Returns the share of the mean square height of the equivalent line that comes from waves longer than a quarter of
+    /// [`Analysis::length`].
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

@@ -53,10 +53,10 @@ pub enum End {
     Continues(f64),
 }
 
-/// A value with its standard error, in the same unit.
+/// An estimated quantity: its value and its standard error, both in the unit of the quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ValueWithError {
-    /// The value.
+    /// Estimated value of the quantity.
     pub value: f64,
     /// Standard error of the value.
     pub error: f64,
@@ -240,7 +240,7 @@ impl IsotropicSpectrum {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Returns the wave number in rad/m of the last node, the shortest wave that the measured points resolve.
+    /// Returns the wave number in rad/m of the last node: that of the shortest wave that the measured points resolve.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }

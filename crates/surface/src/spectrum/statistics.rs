@@ -10,7 +10,7 @@ pub struct PointStatistics {
     pub points: usize,
     /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a filter.
     pub rms_height: f64,
-    /// Root mean square slope along rows, PΔq.
+    /// Root mean square slope of the surfaces along their rows, PΔq.
     pub rms_slope: f64,
     /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if any surface is a profile.
     pub rms_gradient: Option<f64>,

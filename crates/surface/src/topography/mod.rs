@@ -47,7 +47,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Names of all units of length that can be read, for messages.
+    /// Names of all units of length that can be read, for messages of errors.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 
     /// The unit metre.

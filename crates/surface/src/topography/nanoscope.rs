@@ -9,7 +9,7 @@ use asperity_data::{gathered, shown};
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 
-/// Line behind the header.
+/// Line that follows the header.
 const END: &[u8] = b"\\*File list end";
 
 /// Limits of the length of a header, bytes, and of the number of channels.

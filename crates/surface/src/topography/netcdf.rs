@@ -33,7 +33,7 @@ struct Variable<'a> {
     begin: usize,
 }
 
-/// Header of a file, and the bytes behind it.
+/// Header of a file, and the bytes after it.
 struct Dataset<'a> {
     bytes: &'a [u8],
     dimensions: Vec<usize>,

@@ -55,7 +55,7 @@ struct Header {
 }
 
 impl Header {
-    /// Reads the header of a file, and returns it with the bytes behind it.
+    /// Reads the header of a file, and returns it with the bytes after it.
     fn read(bytes: &[u8]) -> Result<(Self, Bytes<'_>), SurfaceError> {
         let mut data = Bytes::new(bytes, Order::Little);
         data.take(SIGNATURE.len())?;

@@ -25,8 +25,8 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
 
-/// Reads a measured surface from a regular file of at most 1 GiB. From an archive with several measurements of a surface it
-/// reads all of them.
+/// Reads a measured surface from a regular file of at most 1 GiB. If the file is an archive with several measurements of a
+/// surface, all measurements are read.
 ///
 /// # Errors
 /// Returns [`SurfaceError`] if the file cannot be read or holds no surface.
@@ -153,7 +153,7 @@ fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, Surfa
     if options.resample { surface.resampled() } else { Ok(surface) }
 }
 
-/// Returns the content of a file from its bytes. They are decompressed if the file is gzip.
+/// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is compressed by gzip.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());

@@ -15,11 +15,11 @@ pub(super) const MOST_POINTS: usize = 1 << 28;
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states none; `None` means the unit in `unit`.
+    /// Unit of the heights if the file states none for them; `None` means the unit in `unit`.
     pub height_unit: Option<Unit>,
     /// Unit of positions and heights that is assumed if the file states none and `unit` is `None`.
     pub convention: Option<Unit>,
-    /// Distance between points in m if the file states none.
+    /// Distance between neighbouring points in m if the file states none.
     pub spacing: Option<f64>,
     /// True if missing heights are interpolated from their neighbours. Otherwise a missing height is an error.
     pub interpolate: bool,

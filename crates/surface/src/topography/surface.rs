@@ -47,7 +47,7 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Returns the number of columns and the number of rows left out, at both borders together.
+    /// Returns the number of columns and the number of rows left out, each counted at two opposite borders together.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
@@ -62,7 +62,7 @@ impl Cropped {
 /// A measured surface, which is a profile or a map: heights and the positions of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
-    /// Name of the format of the file.
+    /// Name of the format of the file, such as `SDF`.
     pub format: &'static str,
     /// Heights in m, row by row.
     pub heights: Vec<f64>,
@@ -104,7 +104,7 @@ impl Topography {
         Err(refused(place, found, format!("at most {LARGEST:e}")))
     }
 
-    /// Returns the number of points with interpolated heights, including replaced outliers.
+    /// Returns the number of points whose heights are interpolated, missing points and replaced outliers together.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
@@ -151,7 +151,7 @@ impl Topography {
         Ok(heights)
     }
 
-    /// Returns the number of rows; 1 for a profile.
+    /// Returns the number of rows of a map; 1 for a profile.
     pub fn rows(&self) -> usize {
         self.heights.len() / self.columns
     }

@@ -19,7 +19,7 @@ use asperity_data::{PROVENANCE, shown};
 use std::ops::Range;
 use table::{Table, is_header};
 
-/// Largest number of headers with numbers behind them.
+/// Largest number of headers after which numbers follow.
 const MOST_PARTS: usize = 256;
 
 /// Largest number of channels that a message lists.
