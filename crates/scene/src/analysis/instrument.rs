@@ -18,6 +18,7 @@ pub struct DisplacementPoint {
 }
 
 /// Force of one loading stage as a function of the displacement of the instrument, linear between the computed points.
+/// Where the instrument cannot hold the body, the body jumps to another indentation at constant displacement.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -73,12 +74,12 @@ impl DisplacementCurve {
         &self.points
     }
 
-    /// Returns the parts of the curve between its jumps.
+    /// Returns the parts of the curve between the jumps of the body.
     pub fn steady_parts(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.chunk_by(|one, next| one.displacement != next.displacement)
     }
 
-    /// Returns the two points of each jump, before and after it. They have the same displacement.
+    /// Returns the two points of each jump of the body: before the jump, and after it at the same displacement.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
