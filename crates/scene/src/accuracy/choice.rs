@@ -92,7 +92,7 @@ pub enum ChoiceError {
     /// The tolerance is not above 0 and below 1.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The scene has the stepwise [`Solver`], whose error depends on its step too.
+    /// The scene has the stepwise [`Solver`], whose step causes a further error.
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]

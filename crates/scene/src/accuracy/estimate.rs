@@ -47,7 +47,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the estimate is for the force
-    /// curve.
+    /// curve ([`Target::Curve`]).
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
