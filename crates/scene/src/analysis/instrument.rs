@@ -140,8 +140,8 @@ pub struct InstrumentFigures {
     pub stiffness: f64,
     /// Displacement of the instrument in m at which the body jumps off in the last unloading; `None` without a pull-off.
     pub pull_off_displacement: Option<f64>,
-    /// Area in J that the force encloses as a function of the displacement: the energy dissipated in the contact plus the energy lost in jumps
-    /// of the instrument. `None` if the bodies are not separated at the end.
+    /// Area in J that the force encloses as a function of the displacement: the energy dissipated in the contact plus the
+    /// energy lost in jumps of the instrument. `None` if the bodies are not separated at the end.
     pub loop_area: Option<f64>,
 }
 
