@@ -48,7 +48,7 @@ impl<'a> Control<'a> {
         Control { report: Some(report), ..self }
     }
 
-    /// Returns the number of threads.
+    /// Returns the number of threads on which the computation runs.
     pub fn threads(&self) -> usize {
         self.threads
     }
@@ -58,7 +58,7 @@ impl<'a> Control<'a> {
         self.stop
     }
 
-    /// Returns true if the computation has to stop.
+    /// Returns true if the function set by [`stopped_by`](Control::stopped_by) returns true now.
     pub fn is_stopped(&self) -> bool {
         (self.stop)()
     }

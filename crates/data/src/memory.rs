@@ -61,21 +61,21 @@ pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Ve
     Ok(values)
 }
 
-/// Collects `count` values into a vector. Returns an error if the memory is too small.
+/// Collects the `count` values of an iterator into a vector. Returns an error if the memory is too small.
 pub fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
     let mut gathered = emptied(Vec::new(), count)?;
     gathered.extend(values);
     Ok(gathered)
 }
 
-/// Appends a value. Returns an error if the memory is too small.
+/// Appends `value` to the vector `values`. Returns an error if the memory is too small.
 pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
     reserve(values, 1)?;
     values.push(value);
     Ok(())
 }
 
-/// Reserves room for at least `more` further values. Returns an error if the memory is too small.
+/// Reserves room for at least `more` further values in the vector `values`. Returns an error if the memory is too small.
 pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     values.try_reserve(more).map_err(|_| OutOfMemory::of::<T>(values.len() + more))
 }

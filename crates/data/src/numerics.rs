@@ -81,7 +81,7 @@ pub fn quantile(ascending: &[f64], share: f64) -> f64 {
     between(ascending[low], ascending[(low + 1).min(last)], place - low as f64)
 }
 
-/// Interpolates linearly between `from` at share 0 and `to` at share 1.
+/// Returns the linear interpolation between `from` at a `share` of 0 and `to` at a `share` of 1.
 #[inline]
 pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + share * (to - from)

@@ -123,7 +123,8 @@ pub fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// Formats a relative error in per cent: 0.02 becomes `2 %`. The smallest text is `< 0.001 %`, the largest `> 100 %`.
+/// Formats a relative error in per cent: 0.02 becomes `2 %`. An error below 0.001 % becomes
+/// `< 0.001 %`, and an error above 100 % becomes `> 100 %`.
 pub fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {

@@ -68,7 +68,8 @@ pub enum TextCell {
 /// Marks of missing points, besides an empty cell and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Text that states how numbers may be written. Messages about a cell with [`TextCell::OtherMark`] contain it.
+/// Text that states which decimal marks and separators of thousands the numbers in a text table may have. Messages about a
+/// cell with [`TextCell::OtherMark`] contain it.
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 

@@ -6,7 +6,7 @@ use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 use thiserror::Error;
 
-/// Characters with which a comment in a text table begins.
+/// Characters, one of which begins each comment in a text table.
 pub const COMMENT: [char; 3] = ['#', '%', '!'];
 
 /// Reason why a text cannot be read as a table. Lines count from 1, the bytes of a line from 0.
@@ -36,7 +36,7 @@ pub enum TextFault {
 }
 
 impl TextFault {
-    /// Largest length of a line in bytes.
+    /// Largest length in bytes of a line that is read.
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 

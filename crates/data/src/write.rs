@@ -17,7 +17,7 @@ pub enum WriteError {
     /// The file exists, and the caller did not ask to replace it.
     #[error("{}: there is a file of that name already", path_name(.0))]
     Exists(PathBuf),
-    /// The path does not name a file that can be written.
+    /// No file can be written at the path, for example because its folder does not exist.
     #[error("{}: {fault}", path_name(path))]
     Unsuitable {
         /// Path of the file.

@@ -49,7 +49,7 @@ pub struct Choice {
     pub error: f64,
     /// True if `error` is the difference from a closed form, which is an exact formula for the adhesion force.
     pub closed_form: bool,
-    /// Largest number of springs that was tried.
+    /// Largest number of springs that [`choose`] tried.
     pub finest: u64,
 }
 
@@ -57,7 +57,7 @@ impl Choice {
     /// Returns `scene` with the chosen number of springs, the chosen edge model and the exact solver.
     ///
     /// # Errors
-    /// Returns an error if `scene` does not allow the chosen settings.
+    /// Returns an error for each value of `scene` that is invalid with the chosen settings.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
@@ -92,7 +92,7 @@ pub enum ChoiceError {
     /// The tolerance is not above 0 and below 1.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The scene has the stepwise [`Solver`].
+    /// The scene has the stepwise [`Solver`], whose step causes a further error.
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]

@@ -37,7 +37,9 @@ pub struct Estimate {
     pub target: Target,
     /// Estimated relative error of `target`.
     pub error: f64,
-    /// True if the adhesion force F_a as a function of the preload has a step near the preload of the scene.
+    /// True if the adhesion force F_a as a function of the preload has a step near the preload of the scene. F_a of one
+    /// of the two further solutions then differs from F_a of the outcome by more than 5 %. This difference is at least
+    /// three times smaller if the loads of the further solution are 5 % smaller or larger.
     pub near_step: bool,
     /// How the error was found: by an exact formula, or by solutions with other numbers of springs.
     pub evidence: Evidence,
@@ -45,14 +47,14 @@ pub struct Estimate {
 
 impl Estimate {
     /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the estimate is for the force
-    /// curve.
+    /// curve ([`Target::Curve`]).
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// Returns the mean error of the forces on the force curve, divided by the largest force on the curve; `None` if the
-    /// estimate is for the adhesion force.
+    /// Returns the estimated relative error of the force curve, as [`Target::Curve`] defines it; `None` if the estimate is
+    /// for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }

@@ -85,8 +85,8 @@ pub enum Target {
     /// Adhesion force of a scene with a tensile force.
     AdhesionForce,
     /// Force curve of a scene without a tensile force. Its error in a loading stage is the mean absolute difference between
-    /// its forces and the exact forces at the same indentations, divided by the largest force. The largest error of all
-    /// stages counts.
+    /// its forces and the exact forces at the same indentations, divided by the largest absolute force in all stages. The
+    /// error of the force curve is the largest of the errors of its stages.
     Curve,
 }
 

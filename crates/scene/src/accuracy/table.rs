@@ -62,12 +62,13 @@ impl Timing {
     }
 }
 
-/// Relative error of a quantity in a [`Row`], and whether the error is large enough to be measured.
+/// Relative error of a quantity in a [`Row`], and whether it is larger than the smallest error that can be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigure {
     /// Relative error. If `resolved` is false, it is the smallest error that can be measured.
     pub error: f64,
-    /// True if the error is larger than the smallest error that can be measured.
+    /// True if the error is larger than the smallest error that can be measured. For a number of springs, the smallest error
+    /// is the estimated error of the reference ([`CostReference::errors`]).
     pub resolved: bool,
     /// Order of convergence p from the previous row to this row: a setting that is r times as fine makes the error r^p times
     /// smaller. `None` unless `resolved` is true in both rows.
@@ -127,14 +128,14 @@ pub struct CostTable {
     pub reference: CostReference,
     /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to fine.
     pub rows: Vec<Row>,
-    /// Settings, in words, that have no row because time or memory did not suffice.
+    /// Values of the settings, in words such as `512 springs`, that have no row because time or memory did not suffice.
     pub left_out: Vec<String>,
 }
 
 impl CostTable {
     /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest
-    /// contact length. The error of the force curve is the mean absolute difference of forces at equal indentations,
-    /// divided by the largest force.
+    /// contact length. The error of a force curve is its mean absolute difference from the force curve of the reference
+    /// ([`CostReference`]) at equal indentations, divided by the largest absolute force of the reference.
     pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
     /// Returns the rows in which this setting is varied, from coarse to fine.

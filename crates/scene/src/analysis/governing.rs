@@ -89,12 +89,13 @@ impl Governing {
         }
     }
 
-    /// Returns the work of adhesion in J/m² at which `parameter` has this value; `None` without roughness.
+    /// Returns the work of adhesion in J/m² at which κ or e_el/γ, as `parameter` states, has this value; `None` without
+    /// roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// Returns the value of κ or e_el/γ; `None` without roughness or adhesion.
+    /// Returns the value of κ or e_el/γ in this contact, as `parameter` states; `None` without roughness or adhesion.
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,

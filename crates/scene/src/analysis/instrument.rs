@@ -18,6 +18,7 @@ pub struct DisplacementPoint {
 }
 
 /// Force of one loading stage as a function of the displacement of the instrument, linear between the computed points.
+/// Where the instrument cannot hold the body, the body jumps to another indentation at constant displacement.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -73,12 +74,12 @@ impl DisplacementCurve {
         &self.points
     }
 
-    /// Returns the parts of the curve between its jumps.
+    /// Returns the parts of the curve between the jumps of the body.
     pub fn steady_parts(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.chunk_by(|one, next| one.displacement != next.displacement)
     }
 
-    /// Returns the two points of each jump, before and after it. They have the same displacement.
+    /// Returns the two points of each jump of the body: before the jump, and after it at the same displacement.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
@@ -139,8 +140,8 @@ pub struct InstrumentFigures {
     pub stiffness: f64,
     /// Displacement of the instrument in m at which the body jumps off in the last unloading; `None` without a pull-off.
     pub pull_off_displacement: Option<f64>,
-    /// Area of the loop of force over displacement in J: the energy dissipated in the contact plus the energy lost in jumps
-    /// of the instrument. `None` if the bodies are not separated at the end.
+    /// Area in J that the force encloses as a function of the displacement: the energy dissipated in the contact plus the
+    /// energy lost in jumps of the instrument. `None` if the bodies are not separated at the end.
     pub loop_area: Option<f64>,
 }
 

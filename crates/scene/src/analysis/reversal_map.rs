@@ -8,8 +8,8 @@ use std::ops::RangeInclusive;
 /// grid points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Grid points: indentations in m, equally spaced and ascending. From index `below` on they are the turning points as
-    /// well.
+    /// Grid points: indentations in m, equally spaced and ascending. From index `below` on, each grid point is also
+    /// a turning point.
     pub points: Vec<f64>,
     /// Number of grid points below the first turning point.
     pub below: usize,

@@ -49,7 +49,7 @@ impl RoughnessParameter {
         field(self.path(), None).map_or("", |field| field.symbol)
     }
 
-    /// Returns the parameter with this name or this path; `None` if there is none.
+    /// Returns the parameter with this [`name`](Self::name) or [`path`](Self::path); `None` if there is none.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
@@ -93,7 +93,7 @@ pub enum Strength {
         /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None` if both are equal.
         closing: Option<f64>,
     },
-    /// A parameter and its value, from which the work of adhesion follows.
+    /// One of κ and e_el/γ with its value, from which the work of adhesion follows.
     Parameter(RoughnessParameter, f64),
 }
 

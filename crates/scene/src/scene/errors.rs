@@ -57,14 +57,14 @@ impl fmt::Display for Origin {
 #[derive(Clone, Debug, Default, PartialEq, Eq, thiserror::Error)]
 #[error("{origin}{}", self.what())]
 pub struct SceneError {
-    /// Source of the invalid value.
+    /// Where the invalid value comes from: a text, changes of fields, or a program.
     pub origin: Origin,
     /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage. Empty if the error does
     /// not concern a single field.
     pub field: String,
     /// Invalid value as it was written; empty if there is none.
     pub value: String,
-    /// Allowed values; empty if `message` states them.
+    /// Allowed values of the field in words; empty if `message` states them.
     pub allowed: String,
     /// Reason of the error, or the name of the field in words.
     pub message: String,

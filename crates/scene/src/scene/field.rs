@@ -182,7 +182,7 @@ pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
-/// Description of a loading stage as a whole.
+/// Description of one loading stage, whose allowed choices are the kinds of stages.
 pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
@@ -214,7 +214,7 @@ impl Field {
     /// `16k`. The text `none` omits an optional part. A loading may be a list of stages as
     /// [`loading_text`](crate::scene::stages::loading_text) writes it.
     /// # Errors
-    /// Returns an error for a number with another unit, a number that is too large, or a choice without its numbers.
+    /// Returns an error for a number with another unit, a number too large for `f64`, or a choice without its numbers.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         match typed.trim() {
             // As an omitted part is shown.

@@ -13,7 +13,7 @@ use super::text::read_ron;
 /// Version of the format of scene files.
 pub const SCENE_VERSION: u32 = 1;
 
-/// Largest number of springs.
+/// Largest number of springs that a scene may have.
 pub const MOST_POINTS: u64 = 1 << 28;
 
 /// Returns the description of the field at a path. Several choices may have a field at the same path, such as the radius of

@@ -25,8 +25,8 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub as_line: bool,
-    /// Name of the file of the opposite surface, relative to the scene file; `None` if that surface is smooth. The spectra of
-    /// both surfaces add.
+    /// Name of the file of the opposite surface, relative to the scene file; `None` if that surface is smooth. The profile
+    /// gets the sum of the spectra of the two surfaces.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opposite: Option<String>,
@@ -34,7 +34,7 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long, default_value = "", hide_default_value = true, value_parser = unit_name))]
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// Unit of heights where a file states none, if not the unit of lengths
+    /// Unit of heights where a file states none, if it is not the unit of lengths
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "UNIT", default_value = "", hide_default_value = true, value_parser = unit_name)
@@ -45,19 +45,19 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
-    /// Fill missing points from their neighbours
+    /// Fill missing points by heights interpolated from their neighbours
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub interpolate: bool,
-    /// Resample uneven profiles linearly at their mean distance
+    /// Resample profiles of uneven spacing linearly at their mean spacing
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub resample: bool,
-    /// Subtract the median of each row of maps with offset rows
+    /// Subtract the median height of each row of a map from that row
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub align_rows: bool,
-    /// Replace outliers, such as spikes, from their neighbours
+    /// Replace outliers, such as spikes, by heights interpolated from their neighbours
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
@@ -69,14 +69,14 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<u64>,
-    /// Row of maps to use as the profile, from 1
+    /// Row of a map to use as the profile, counted from 1
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "NUMBER", conflicts_with = "column", value_parser = clap::value_parser!(u64).range(1..))
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub row: Option<u64>,
-    /// Column of maps to use as the profile, from 1
+    /// Column of a map to use as the profile, counted from 1
     #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<u64>,
@@ -86,7 +86,7 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long, value_enum, hide_possible_values = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub detrend: Option<Detrend>,
-    /// Treat the surface as periodic, without a window
+    /// Treat the surface as periodic: no window reduces the heights at its ends
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub periodic: bool,

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Bound::{Excluded, Included};
 use std::ops::{Bound, RangeBounds};
 
-/// Allowed values of a field.
+/// Allowed values of a field of a scene: the kind of the value, such as a real number or a text, and its bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
     /// A finite real number between a smallest and a largest number, each of which is included or excluded.
@@ -25,9 +25,9 @@ pub enum Range {
         /// True if line breaks are allowed.
         lines: bool,
     },
-    /// One of these values. Each value is written in RON, with example numbers.
+    /// The value of the field is one of these choices. Each choice is written in RON, with example numbers.
     Choice(&'static [&'static str]),
-    /// A list of values.
+    /// The value of the field is itself a list: from `least` to `most` elements, each of a kind in `of`.
     List {
         /// Allowed kinds of elements. Each kind is written in RON, with example numbers.
         of: &'static [&'static str],
@@ -36,7 +36,7 @@ pub enum Range {
         /// Largest allowed number of elements.
         most: usize,
     },
-    /// A group of fields, each with its own range.
+    /// The field is a group of further fields, each with its own range.
     Group,
 }
 
@@ -56,7 +56,7 @@ impl Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true if the range allows this real number. NaN and infinity are never allowed.
+    /// Returns true if this is a range of real numbers or wavelengths and contains `value`. NaN and infinity are never allowed.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -65,7 +65,7 @@ impl Range {
         }
     }
 
-    /// Returns true if the range allows this integer.
+    /// Returns true if this is a range of integers ([`Whole`](Self::Whole) or [`Band`](Self::Band)) and contains `value`.
     pub fn contains_whole(&self, value: u64) -> bool {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }

@@ -122,7 +122,8 @@ impl RoughnessMaker {
     }
 }
 
-/// Returns a recommended number of springs, a power of two, for a profile of this length in m with this measured spectrum.
+/// Returns a recommended number of springs for a profile of this length in m with this measured spectrum: the smallest
+/// power of two with twice [`SPRINGS_PER_WAVE`] springs on the shortest wave, but at least 2^10 and at most 2^28.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)

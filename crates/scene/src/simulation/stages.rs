@@ -107,7 +107,8 @@ impl Simulation {
         Simulation { single: true, ..self }
     }
 
-    /// Returns this simulation with `measured` in place of the measured files of all scenes.
+    /// Returns this simulation with a measured roughness that every scene with a measured surface uses, instead of the files
+    /// that the scene names.
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self

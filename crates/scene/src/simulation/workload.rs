@@ -80,7 +80,8 @@ pub struct PlannedStage {
     pub runs: bool,
     /// Name of the field that requires this part, or the reason why it is skipped.
     pub because: &'static str,
-    /// Number of passes over the profile or over its contact tree; `None` if the number depends on the loading stages.
+    /// Number of passes: how often this part goes through the profile or its contact tree. `None` if the number depends on
+    /// the loading stages.
     pub passes: Option<u64>,
     /// Upper bound of the number of springs that all passes together visit; `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
