@@ -29,10 +29,10 @@ pub struct Selection {
     /// Vertical axis of the maps: one of the axes of the study
     #[cfg_attr(feature = "clap", arg(long = "y", value_name = "AXIS"))]
     pub up: Option<String>,
-    /// Fix an axis at one of its values. Repeat the option to fix further axes
+    /// Fix an axis at one of its values; repeat for further axes
     #[cfg_attr(feature = "clap", arg(long, value_name = "AXIS=VALUE", value_parser = axis_and_value))]
     pub at: Vec<(String, String)>,
-    /// Scale on which the figure shows the quantities
+    /// Scale of the quantities
     ///
     /// By default the range of the values decides; small values have a second, logarithmic chart.
     #[cfg_attr(feature = "clap", arg(long, value_enum))]
