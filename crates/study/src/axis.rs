@@ -1,4 +1,4 @@
-//! Axes of a parameter study.
+//! Axes of a parameter study: the quantities of a scene that vary, and their values.
 
 use super::error::StudyError;
 use asperity_contact::Move;
@@ -8,7 +8,7 @@ use asperity_scene::text::did_you_mean;
 use asperity_scene::{RoughnessParameter, Scene};
 use serde::{Deserialize, Serialize};
 
-/// Largest number of values on one axis.
+/// Largest number of values on one [`Axis`].
 pub const MOST_VALUES: u64 = 1_000_000;
 
 /// Number of significant digits of values between the ends of an axis, so that a value is 0.15 rather than
@@ -54,7 +54,8 @@ pub struct Axis {
     pub unit: &'static str,
     /// How the values are spaced.
     pub spacing: Spacing,
-    /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) they ascend.
+    /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) the values
+    /// ascend.
     pub values: Vec<f64>,
     pub(super) target: Target,
 }
@@ -151,12 +152,12 @@ impl Axis {
         std::iter::once(from).chain(inner).chain([to]).collect()
     }
 
-    /// Returns true if the quantity has only whole numbers as values, such as a number of springs.
+    /// Returns true if the quantity of this axis has only whole numbers as values, such as a number of springs.
     pub fn is_whole(&self) -> bool {
         self.target.is_whole()
     }
 
-    /// Returns true if the values are preloads.
+    /// Returns true if the quantity of this axis is the preload.
     pub fn is_of_preloads(&self) -> bool {
         matches!(self.target, Target::Preload { .. })
     }
@@ -166,7 +167,7 @@ impl Axis {
         self.values.len() as u64
     }
 
-    /// Returns the scale, linear or logarithmic, on which figures show the values.
+    /// Returns the scale, linear or logarithmic, on which figures show the values of this axis.
     pub fn scale(&self) -> AxisScale {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -177,12 +178,12 @@ impl Axis {
         }
     }
 
-    /// Returns the symbol of the quantity, or its name if it has no symbol.
+    /// Returns the symbol of the quantity of this axis, or the name of the quantity if it has no symbol.
     pub fn symbol_or_name(&self) -> &str {
         if self.symbol.is_empty() { &self.name } else { self.symbol }
     }
 
-    /// Returns the symbol of the quantity, or its path if it has no symbol.
+    /// Returns the symbol of the quantity of this axis, or [`Axis::path`] if the quantity has no symbol.
     pub fn symbol_or_path(&self) -> String {
         if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
     }

@@ -26,7 +26,7 @@ const RESAMPLING_SEED: u64 = 2012;
 /// adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
-    /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
+    /// Values on the axes of the study other than κ or e_el/γ, in the order of [`Boundaries::others`].
     pub others: Vec<f64>,
     /// Quantity whose mean is compared with [`AdhesionBoundary::level`]: F_a(d=0)/F_a,max if the loading turns at first touch,
     /// or F_a(F=0)/F_a,max if it turns at zero force.
@@ -51,7 +51,7 @@ pub struct Crossing {
 }
 
 impl Crossing {
-    /// Returns the value at the boundary with its confidence interval; `None` if the boundary lies beyond the studied range.
+    /// Returns [`Crossing::value`] with its 95 % confidence interval; `None` if the boundary lies beyond the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
         self.side.is_eq().then_some((self.value, self.interval))
     }
@@ -66,7 +66,8 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, at most one for each combination of values on the other axes, of turning point and of share of F_a,max.
+    /// Boundaries: at most one for each combination of values on [`Boundaries::others`], turning point of the loading and share
+    /// of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -106,14 +107,14 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns where the loading turns: `first touch` or `zero force`.
+    /// Returns where the loading turns for [`AdhesionBoundary::protocol`]: `first touch` or `zero force`.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
     }
 }
 
 impl Boundaries {
-    /// Usual shares of F_a,max below which adhesion counts as vanished.
+    /// Usual values of [`AdhesionBoundary::level`]: shares of F_a,max below which adhesion counts as vanished.
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
     /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the folder of a study with an

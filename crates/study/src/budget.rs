@@ -24,7 +24,8 @@ pub struct Budget {
     pub sample: Option<f64>,
     /// Error of the median over random profiles, due to the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
-    /// Error of the model: relative difference between one-dimensional profiles and the same bodies in three dimensions.
+    /// Error of the model: relative difference between the mean adhesion force on one-dimensional profiles and the mean of the
+    /// same bodies in three dimensions.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`; `None` if no error is known.
     pub largest: Option<&'static str>,

@@ -1,4 +1,5 @@
-//! Computation of a plan on all cores, and of a whole plan in memory. The results do not depend on the number of threads.
+//! Computation of a plan on all processor cores, and of a whole plan in memory. The results do not depend on the number of
+//! threads.
 
 use super::cells::{Cells, Streak};
 use super::error::StudyError;

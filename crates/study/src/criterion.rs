@@ -9,18 +9,18 @@ use serde::Serialize;
 pub struct Criterion {
     /// Name of the theory, or `this program`.
     pub name: &'static str,
-    /// Symbol of the number that is compared with the threshold.
+    /// Symbol of the number that is compared with [`Criterion::threshold`].
     pub symbol: &'static str,
     /// Publication that states the criterion.
     pub reference: &'static str,
-    /// Value of the number that is compared with the threshold; `None` if the scene does not determine this number.
+    /// Value of the number that is compared with [`Criterion::threshold`]; `None` if the scene does not determine this number.
     pub value: Option<f64>,
-    /// Value of [`Criterion::value`] at which the verdict changes.
+    /// Value of [`Criterion::value`] at which [`Criterion::sticks`] changes.
     pub threshold: f64,
     /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory are not met, or if the
     /// number alone decides nothing.
     pub sticks: Option<bool>,
-    /// Reason why there is no verdict, or a remark on how the number was computed.
+    /// Reason why [`Criterion::sticks`] is `None`, or a remark on how [`Criterion::value`] was computed.
     pub reason: Option<String>,
 }
 
@@ -39,7 +39,7 @@ impl Criterion {
         Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
     }
 
-    /// Returns the criterion as one line of text, with the verdict or the reason why there is none.
+    /// Returns the criterion as one line of text, with the verdict [`Criterion::sticks`] or the reason why there is no verdict.
     pub fn words(&self) -> String {
         let behind =
             |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));

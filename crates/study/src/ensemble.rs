@@ -23,7 +23,7 @@ impl Ensemble {
     pub const FIXED: &str =
         "The profile of this scene is fixed, so there is no scatter over random profiles.";
 
-    /// Quantities that are recorded in each ensemble.
+    /// Quantities that every ensemble records on each profile.
     pub const NUMBERS: [Quantity; 5] = [
         Quantity::AdhesionForce,
         Quantity::AdhesionShare,
@@ -32,7 +32,7 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Quantities that are recorded in addition to [`Ensemble::NUMBERS`] for a table with one row for each profile.
+    /// Quantities that a table with one row for each profile shows in addition to [`Ensemble::NUMBERS`].
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -92,12 +92,12 @@ impl Ensemble {
         self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
 
-    /// Returns the values on all profiles as the results of a study without axes.
+    /// Returns the recorded values on all profiles as the [`Results`] of a study without axes.
     pub fn results(&self) -> &Results {
         &self.results
     }
 
-    /// Returns the statistics of a quantity over the computed profiles; `None` if it has no value on any of them.
+    /// Returns the statistics of a quantity over the computed profiles; `None` if the quantity has no value on any profile.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }

@@ -18,35 +18,35 @@ pub(super) const ONE_PROFILE: (&str, &str) = (
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// A plan has errors. Each text describes one error in one line.
+    /// A [`Plan`](crate::Plan) has errors. Each text describes one error in one line.
     #[error("{}", .0.join("\n"))]
     Plan(Vec<String>),
-    /// A folder or file of the study cannot be used.
+    /// The folder of a study, or a file in it, cannot be read or written, is damaged, or does not belong to the study.
     #[error("{}: {reason}", path_name(path))]
     Folder {
         /// Path of the folder or the file.
         path: PathBuf,
-        /// Reason in words.
+        /// Reason in words why the folder or the file cannot be used.
         reason: String,
     },
-    /// A measured file of the study cannot be read.
+    /// A file with a measured surface, which the scene of the study names, cannot be read.
     #[error(transparent)]
     Measured(#[from] SurfaceError),
-    /// A file, such as a table, could not be written.
+    /// A file of results, such as a table, could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A scene of the study could not be computed.
+    /// The computation of the scene of a study failed, or a [`Stop`](crate::Stop) ended the computation.
     #[error("{place}{error}")]
     Run {
         /// Values on the axes and seed of the profile, as text that ends with a colon; empty if a single profile is computed.
         place: String,
-        /// Reason why the computation failed.
+        /// Reason why the scene was not computed to the end.
         error: RunError,
     },
     /// The solver of contacts in three dimensions returned an error.
     #[error(transparent)]
     HalfSpace(#[from] HalfSpaceError),
-    /// A value or a request is not allowed.
+    /// A value is out of range, an argument of a function is not allowed, or the study or scene lacks what was requested.
     #[error("{}{found}; allowed: {allowed}", place.as_ref().map_or_else(String::new, |place| format!("{place}: ")))]
     Refused {
         /// Path of the number of the scene whose value is not allowed, or name of the argument. `None` if the request as a
@@ -78,12 +78,12 @@ pub enum StudyError {
         memory_size(*bytes)
     )]
     Memory {
-        /// Number of threads.
+        /// Requested number of threads.
         jobs: u64,
-        /// Memory that the study needs, in bytes.
+        /// Memory that the study needs on these threads, in bytes.
         bytes: u64,
     },
-    /// The system could not start a thread, for the reason in the contained error.
+    /// The operating system could not start a thread of the computation. The contained error states the reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }

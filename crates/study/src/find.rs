@@ -17,11 +17,12 @@ const STILL: f64 = 1e-3;
 /// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which a quantity reaches a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Question that was asked.
+    /// Question that is answered on each profile.
     pub question: Question,
     /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// First reason why the scene could not be computed with a searched number; `None` if there is none.
+    /// Reason why the scene could not be computed with one of the searched values of the number; `None` if it could be computed
+    /// with all of them.
     pub refused: Option<String>,
 }
 
@@ -158,7 +159,7 @@ impl Found {
         Some(value).filter(|value| value.is_finite())
     }
 
-    /// Returns the smallest and the largest number in [`Found::values`]; `None` if no profile has a value.
+    /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile has a value.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = || self.values().into_iter().flatten();
         values().reduce(f64::min).zip(values().reduce(f64::max))

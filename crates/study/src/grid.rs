@@ -11,8 +11,8 @@ const LOGARITHMIC_RATIO: f64 = 50.0;
 /// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value on the vertical axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridCell {
-    /// Statistics over the random profiles for the quantity of each layer, in the order of [`Grid::layers`]; `None` if no
-    /// profile has a value.
+    /// Statistics over the random profiles for each quantity of the grid, in the order of [`Grid::layers`]; `None` if the
+    /// quantity has no value on any profile.
     pub statistics: Vec<Option<Statistics>>,
     /// Numbers of profiles in each regime: first for [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
     pub regimes: [RegimeCounts; 2],
@@ -26,14 +26,15 @@ impl GridCell {
     }
 }
 
-/// Quantity that a [`Grid`] shows, with the scale on which its means are shown.
+/// Quantity that a [`Grid`] shows, with the scale on which figures show the means of the quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridLayer {
-    /// Quantity that the layer shows.
+    /// Quantity whose means over the profiles the grid shows.
     pub quantity: Quantity,
-    /// Scale of the quantity, linear or logarithmic.
+    /// Scale of the means of the quantity in a figure, linear or logarithmic.
     pub scale: AxisScale,
-    /// Smallest and largest mean of the quantity in a [cell](GridCell) that the scale can show; `None` if there is none.
+    /// Smallest and largest of the means of the quantity in the [cells](GridCell). A logarithmic scale counts only means above
+    /// zero. `None` if there is no such mean.
     pub range: Option<(f64, f64)>,
 }
 
@@ -78,7 +79,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid from the values of its public fields.
+    /// Creates a grid from its axes, fixed values, layers and cells, as the fields of [`Grid`] describe them.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -90,7 +91,7 @@ impl Grid {
         Grid { across, up, fixed, layers, cells, stand_ins }
     }
 
-    /// Returns the number of columns and the number of rows.
+    /// Returns the number of columns and the number of rows of the grid.
     pub fn size(&self) -> (usize, usize) {
         (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
     }
@@ -160,7 +161,7 @@ impl Grid {
     }
 
     /// Returns true if a place lies on the grid. Along each axis the grid begins half a [cell](GridCell) before the first value
-    /// and ends half a cell behind the last value.
+    /// and ends half a cell beyond the last value.
     pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);

@@ -80,7 +80,7 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Progress of a study in a folder: what the processes that compute the study have written to its files.
+/// Files of a study in a folder, and the progress of the study according to these files.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};

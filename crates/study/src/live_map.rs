@@ -1,4 +1,4 @@
-//! The map of a scene in the explorer: a study in memory that is computed from coarse to fine.
+//! The map of a scene over κ or e_el/γ and H: a study in memory that is computed from coarse to fine.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -28,7 +28,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// All levels, the coarsest first.
+    /// All resolutions of a map, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
     /// Returns the finest level of a map with this number of springs.
@@ -65,12 +65,12 @@ impl LiveMap {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
 
-    /// Returns the plan of the map.
+    /// Returns the plan of the study whose results the map shows.
     pub fn plan(&self) -> &Plan {
         self.results.plan()
     }
 
-    /// Returns the numbers of the [cells](Plan) of a level, in groups of cells with the same value of H.
+    /// Returns the numbers of the [cells](Plan) that belong to a [`Level`], in groups of cells with the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
@@ -136,8 +136,8 @@ impl LiveMap {
         }
     }
 
-    /// Returns the map for display, with H on the horizontal axis and κ or e_el/γ on the vertical axis. Without H the map has
-    /// only a horizontal axis, κ or e_el/γ.
+    /// Returns the results so far as a [`Grid`] with H on the horizontal axis and κ or e_el/γ on the vertical axis. Without H
+    /// the grid has only a horizontal axis, κ or e_el/γ.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =

@@ -9,7 +9,7 @@ use asperity_data::round_to;
 use asperity_scene::RoughnessParameter::Kappa;
 use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 
-/// Quantities recorded in each cell.
+/// Quantities recorded in each [cell](crate::Plan) of a [`LiveMap`](crate::maps::LiveMap).
 pub const MAP_RECORD: [Quantity; 6] = [
     Quantity::FirstTouchAdhesionShare,
     Quantity::AdhesionCoefficient,
@@ -35,7 +35,8 @@ fn kappas() -> Vec<f64> {
 }
 
 impl Plan {
-    /// Number of random profiles for each [cell](crate::Plan) of a map of self-affine roughness.
+    /// Number of random profiles for each [cell](crate::Plan) of a [`LiveMap`](crate::maps::LiveMap) of a scene with self-affine
+    /// roughness.
     pub const PROFILES_OF_MAP: u64 = 4;
 
     /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. Its axes are κ and, if the roughness has a

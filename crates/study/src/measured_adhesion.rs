@@ -30,9 +30,9 @@ pub struct ProfileAdhesion {
     /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if there is no
     /// adhesion force before or after the change.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if it is unknown.
+    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime is unknown.
     pub regime: Option<Regime>,
-    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if it is unknown.
+    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if the regime is unknown.
     pub regime_after_zero_force: Option<Regime>,
 }
 
@@ -70,7 +70,7 @@ impl ProfileAdhesion {
 /// Adhesion of several random profiles with the spectrum of one measured surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredAdhesion {
-    /// Results, one for each profile, sorted by the seeds of the profiles.
+    /// Adhesion of each profile, sorted by the seeds of the profiles.
     pub profiles: Vec<ProfileAdhesion>,
 }
 

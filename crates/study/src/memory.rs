@@ -1,4 +1,4 @@
-//! Memory that a study takes.
+//! Memory in bytes that the computation of a study needs.
 
 use super::axis::Axis;
 use super::error::StudyError;

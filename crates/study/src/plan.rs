@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 pub(super) const PLAN_FILE: &str = "plan.ron";
 pub(super) const PRELOAD: &str = "preload";
 
-/// Largest number of profiles of a plan.
+/// Largest number of random profiles of a [`Plan`] for each [cell](Plan).
 pub const MOST_LINES: u64 = 1_000_000;
-/// Largest number of records of a plan, which is [cells](Plan) times profiles.
+/// Largest number of records of a [`Plan`]: the number of [cells](Plan) times the number of random profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
 /// Largest number of scenes that are all checked. Of more scenes, only the scenes at the ends of all axes are checked.
@@ -34,7 +34,7 @@ const SAME: [&[&str]; 3] = [
 /// one combination of values on the axes. A *record* has the recorded quantities of one cell on one random profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Title of the study in one line.
+    /// Title of the study in one line of text.
     pub title: String,
     /// Note for readers of the results, such as a limit of the study; may be empty.
     pub notice: String,
@@ -47,9 +47,9 @@ pub struct Plan {
     pub lines: u64,
     /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the same in all [cells](Plan).
     pub seed: u64,
-    /// Quantities that are recorded for each [cell](Plan) and profile.
+    /// Quantities that are recorded for each [cell](Plan) on each random profile.
     pub record: Vec<Quantity>,
-    /// Forces for the fits of [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`].
+    /// Forces at which the contact is computed for [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`].
     pub stiffness: StiffnessRange,
     /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene without such files, and for a
     /// plan that is not in the [`Folder`](crate::Folder) of a study.
@@ -96,17 +96,17 @@ impl Plan {
         }
     }
 
-    /// Returns the axis of preloads; `None` if the plan has none.
+    /// Returns the axis of the plan on which the preload varies; `None` if the plan has no such axis.
     pub fn preloads(&self) -> Option<&Axis> {
         self.axes.last().filter(|axis| axis.is_of_preloads())
     }
 
-    /// Returns the axes of the plan other than the axis of preloads.
+    /// Returns the axes of the plan without the axis of preloads, [`Plan::preloads`].
     pub fn scene_axes(&self) -> &[Axis] {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Returns the number of [cells](Plan).
+    /// Returns the number of [cells](Plan), which is the number of combinations of values on the axes.
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Version of the plan file. No other version is supported.
+/// Version of the format of plan files. Files of another version cannot be read.
 pub const PLAN_VERSION: u32 = 1;
 
 /// Changes that [`Plan::open`] makes to the plan that it has read.
@@ -210,7 +210,7 @@ impl Plan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
-    /// Returns the plan as text in RON, with the scene written into it.
+    /// Returns the plan as the text of a plan file in RON that contains the scene itself instead of the path of a scene file.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};

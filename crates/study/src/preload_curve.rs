@@ -1,4 +1,4 @@
-//! The adhesion force of a scene against the preload.
+//! The adhesion force of a scene as a function of the preload.
 
 use crate::axis::Axis;
 use crate::error::StudyError;
@@ -112,12 +112,12 @@ impl PreloadCurve {
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results: results? })
     }
 
-    /// Returns true if nothing of the curve is left to compute.
+    /// Returns true if the curve is complete: the staircase, and all [`PreloadCurve::PROFILES`] random profiles.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
 
-    /// Returns the number of random profiles that are computed so far.
+    /// Returns the number of random profiles of the curve that are computed so far.
     pub fn profiles(&self) -> usize {
         self.results.records_of(0).count()
     }

@@ -23,7 +23,7 @@ const FINEST: f64 = 1.0 / 2048.0;
 const SAME: f64 = 1e-9;
 
 impl Axis {
-    /// Smallest and largest number of preloads on an axis.
+    /// Smallest and largest number of preloads that an axis may have.
     pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
     /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the number of preloads, and `log`
@@ -117,7 +117,7 @@ impl Axis {
 /// larger value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
-    /// Scale of the preloads, linear or logarithmic.
+    /// Scale, linear or logarithmic, of the axis of preloads for which the staircase was computed.
     pub scale: AxisScale,
     /// Force at first touch in N, and adhesion force F_a(d=0) in N of a loop that turns at first touch.
     pub touch: (f64, f64),
@@ -203,7 +203,7 @@ impl Staircase {
         self.forces.windows(2).filter_map(middle).collect()
     }
 
-    /// Returns the corners of a line that shows the staircase, each with preload and adhesion force in N.
+    /// Returns the staircase as a polygonal line for a chart: its corners, each with preload and adhesion force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
         self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()

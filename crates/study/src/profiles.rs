@@ -1,4 +1,4 @@
-//! Random profiles of one plan on several threads, with results that do not depend on the number of threads.
+//! Computation of the random profiles of a plan on several threads. The results do not depend on the number of threads.
 
 use super::error::StudyError;
 use super::plan::Plan;

@@ -61,7 +61,7 @@ macro_rules! quantities {
         const ROWS: &[Row] = &[$(Row { name: $name, meaning: $meaning, $($field: $value,)* ..ROW },)*];
 
         impl Quantity {
-            /// All quantities, in the order of the variants.
+            /// All quantities that a study can record, in the order of the variants.
             pub const ALL: [Quantity; ROWS.len()] = [$(Quantity::$variant,)*];
         }
     };

@@ -12,7 +12,7 @@ use asperity_data::{AxisScale, format_quantity, parse_quantity};
 use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
 use std::mem::replace;
 
-/// Relative distance of the ends of a bracket at which its search ends.
+/// Relative distance between the ends of the interval with the sought value at which the search for this value ends.
 pub const WITHIN: f64 = 1e-9;
 /// Ratio of the ends of the searched range to the number of the scene.
 const FACTOR: f64 = 100.0;
@@ -32,11 +32,11 @@ const WORK: &str = "adhesion.work";
 /// profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Number whose value is sought. It is given as an axis without values. The unit of a preload is N.
+    /// Number of the scene, or preload in N, whose value is sought. It is given as an axis without values.
     pub axis: Axis,
-    /// Quantity that must reach the target.
+    /// Quantity that must reach [`Question::target`].
     pub quantity: Quantity,
-    /// Target value of the quantity in its SI unit.
+    /// Target value of [`Question::quantity`] in the SI unit of the quantity.
     pub target: f64,
     /// Smallest and largest value of the number that are tried, in SI units. If the number is not above zero in the scene,
     /// [`Question::new`] sets both to NaN, and the caller must set the range before the question is answered.

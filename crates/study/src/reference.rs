@@ -56,17 +56,17 @@ impl ReferenceOptions {
 /// Comparison of one quantity between random profiles and random squares in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Compared {
-    /// Statistics of the quantity over the profiles.
+    /// Statistics of the quantity over the random profiles.
     pub line: Statistics,
-    /// Statistics of the quantity over the squares.
+    /// Statistics of the quantity over the random squares in three dimensions.
     pub half_space: Statistics,
-    /// Mean over the profiles divided by the mean over the squares.
+    /// Mean of the quantity over the profiles divided by its mean over the squares.
     pub ratio: f64,
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`]; `None` for fewer than two profiles or squares.
     pub error: Option<f64>,
 }
 
-/// Comparison of the profiles with the squares at one force, without adhesion.
+/// Comparison of random profiles with random squares in three dimensions under one force, without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
     /// Force on each profile and on each square, N.
@@ -83,7 +83,7 @@ pub struct Loaded {
 /// body of the side L on an elastic half-space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// Options of the comparison.
+    /// Numbers of profiles, squares and grid cells with which the comparison was computed.
     #[serde(flatten)]
     pub options: ReferenceOptions,
     /// Longest and shortest wave of the roughness on profiles and squares, each as its number of periods over the length L;
@@ -96,15 +96,17 @@ pub struct Reference {
     pub preload: f64,
     /// Comparison without adhesion at several forces, from a hundredth of the preload to the preload.
     pub loading: Vec<Loaded>,
-    /// Adhesion force F_a after the preload, N; `None` for a scene without adhesion.
+    /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without adhesion.
     pub adhesion_force: Option<Compared>,
-    /// Adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for a scene without adhesion.
+    /// Comparison of the adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for a scene without adhesion.
     pub first_touch_adhesion_force: Option<Compared>,
-    /// Energy in J that the contact loses in the loop; `None` for a scene without adhesion.
+    /// Comparison of the energy in J that the contact loses in the loop to the preload and back; `None` for a scene without
+    /// adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// Errors of the comparison, one for each source of errors.
+    /// Errors of the comparison of adhesion forces, or of indentations for a scene without adhesion, one for each source.
     pub budget: ReferenceBudget,
-    /// Number of convolutions that were computed for all squares together.
+    /// Number of convolutions over the grid of a square that the solver computed for all squares together, a measure of the
+    /// computing work.
     pub convolutions: u64,
     /// Computing time in s: first of all profiles together, then of all squares together.
     pub seconds: [f64; 2],
@@ -131,7 +133,7 @@ pub struct ReferenceBudget {
     pub largest: &'static str,
 }
 
-/// Event that [`Reference::of`] reports during a comparison.
+/// Event that [`Reference::of`] reports while it compares profiles with squares.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
     /// All profiles are computed, and the computation of the squares begins.

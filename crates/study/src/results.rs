@@ -33,7 +33,7 @@ pub struct Results {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
-    /// Number of records in the files, each counted once.
+    /// Number of records in the files of the study. A repeated record is counted once.
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
@@ -42,15 +42,15 @@ pub struct Merged {
     pub first_failed: Vec<(u64, u64, String)>,
     /// Number of records that the study has once it is complete.
     pub total: u64,
-    /// Number of repetitions: records that occur again with exactly the same values.
+    /// Number of records in the files that repeat another record with exactly the same values.
     pub duplicates: u64,
-    /// Number of incomplete or damaged lines in the files.
+    /// Number of incomplete or damaged lines in the files of the study, which are ignored.
     pub damaged: u64,
     /// Number of [cells](Plan) that lack the records of some profiles.
     pub missing_cells: u64,
     /// Numbers of the first few [cells](Plan) that lack the records of some profiles.
     pub first_missing: Vec<u64>,
-    /// Number of files that have at least one record.
+    /// Number of files in the folder of the study that have at least one record.
     pub files: usize,
     /// Versions of the program with which the processes wrote the records.
     pub programs: Vec<String>,

@@ -1,4 +1,5 @@
-//! Computation of the missing records of a plan on all cores. The results do not depend on the number of threads.
+//! Computation of the records of a plan that a folder lacks, on all processor cores. The results do not depend on the
+//! number of threads.
 
 use super::cells::{Cells, Streak};
 use super::compute::Streaks;
@@ -34,9 +35,9 @@ pub struct StudyProgress {
     pub done: u64,
     /// Number of records of the shard that existed before this run.
     pub before: u64,
-    /// Number of records of the shard once it is complete.
+    /// Number of records that the shard has once it is complete.
     pub total: u64,
-    /// Time from the beginning of this run to its last written records.
+    /// Time from the beginning of this run of [`run_study`] to the last records that it wrote.
     pub elapsed: Duration,
 }
 
@@ -46,12 +47,13 @@ impl StudyProgress {
         self.done == self.total
     }
 
-    /// Returns how many records this run has computed per second so far; `None` before the first record.
+    /// Returns how many records this run of [`run_study`] has computed per second so far; `None` before the first record.
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
-    /// Returns the estimated time for the missing records of the shard at the rate so far; `None` before the first record.
+    /// Returns the estimated time for the missing records of the shard at [`StudyProgress::rate`]; `None` before the first
+    /// record.
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()

@@ -23,16 +23,16 @@ pub struct Selection {
     /// the first recorded quantity is drawn.
     #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME", verbatim_doc_comment))]
     pub quantities: Vec<String>,
-    /// Horizontal axis
+    /// Horizontal axis of the charts: one of the axes of the study
     #[cfg_attr(feature = "clap", arg(long = "x", value_name = "AXIS"))]
     pub across: Option<String>,
-    /// Vertical axis
+    /// Vertical axis of the maps: one of the axes of the study
     #[cfg_attr(feature = "clap", arg(long = "y", value_name = "AXIS"))]
     pub up: Option<String>,
-    /// Fix an axis at one of its values, as often as needed
+    /// Fix an axis at one of its values; repeat for further axes
     #[cfg_attr(feature = "clap", arg(long, value_name = "AXIS=VALUE", value_parser = axis_and_value))]
     pub at: Vec<(String, String)>,
-    /// Scale of quantities
+    /// Scale of the quantities
     ///
     /// By default the range of the values decides; small values have a second, logarithmic chart.
     #[cfg_attr(feature = "clap", arg(long, value_enum))]
@@ -50,9 +50,9 @@ fn axis_and_value(text: &str) -> Result<(String, String), String> {
 /// Part of a study that a [`Selection`] has chosen for a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selected {
-    /// Results of the chosen part of the study, over one or two axes.
+    /// Results of the chosen part of the study, over one or two axes of the study.
     pub grid: Grid,
-    /// Quantities of the figure, one for each panel.
+    /// Quantities that the figure shows, one in each panel.
     pub quantities: Vec<Quantity>,
     /// True if the figure shows the rows of a grid with two axes as curves over the horizontal axis.
     pub curves: bool,

@@ -33,7 +33,7 @@ pub struct Changed {
 pub struct Influence {
     /// Path, name and unit of the number, as an axis without values.
     pub axis: Axis,
-    /// Value of the number in the scene.
+    /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`].
     pub value: f64,
     /// First the smaller, then the larger value of the number, each with the results for this value; `None` if the scene does
     /// not allow the value.
@@ -61,7 +61,7 @@ impl Sensitivity {
     /// Relative change by which each number of the scene is made smaller and larger. A whole number changes by at least 1.
     pub const STEP: f64 = 0.1;
 
-    /// Quantities whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
+    /// Results of the scene whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
@@ -172,7 +172,8 @@ impl Sensitivity {
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// Returns the influences on result number `result` of [`Sensitivity::RESULTS`], the largest relative change first.
+    /// Returns the numbers of the scene sorted by the relative change that they cause in one result, the largest change first.
+    /// `result` is the index of the result in [`Sensitivity::RESULTS`].
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {

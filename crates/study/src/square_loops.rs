@@ -10,7 +10,7 @@ use asperity_scene::{CheckedScene, Simulation};
 /// Force curves of the random squares of a [`Reference`].
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
-    /// Number of squares of the complete comparison.
+    /// Number of squares that the complete comparison has.
     pub maps: u64,
     /// Force curve of each computed square from first touch on: points with indentation in m and force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
@@ -51,7 +51,8 @@ impl SquareLoops {
         Ok(SquareLoops { reference: Some(reference), ..loops })
     }
 
-    /// Compares [`SquareLoops::lines`] with [`SquareLoops::squares`]; `None` before the first square is computed.
+    /// Compares the values [`SquareLoops::lines`] of the profiles with the values [`SquareLoops::squares`]; `None`
+    /// before the first square is computed.
     pub fn headline(&self) -> Option<Compared> {
         compared(self.lines.iter().copied(), self.squares.iter().copied())
     }

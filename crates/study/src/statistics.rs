@@ -18,18 +18,18 @@ const MOST_OF_ONE: f64 = 0.5;
 pub struct Statistics {
     /// Number of profiles with a value. The statistics are over these profiles.
     pub count: usize,
-    /// Mean of the values.
+    /// Mean of the quantity over the profiles with a value.
     pub mean: f64,
-    /// Lower quartile, median and upper quartile, interpolated between neighbouring values.
+    /// Lower quartile, median and upper quartile of the quantity, interpolated between neighbouring values.
     pub quartiles: [f64; 3],
-    /// Smallest and largest value.
+    /// Smallest and largest value of the quantity among the profiles.
     pub range: (f64, f64),
-    /// Spread of the values and confidence interval of their mean; `None` for a single value.
+    /// Spread of the values and confidence interval of [`Statistics::mean`]; `None` for a single value.
     #[serde(flatten)]
     pub spread: Option<Spread>,
 }
 
-/// Spread of several values, and confidence interval of their mean.
+/// Spread of the values of a quantity over several random profiles, and confidence interval of the mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Sample standard deviation of the values, with the divisor `count − 1`.
@@ -79,8 +79,8 @@ impl Statistics {
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
     }
 
-    /// Columns of a table with statistics. Each column has the end of its name, such as `median`, and the function that returns
-    /// its value.
+    /// Statistics that a table shows of each quantity, one in each column: the last part of the name of the column, such as
+    /// `median`, and the function that returns the value in the column.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -118,13 +118,14 @@ impl Statistics {
         Some(format!("One profile makes {percent} % of the mean of {what}: the median is the better guide."))
     }
 
-    /// Returns the largest value divided by the sum of all values; `None` if a value is negative or the sum is zero.
+    /// Returns the largest value of the quantity divided by the sum of the values on all profiles; `None` if a value is negative
+    /// or the sum is zero.
     pub fn share_of_largest(&self) -> Option<f64> {
         let share = self.range.1 / (self.mean * self.count as f64);
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Returns both ends of the 95 % confidence interval of the mean. For a single value both are the mean.
+    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a single value each end is the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
@@ -155,14 +156,14 @@ fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     (end(-half), end(half))
 }
 
-/// Numbers of random profiles in each [regime](Regime) of adhesion.
+/// Number of random profiles in each [regime](Regime) of adhesion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RegimeCounts {
     /// Number of profiles with pressure-insensitive adhesion.
     pub pressure_insensitive: usize,
     /// Number of profiles with pressure-sensitive adhesion.
     pub pressure_sensitive: usize,
-    /// Number of non-adhesive profiles.
+    /// Number of profiles in the regime [`Regime::NonAdhesive`].
     pub non_adhesive: usize,
     /// Number of profiles whose regime is unknown because the force on the body is never negative.
     pub none: usize,
@@ -182,7 +183,7 @@ impl RegimeCounts {
         [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
     }
 
-    /// Returns the number of all profiles, with known or unknown regime.
+    /// Returns the number of all counted profiles, whether their regime is known or unknown.
     pub fn profiles(self) -> usize {
         self.known().iter().sum::<usize>() + self.none
     }

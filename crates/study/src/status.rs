@@ -13,7 +13,7 @@ use std::path::Path;
 /// profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Number of records that exist, each counted once.
+    /// Number of records in the files of the study. A repeated record is counted once.
     pub done: u64,
     /// Number of records that the study has once it is complete.
     pub total: u64,
@@ -21,7 +21,7 @@ pub struct Status {
     pub missing: u64,
     /// Number of existing records that have no values because they cannot be computed.
     pub failed: u64,
-    /// Number of incomplete or damaged lines in the files.
+    /// Number of incomplete or damaged lines in the files of the study, which are ignored.
     pub damaged: u64,
     /// Progress of each [`Shard`], a part of the plan, on which a process has worked.
     pub shards: Vec<ShardStatus>,
@@ -48,7 +48,7 @@ pub struct Attempt {
     pub file: String,
     /// Name of the machine on which the process ran.
     pub host: String,
-    /// Number of the process (PID) on this machine.
+    /// Number of the process (PID) on the machine [`Attempt::host`].
     pub process: u32,
     /// Time at which the process began, in s since 1970.
     pub started: u64,
@@ -56,7 +56,8 @@ pub struct Attempt {
     pub written: f64,
     /// Number of records that the process wrote.
     pub records: u64,
-    /// Records that the process wrote per second, from its beginning to its last write; `None` if no time passed.
+    /// Mean number of records that the process wrote per second from its beginning to its last write; `None` if both times are
+    /// equal.
     pub rate: Option<f64>,
 }
 

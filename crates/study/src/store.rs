@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-/// Version of the shard files.
+/// Version of the format of shard files, [`ShardFile`].
 pub const STORE_VERSION: u32 = 1;
 /// Largest length in bytes of a line of a shard file or a table. Records are much shorter.
 const LONGEST_LINE: u64 = 1 << 16;
@@ -48,13 +48,13 @@ pub struct Folder {
 pub struct ShardHeader {
     /// Version of the format of shard files.
     pub format: u32,
-    /// Checksum of the text of the plan.
+    /// Checksum (CRC-32) of the text of the plan as 8 hexadecimal digits.
     pub plan: String,
     /// Part of the plan that the process computes.
     pub shard: Shard,
     /// Name of the machine on which the process ran.
     pub host: String,
-    /// Number of the process (PID) on this machine.
+    /// Number of the process (PID) on the machine [`ShardHeader::host`].
     pub process: u32,
     /// Time at which the process began, in s since 1970.
     pub begun: f64,
@@ -65,7 +65,7 @@ pub struct ShardHeader {
 /// File in the folder of a study with the results of one process.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShardFile {
-    /// Path of the file.
+    /// Path of the file with the results of the process.
     pub path: PathBuf,
     /// First line of the file, which states the process that wrote it.
     pub header: ShardHeader,
@@ -147,12 +147,12 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan })
     }
 
-    /// Returns the path of the folder.
+    /// Returns the path of the folder on disk.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Returns the plan of the study.
+    /// Returns the plan of the study in this folder.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }

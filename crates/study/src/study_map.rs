@@ -50,7 +50,7 @@ impl StudyMap {
         Ok(StudyMap { folder, across, up, others, layers: study.layers(), study })
     }
 
-    /// Returns the folder of the study.
+    /// Returns the path of the folder from which the results of the study were read.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -61,7 +61,7 @@ impl StudyMap {
         whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()
     }
 
-    /// Returns the plan of the study.
+    /// Returns the plan of the study whose results the maps show.
     pub fn plan(&self) -> &Plan {
         self.study.plan()
     }
@@ -120,7 +120,7 @@ impl StudyMap {
     /// Returns the scene of the first map as a scene file for the explorer.
     ///
     /// # Errors
-    /// Returns an error if the scene is invalid.
+    /// Returns an error if a value of the scene is not allowed.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As typed, so that this name in a command opens the study again.
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())

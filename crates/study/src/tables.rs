@@ -1,4 +1,4 @@
-//! Tables of a merged study: its values, their statistics over the profiles, and a description of the columns.
+//! Tables of a study: all recorded values, their statistics over the profiles, and a description of the columns.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -18,7 +18,7 @@ use std::io;
 use std::io::BufReader;
 use std::path::Path;
 
-/// Version of the merged files.
+/// Version of the format of the files that [`merge`] writes.
 pub const RESULTS_VERSION: u32 = 1;
 /// Name of the column with the reasons of records without values.
 const REASON: &str = "reason";
@@ -30,7 +30,7 @@ impl Merged {
     pub const RESULTS: &str = "results.csv";
     /// Name of the file with the table of statistics over the profiles. The table has one row for each [cell](Plan).
     pub const SUMMARY: &str = "summary.csv";
-    /// Name of the file that describes the columns of both tables.
+    /// Name of the file that describes the columns of the tables [`Merged::RESULTS`] and [`Merged::SUMMARY`].
     pub const SIDECAR: &str = "results.json";
 }
 

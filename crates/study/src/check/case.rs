@@ -20,7 +20,7 @@ pub(super) enum Subject {
     Bodies(fn(&Body) -> Measured),
 }
 
-/// Case with a known result, by which the program is checked.
+/// Computation with a known result, on which the program is tested.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Name of the case, such as `jkr-sphere`.
@@ -28,9 +28,9 @@ pub struct Case {
     /// Family of the case: `closed-forms` for bodies with a known force curve, `laws` for laws that hold for every body, or
     /// `hard-cases` for extreme input, such as nearly equal gaps or very large loads.
     pub family: &'static str,
-    /// Statement that must hold for the result, as a sentence.
+    /// Statement that must hold for the result of the case, as a sentence.
     pub holds: &'static str,
-    /// How the result is known: `closed form`, `independent computation` or `self-consistency`.
+    /// How the correct result of the case is known: `closed form`, `independent computation` or `self-consistency`.
     pub evidence: &'static str,
     /// Name of the quantity whose error must not exceed the bound of a [`Check`](crate::checks::Check).
     pub error_of: &'static str,

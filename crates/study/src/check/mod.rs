@@ -14,15 +14,15 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// Check of the program by a [`Case`]. The case is computed with one rule for the edges of patches of contact, and its error is
-/// compared with a bound.
+/// Test of the program on a [`Case`], which has a known result. The case is computed with one rule for the edges of patches
+/// of contact. The check passes if the error of the result is at most [`Check::bound`].
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
-    /// Case that is checked.
+    /// Case on which the program is tested.
     pub case: Case,
     /// Rule for the edges of patches of contact: an edge lies at a spring, or may lie between two springs.
     pub edges: Edges,
-    /// Largest error with which the check passes.
+    /// Largest error of the quantity [`Case::error_of`] with which the check passes.
     pub bound: f64,
 }
 
@@ -40,7 +40,7 @@ impl Check {
         Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
     }
 
-    /// Computes the case and the error of the quantity that [`Case::error_of`] names.
+    /// Computes the case, and the error of the quantity that [`Case::error_of`] names.
     pub fn judge(self) -> Verdict {
         let (clock, edges) = (Instant::now(), self.edges);
         let error = match self.case.subject {
@@ -67,16 +67,16 @@ impl Case {
 /// Result of a [`Check`]: the measured error of the case and the computing time.
 #[derive(Debug)]
 pub struct Verdict {
-    /// Check that was computed.
+    /// Check whose case was computed.
     pub check: Check,
-    /// Error that was measured, or the reason why it could not be measured.
+    /// Error of the quantity [`Case::error_of`] that was measured, or the reason why the error could not be measured.
     pub error: Result<f64, String>,
     /// Computing time of the check, s.
     pub seconds: f64,
 }
 
 impl Verdict {
-    /// Returns true if the error was measured and does not exceed the bound of the check.
+    /// Returns true if the error was measured and is at most [`Check::bound`].
     pub fn passes(&self) -> bool {
         // NaN is not within any bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
