@@ -19,7 +19,7 @@ pub struct FindReport<'a> {
     pub title: &'a str,
     /// Scene in which the number is varied.
     pub scene: &'a Scene,
-    /// Values of the number that were found, on each profile.
+    /// Values of the number at which the result reaches the wanted value, on each profile.
     pub found: &'a Found,
 }
 

@@ -271,7 +271,8 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
 }
 
 /// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the computed preload nearest to
-/// `preload` in N; `None` for fewer than two profiles. If `forces` is given, it is the vertical axis.
+/// `preload` in N; `None` for fewer than two profiles. If `forces`, an axis of adhesion forces, is given, it is the
+/// vertical axis of the chart.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

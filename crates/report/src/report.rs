@@ -117,7 +117,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats.
+    /// All formats, of which a given result may lack some.
     pub const ALL: [Format; 7] =
         [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
 
@@ -173,10 +173,10 @@ impl Format {
     }
 }
 
-/// Returns which of the `allowed` extensions a file has, as an index; `None` for a name without an extension.
+/// Returns the index in `allowed` of the extension of a file; `None` for a name without an extension.
 ///
 /// # Errors
-/// Returns an error if the extension is not allowed.
+/// Returns an error if the extension is not in `allowed`.
 pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
     let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
         return Ok(None);

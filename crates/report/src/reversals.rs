@@ -22,7 +22,7 @@ pub struct ReversalReport<'a> {
     pub title: &'a str,
     /// Scene whose body is loaded and unloaded.
     pub scene: &'a Scene,
-    /// Forces along the unloadings from each turning point.
+    /// Force F(d_r, d) along the unloading from each turning point d_r.
     pub map: &'a ReversalMap,
     /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
     /// bodies together.

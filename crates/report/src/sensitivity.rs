@@ -21,7 +21,7 @@ pub struct SensitivityReport<'a> {
     pub title: &'a str,
     /// Scene whose numbers are changed.
     pub scene: &'a Scene,
-    /// Changes of the results for each changed number.
+    /// Changes of the results, such as the adhesion force, for each changed number.
     pub sensitivity: &'a Sensitivity,
 }
 
