@@ -23,7 +23,8 @@ pub struct FittedParameter {
     /// Standard error of the value due to the noise of the force. If the model does not describe the curve, it is at
     /// least the scatter of the value between parts of the curve (jackknife).
     pub noise_error: f64,
-    /// Value before the fit: an estimate from the curve, or the value in the scene.
+    /// Value before the fit: an estimate from the curve, but 0 for the force F₀ and the value in the scene for the radius.
+    /// If this value lies outside of [`Self::range`], it is the nearer end of the range.
     pub start: f64,
     /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
@@ -75,7 +76,8 @@ pub struct FitResult {
     /// Pairs of free parameters that the curve cannot separate. A pair of one parameter with itself means that the curve does
     /// not determine this parameter.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Sentences about values that the fit took from the file or the points of the curve and did not search.
+    /// Sentences about values that the fit took from the file or the points of the curve and did not search,
+    /// such as the stiffness of the instrument.
     #[serde(skip)]
     pub assumptions: Vec<String>,
     /// Number of force curves that the fit computed.

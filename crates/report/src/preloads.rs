@@ -111,8 +111,8 @@ impl Report for PreloadReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each unloading of a profile, or for each preload of the staircase if [`Self::curves`] is
-    /// true.
+    /// Returns a table with a row for each preload on each profile, or for each preload of the [`Self::staircase`] if
+    /// [`Self::curves`] is true.
     fn table(&self) -> Option<Table<'_>> {
         Some(match self.staircase.filter(|_| self.curves) {
             Some(staircase) => curve_table(self.results, staircase),

@@ -47,7 +47,7 @@ impl<T: Serialize> Json for T {
 
 /// A figure. If it has a single chart, it can also be written as a table of the points of the curves.
 impl Report for Figure {
-    /// Returns a table with a row for each point of each curve; `None` for a figure of several charts.
+    /// Returns a table with a row for each point of each curve of the chart; `None` for a figure of several charts.
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());

@@ -79,7 +79,8 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// Returns a figure with a chart of the adhesion force over the preload, and a heat map of the Everett function.
+    /// Returns a figure with a heat map of the Everett function, and before it a chart of the adhesion force over the preload if
+    /// [`Self::staircase`] is given.
     fn figure(&self) -> Option<Figure> {
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),

@@ -45,7 +45,7 @@ pub struct PaneChart {
 pub struct ContactRow {
     /// For each spring, from left to right, true if the spring is in contact. Empty for no row.
     pub springs: Vec<bool>,
-    /// Part of the axis between two brackets, given by its ends from 0 (left) to 1 (right); `None` for no brackets.
+    /// Part of the horizontal axis between two brackets, given by its ends from 0 (left) to 1 (right); `None` for no brackets.
     pub marked: Option<(f64, f64)>,
 }
 
