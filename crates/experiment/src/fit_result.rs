@@ -62,8 +62,8 @@ pub struct FitResult {
     /// Robust root mean square of the residuals divided by the noise, without the points before contact. Points near a
     /// jump of the force and outliers count less. The model describes the curve if the value is at most 1.5.
     pub misfit: f64,
-    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if the curve excludes a scene without
-    /// adhesion at the level of 5 %.
+    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is not free, or if
+    /// the curve excludes a scene without adhesion at the level of 5 %.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values; `None` without adhesion or without a radius of curvature, as for a
