@@ -37,7 +37,7 @@ pub struct MeasuredCurve {
     pub(crate) free: usize,
     /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
-    /// Standard deviation of the noise of the force, N.
+    /// Standard deviation of the noise of the force, N: from the points before contact, or [`CurveOptions::noise`].
     pub noise: f64,
     /// Number of points of the file that are used. It is larger than the number of values of [`Self::force`] if the
     /// curve is long, because neighbouring points are then averaged.
@@ -120,7 +120,7 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
     }
 
-    /// Returns true if the file has columns of displacement and force.
+    /// Returns true if the file at `path` can be read and has columns of displacement and force.
     pub fn is_in(path: &Path) -> bool {
         let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))

@@ -5,11 +5,11 @@ use asperity_scene::RunError;
 use asperity_surface::SurfaceError;
 use thiserror::Error;
 
-/// Reason why a curve cannot be read or fitted.
+/// Reason why a measured force curve cannot be read, or why a scene cannot be fitted to it.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
-    /// The file cannot be read, or its content is no table with the columns of a curve.
+    /// The file of the curve cannot be read, or its content is no table with columns of displacement and force.
     #[error(transparent)]
     File(#[from] SurfaceError),
     /// The curve cannot be read or fitted because of a property of the curve, of the scene or of an option.
@@ -20,7 +20,7 @@ pub enum ExperimentError {
         /// What is allowed instead, in words, with the option of the command line that helps.
         allowed: String,
     },
-    /// A computation failed or was stopped.
+    /// The computation of force curves for a fit failed, or the [`Control`](asperity_data::Control) of the fit stopped it.
     #[error(transparent)]
     Run(#[from] RunError),
 }

@@ -23,7 +23,8 @@ pub struct FittedParameter {
     /// Standard error of the value due to the noise of the force. If the model does not describe the curve, it is at
     /// least the scatter of the value between parts of the curve (jackknife).
     pub noise_error: f64,
-    /// Value before the fit: an estimate from the curve, or the value in the scene.
+    /// Value before the fit: an estimate from the curve, but 0 for the force F₀ and the value in the scene for the radius.
+    /// If this value lies outside of [`Self::range`], it is the nearer end of the range.
     pub start: f64,
     /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
@@ -54,28 +55,29 @@ pub struct FitResult {
     pub parameters: Vec<FittedParameter>,
     /// Root mean square of the residuals of all points, in N.
     pub residual: f64,
-    /// [`Self::residual`] divided by the noise of the curve.
+    /// [`Self::residual`] divided by the [noise](crate::MeasuredCurve::noise) of the force.
     pub residual_over_noise: f64,
-    /// Share of the points, from 0 to 1, whose residual exceeds 5 times the noise in magnitude.
+    /// Share of the points, from 0 to 1, whose residual exceeds 5 times this noise in magnitude.
     pub beyond_five_sigma: f64,
     /// Robust root mean square of the residuals divided by the noise, without the points before contact. Points near a
     /// jump of the force and outliers count less. The model describes the curve if the value is at most 1.5.
     pub misfit: f64,
-    /// Upper end of the 95 % interval of the work of adhesion, J/m², if a scene without adhesion describes the curve as
-    /// well; otherwise `None`.
+    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is not free, or if
+    /// the curve excludes a scene without adhesion at the level of 5 %.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values; `None` without adhesion or without a radius of curvature, as for a
     /// cone.
     pub tabor: Option<f64>,
-    /// Reason why the model does not describe the curve; `None` if the model does.
+    /// Reason why the model does not describe the curve; `None` if [`Self::misfit`] is at most 1.5.
     pub reason: Option<Reason>,
     /// Each pair of free parameters with the correlation of their errors, from −1 to 1.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs of parameters that the curve cannot separate. A pair of one parameter with itself means that the curve does
+    /// Pairs of free parameters that the curve cannot separate. A pair of one parameter with itself means that the curve does
     /// not determine this parameter.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Sentences about values that the fit took from the file or the points of the curve and did not search.
+    /// Sentences about values that the fit took from the file or the points of the curve and did not search,
+    /// such as the stiffness of the instrument.
     #[serde(skip)]
     pub assumptions: Vec<String>,
     /// Number of force curves that the fit computed.

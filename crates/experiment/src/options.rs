@@ -101,7 +101,7 @@ pub struct CurveOptions {
     /// By default the file states the travel.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
-    /// Segments that are used: 2 is the retraction without the approach
+    /// Segments of the curve that are used: 2 is the retraction alone
     ///
     /// 1 is the first approach, 2 its retraction, and so on. By default all are used, except
     /// pauses. The model runs through the other segments too. The part before contact still
@@ -112,13 +112,13 @@ pub struct CurveOptions {
             value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..))
     )]
     pub segments: Vec<usize>,
-    /// Reverse none, displacement, force or both; default: automatic
+    /// Reverse signs: none, displacement, force or both; default: automatic
     #[cfg_attr(feature = "clap", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
     pub negate: Option<Negate>,
     /// Measured force taken as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
-    /// Drift over time: keep (default), remove, or a force over the curve
+    /// Drift over time: keep (default), remove, or rise over the curve
     #[cfg_attr(
         feature = "clap",
         arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
@@ -130,7 +130,7 @@ pub struct CurveOptions {
         arg(long, default_value = "keep", hide_default_value = true, hide_possible_values = true)
     )]
     pub tilt: Tilt,
-    /// Standard deviation of the force; default: the one before contact
+    /// Standard deviation of the noise; default: the one before contact
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)

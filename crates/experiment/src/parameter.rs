@@ -76,7 +76,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the name on the command line and in JSON.
+    /// Returns the name of the parameter on the command line and in JSON, such as `closing_work`.
     pub fn name(self) -> &'static str {
         self.row().name
     }

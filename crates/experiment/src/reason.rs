@@ -41,7 +41,7 @@ pub enum Reason {
     /// The contact fills the whole profile, which should be longer. The value is the length of the profile in m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
-    /// Too few springs are in contact. The value is the largest number of springs in contact.
+    /// Too few springs are in contact for an accurate force. The value is the largest number of springs in contact.
     #[error(
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]

@@ -31,11 +31,11 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Width and height of the frame of a map, or of one of several charts, in px.
+    /// Usual [`Self::size`] in px if the figure has a map or several charts.
     pub const SMALL: (f64, f64) = (330.0, 270.0);
-    /// Width and height of the frame of a single chart, in px.
+    /// Usual [`Self::size`] in px if the figure has a single chart.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Width and height of the frame of a chart over the position along the profile, in px.
+    /// Usual [`Self::size`] in px if the charts have the position along the profile as horizontal axis.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart with this title.
@@ -96,7 +96,7 @@ impl Figure {
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend. Layers of the same name share one entry.
+    /// Returns the entries of the legend of all charts. Layers of the same name share one entry.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
@@ -371,8 +371,8 @@ impl HeatMap {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the coordinates of the borders of map cells along an axis, with one cell around each of these values. There is one
-    /// border more than there are values.
+    /// Returns the coordinates (see [`ChartAxis::span`]) of the borders of map cells along an axis, with one cell around each of
+    /// these values. There is one border more than there are values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };

@@ -39,8 +39,9 @@ impl Span {
         Span { low: low - margin, high: high + margin }
     }
 
-    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it may be extended to zero. On a
-    /// logarithmic scale it ends at the largest value and has at most `decades` decades.
+    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it begins at zero if
+    /// the smallest value is positive and at most 0.3 times the largest value. On a logarithmic scale it ends at the largest
+    /// value and has at most `decades` decades.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {

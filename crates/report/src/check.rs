@@ -6,7 +6,7 @@ use asperity_data::object;
 use asperity_study::checks::{Case, Check, Verdict};
 
 impl Report for [Verdict] {
-    /// Returns a table with a row for each check, then what each test case shows, then the checks that failed.
+    /// Returns a table with a row for each [`Check`], then what each [`Case`] shows by which evidence, then why checks failed.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);

@@ -31,8 +31,8 @@ pub struct CostReport<'a> {
 }
 
 impl<'a> CostReport<'a> {
-    /// Makes a report on the measured times and errors of a scene. With `reference` the report also has the error of the model,
-    /// by a comparison with three dimensions.
+    /// Makes a report on the measured times and errors of a scene. If `reference`, the comparison with three
+    /// dimensions, is given, the report also has the error of the model.
     pub fn new(
         title: &'a str,
         scene: &'a Scene,

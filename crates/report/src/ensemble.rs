@@ -133,7 +133,8 @@ impl Report for Ensemble {
     }
 }
 
-/// Results of a parameter study that are in memory.
+/// Results of a parameter study, all held in memory. The table has a row for each combination of values on the axes of the
+/// study, on each random profile.
 impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let Plan { scene, axes, lines, .. } = self.plan();

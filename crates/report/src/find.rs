@@ -19,7 +19,7 @@ pub struct FindReport<'a> {
     pub title: &'a str,
     /// Scene in which the number is varied.
     pub scene: &'a Scene,
-    /// Values of the number that were found, on each profile.
+    /// Values of the number at which the result reaches the wanted value, on each profile.
     pub found: &'a Found,
 }
 
@@ -211,8 +211,8 @@ impl Report for FindReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each profile: the number that was found, how often the result crosses the wanted value, and
-    /// the range of the result.
+    /// Returns a table with a row for each profile: the number that was found, how often the result crosses the wanted value
+    /// in the searched range, and the smallest and largest result in this range.
     fn table(&self) -> Option<Table<'_>> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());

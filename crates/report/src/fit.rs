@@ -15,9 +15,9 @@ use std::f64::consts::PI;
 pub struct FitReport<'a> {
     /// Name of the file of the curve, which is the title of the report.
     pub title: &'a str,
-    /// The measured curve.
+    /// Measured force curve to which the scene was fitted.
     pub curve: &'a MeasuredCurve,
-    /// Result of the fit.
+    /// Fitted parameters of the scene, and how well it describes the curve.
     pub fit: &'a FitResult,
 }
 

@@ -23,11 +23,12 @@ pub struct CurveRow {
     /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if the curve was not fitted.
     pub parameters: Vec<[f64; 3]>,
     /// Pull-off force in N, work of adhesion in J/m² of a smooth sphere with this pull-off force, rms residual divided by the
-    /// noise, and noise in N; `None` for an unknown number.
+    /// noise of the force, and this noise in N; `None` for an unknown number.
     pub facts: [Option<f64>; 4],
     /// Number of points of the curve that are used; `None` if the curve was not fitted.
     pub points: Option<u64>,
-    /// True if the model describes the curve; `None` if the curve was not fitted.
+    /// True if the model describes the curve, with a [misfit](asperity_experiment::FitResult::misfit) of at most 1.5; `None` if
+    /// the curve was not fitted.
     pub described: Option<bool>,
     /// Reason why the model does not describe the curve; empty if there is none.
     pub reason: String,
@@ -39,7 +40,7 @@ pub struct CurveRow {
 const FACTS: [&str; 4] = ["pull_off_force", "pull_off_work", "residual_over_noise", "noise"];
 
 impl CurveRow {
-    /// Fits a curve and makes its row. If the curve was not read or the fit fails, the row has the reason in [`Self::error`].
+    /// Runs `fit` on a curve and makes its row. If the curve was not read or the fit fails, [`Self::error`] has the reason.
     pub fn of(
         title: &str,
         curve: Result<MeasuredCurve, impl Display>,

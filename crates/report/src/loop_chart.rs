@@ -99,7 +99,8 @@ impl LoopUnits {
         self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
-    /// Returns true if a chart of these quantities shows this kind of marked point, such as the pull-off.
+    /// Returns true if a chart of these quantities shows this kind of marked point. A chart of the force over the displacement of
+    /// the instrument has no [`Mark::JumpIn`] and [`Mark::JumpOut`]; any other chart shows all kinds.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
@@ -169,7 +170,7 @@ pub struct ForceLoop<'a> {
     pub name: Option<Label>,
     /// True if the legend has the names of the marked points without their forces.
     pub without_forces: bool,
-    /// Ink of the loop; `None` for [`Ink::Loading`] and [`Ink::Unloading`].
+    /// Ink of the whole loop; `None` for [`Ink::Loading`] on loading and [`Ink::Unloading`] on unloading.
     pub ink: Option<Ink>,
     /// Stroke of loading and unloading; `None` for a dotted loading and an unloading with the stroke [`Self::unloading`].
     pub stroke: Option<Stroke>,
@@ -253,7 +254,8 @@ impl<'a> ForceLoop<'a> {
     }
 }
 
-/// Returns a chart of force loops. Later loops are drawn over earlier ones.
+/// Returns one chart of all `loops`, with axes for the quantities `units`. A loop that is later in the list is drawn over the
+/// earlier ones.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let lines = loops.iter().flat_map(|one| one.lines(units));
     let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
@@ -299,7 +301,7 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure::of_panels(scenes.iter().map(figure).collect())
 }
 
-/// Returns the marker with which charts show a marked point, such as ▼ for the pull-off.
+/// Returns the marker with which charts of force curves show a marked point, such as ▼ for the pull-off.
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,

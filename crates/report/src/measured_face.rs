@@ -81,7 +81,7 @@ impl SurfaceFile {
         path_name(&self.path) + &name
     }
 
-    /// Returns the facts in one line of text.
+    /// Returns these facts about the surface and its file in one line of text.
     pub fn describe(&self) -> String {
         let counts: Vec<String> = self.points.iter().map(|count| grouped(*count as u64)).collect();
         let lengths: Vec<String> = self.lengths.iter().map(|length| format_quantity(*length, "m")).collect();

@@ -111,8 +111,8 @@ impl Report for PreloadReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each unloading of a profile, or for each preload of the staircase if [`Self::curves`] is
-    /// true.
+    /// Returns a table with a row for each preload on each profile, or for each preload of the [`Self::staircase`] if
+    /// [`Self::curves`] is true.
     fn table(&self) -> Option<Table<'_>> {
         Some(match self.staircase.filter(|_| self.curves) {
             Some(staircase) => curve_table(self.results, staircase),
@@ -271,7 +271,8 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
 }
 
 /// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the computed preload nearest to
-/// `preload` in N; `None` for fewer than two profiles. If `forces` is given, it is the vertical axis.
+/// `preload` in N; `None` for fewer than two profiles. If `forces`, an axis of adhesion forces, is given, it is the
+/// vertical axis of the chart.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

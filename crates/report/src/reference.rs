@@ -85,8 +85,9 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. The words
-/// can have the ratio of profiles to three dimensions: of adhesion forces, or of indentations if `is_adhesive` is false.
+/// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. After
+/// the first results the words have the ratio of the result with profiles to the result in three dimensions. The result is the
+/// adhesion force, or the indentation if `is_adhesive` is false.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some(compared) = loops.headline() else {

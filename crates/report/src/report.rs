@@ -47,7 +47,7 @@ impl<T: Serialize> Json for T {
 
 /// A figure. If it has a single chart, it can also be written as a table of the points of the curves.
 impl Report for Figure {
-    /// Returns a table with a row for each point of each curve; `None` for a figure of several charts.
+    /// Returns a table with a row for each point of each curve of the chart; `None` for a figure of several charts.
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
@@ -117,7 +117,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats.
+    /// All formats, of which a given result may lack some.
     pub const ALL: [Format; 7] =
         [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
 
@@ -173,10 +173,10 @@ impl Format {
     }
 }
 
-/// Returns which of the `allowed` extensions a file has, as an index; `None` for a name without an extension.
+/// Returns the index in `allowed` of the extension of a file; `None` for a name without an extension.
 ///
 /// # Errors
-/// Returns an error if the extension is not allowed.
+/// Returns an error if the extension is not in `allowed`.
 pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
     let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
         return Ok(None);

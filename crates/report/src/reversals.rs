@@ -22,7 +22,7 @@ pub struct ReversalReport<'a> {
     pub title: &'a str,
     /// Scene whose body is loaded and unloaded.
     pub scene: &'a Scene,
-    /// Forces along the unloadings from each turning point.
+    /// Force F(d_r, d) along the unloading from each turning point d_r.
     pub map: &'a ReversalMap,
     /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
     /// bodies together.
@@ -79,7 +79,8 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// Returns a figure with a chart of the adhesion force over the preload, and a heat map of the Everett function.
+    /// Returns a figure with a heat map of the Everett function, and before it a chart of the adhesion force over the preload if
+    /// [`Self::staircase`] is given.
     fn figure(&self) -> Option<Figure> {
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),

@@ -14,7 +14,7 @@ use asperity_study::Ensemble;
 use asperity_study::trust::{Budget, criteria};
 use asperity_surface::lines::Line;
 
-/// Report on all results of one scene.
+/// Report on all results of one computed scene, such as its force curve and adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
     /// Title of the scene.

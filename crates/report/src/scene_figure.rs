@@ -66,7 +66,8 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic surface over the position.
+    /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic surface over the position
+    /// along the profile.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);

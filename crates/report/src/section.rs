@@ -13,7 +13,7 @@ pub struct SectionContact<'a> {
     pub gaps: &'a [f64],
     /// Height of the highest point of the profile, m.
     pub summit: f64,
-    /// Indentation, m.
+    /// Indentation at which the contact is shown, m.
     pub indentation: f64,
     /// Patches of springs in contact, from left to right.
     pub patches: &'a [Patch],
@@ -22,11 +22,11 @@ pub struct SectionContact<'a> {
 /// Range of springs that a chart shows, and the number of columns of equal width into which the chart divides this range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
-    /// Index of the first spring.
+    /// Index, from 0 along the profile, of the first spring of the range.
     pub first: usize,
-    /// Number of springs.
+    /// Number of springs in the range.
     pub springs: usize,
-    /// Number of columns.
+    /// Number of columns of the chart.
     pub columns: usize,
 }
 
@@ -44,7 +44,7 @@ pub struct LineColumns {
 /// Part of a profile and its contact, reduced to the lowest and highest heights in each column of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// Index of the first spring of the part.
+    /// Index, from 0 along the profile, of the first spring of the part.
     pub first: usize,
     /// Number of springs of the part.
     pub springs: usize,
@@ -56,7 +56,7 @@ pub struct Section {
     pub columns: Vec<Column>,
 }
 
-/// Heights of the springs in one column, m.
+/// Lowest and highest point of profile, elastic surface and contact in one column of a chart, m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Column {
     /// Heights of the lowest and the highest point of the rigid profile, m.
@@ -89,17 +89,17 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the part with these springs for a picture in a file.
+    /// Returns the part with `springs` springs from the index `first`, with as many columns as a picture in a file shows.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs.min(DRAWN) }
     }
 
-    /// Returns the part with these springs and a column for each spring, for a table.
+    /// Returns the part with `springs` springs from the index `first`, with a column for each spring, for a table.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs }
     }
 
-    /// Returns the indices of the springs that a column shows.
+    /// Returns the indices of the springs that the column with this number, from 0, shows.
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let start = |column: usize| {
             self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize

@@ -21,7 +21,7 @@ pub struct SensitivityReport<'a> {
     pub title: &'a str,
     /// Scene whose numbers are changed.
     pub scene: &'a Scene,
-    /// Changes of the results for each changed number.
+    /// Changes of the results, such as the adhesion force, for each changed number.
     pub sensitivity: &'a Sensitivity,
 }
 
@@ -216,7 +216,8 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// Returns a table of median results: a row for the unchanged scene, then a row for each change of each number.
+    /// Returns a table of the medians of the results: a row for the unchanged scene, then a row for each number and each change
+    /// by +10 % or −10 %.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();

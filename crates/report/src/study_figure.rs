@@ -29,7 +29,8 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
     (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
-/// Returns a figure with these charts of a parameter study. Lines below the title state the axes that do not vary in the charts.
+/// Returns a figure with these charts of a parameter study. Lines below the title give the values
+/// on those axes of the study that do not vary in the charts.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
@@ -88,8 +89,9 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the second axis. For a quantity
-/// over many decades a second chart follows, with a logarithmic vertical axis.
+/// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the second axis. If the
+/// vertical axis is linear and the largest mean is at least 10^1.5 times the smallest mean above zero, a second chart with a
+/// logarithmic vertical axis follows.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);

@@ -85,7 +85,7 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// Returns the analysis of the first body. The analysis of the opposite body is its entry `opposite`.
+    /// Returns the analysis of the first body as a JSON object. Its entry `opposite` is the analysis of the opposite body.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));

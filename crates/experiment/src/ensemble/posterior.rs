@@ -13,7 +13,7 @@ const EDGE: f64 = 0.1;
 /// Quantiles of the result and of its 95 % interval.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Estimate of a parameter with its 95 % interval, all in the SI unit of the parameter.
+/// Estimate of the work of adhesion in J/m² or of the effective modulus in Pa, with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct IntervalEstimate {
     /// Estimated value: the median of the probability distribution of the parameter.

@@ -5,13 +5,13 @@ use super::posterior::IntervalEstimate;
 /// Options of [`fit_ensemble`](crate::fit_ensemble), which compares measured curves with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnsembleOptions {
-    /// Number of random profiles with which the curves are compared, at least 16.
+    /// Number of random profiles whose computed curves are compared with the measured curves, at least 16.
     pub lines: u64,
-    /// True if the effective modulus is to be found; false if the scene gives it.
+    /// True if the effective modulus is to be found too; false if its value in the scene is used.
     pub is_modulus_free: bool,
-    /// Standard error of the rms height of the roughness divided by this height; `None` if it is not stated.
+    /// Standard error of the rms height of the scene divided by this height; `None` if it is not stated.
     pub height_error: Option<f64>,
-    /// Standard error of the Hurst exponent; `None` if it is not stated.
+    /// Standard error of the Hurst exponent of the scene; `None` if it is not stated.
     pub hurst_error: Option<f64>,
 }
 
@@ -32,10 +32,10 @@ pub struct EnsembleFit {
     pub correlation: f64,
     /// Sources of the uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// Precision of the work of adhesion with 16, 64 and 256 measured curves, for those of these numbers that exceed
-    /// the present number of curves.
+    /// Precision that the work of adhesion would have with 16, 64 and 256 measured curves. Only those of these numbers
+    /// are listed that exceed the present number of curves.
     pub prospects: Vec<Prospect>,
-    /// Effect of a wrong roughness on γ and E*; `None` for a measured roughness.
+    /// Effect of a wrong roughness of the scene on γ and E*; `None` if the scene has a measured roughness.
     pub roughness: Option<RoughnessShifts>,
     /// Sentence on the stiffness of the instrument if the scene and the files of the curves do not agree on it;
     /// otherwise `None`.
@@ -55,12 +55,13 @@ pub struct EnsembleFit {
     /// profiles; usually 0.8 to 1.2. If E* is free, the ratio is the root mean square Mahalanobis distance of (ln γ, ln
     /// E*), divided by √2. `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
-    /// True if random profiles describe the measured curves, so that none of [`Self::deviations`] is significant.
+    /// True if random profiles describe the measured curves: none of [`Self::deviations`] is significant.
     pub described: bool,
-    /// Differences between the measured curves and the random profiles, such as the difference of their pull-off
-    /// forces.
+    /// Difference between the measured curves and the random profiles for each summary, a number computed from a curve
+    /// such as its pull-off force.
     pub deviations: Vec<SummaryDeviation>,
-    /// True if the interval of γ or E* ends where the computed range of values ends. The true interval is then wider.
+    /// True if the interval of γ or E* ends where the values end for which curves were computed. The true interval is
+    /// then wider.
     pub at_end_of_table: bool,
 }
 
@@ -81,7 +82,7 @@ pub struct Shares {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Prospect {
-    /// Number of measured curves.
+    /// Assumed number of measured curves: 16, 64 or 256.
     pub curves: u64,
     /// Half the width of the 95 % interval of ln γ with this number of curves.
     pub half_width: f64,
@@ -108,9 +109,10 @@ pub struct RoughnessShifts {
 pub struct CurveOfEnsemble {
     /// Name of the curve, as it was given to [`fit_ensemble`](crate::fit_ensemble).
     pub name: String,
-    /// Largest force of the curve, N.
+    /// Preload of the curve, which is its largest force, N.
     pub preload: f64,
-    /// Largest tensile force of the curve, N; `None` if it is at most 5 times the noise.
+    /// Largest tensile force of the retraction as a positive number, N; `None` if it is at most 5 times the noise of
+    /// the force.
     pub pull_off_force: Option<f64>,
     /// Energy dissipated in the loop, J: area between approach and retraction over the displacement of the instrument.
     pub loop_area: f64,
@@ -119,10 +121,11 @@ pub struct CurveOfEnsemble {
     pub stiffness: f64,
     /// Work of adhesion found from this single curve, J/m².
     pub work: IntervalEstimate,
-    /// True if the interval of [`Self::work`] ends where the computed range of values ends. The true interval is then
-    /// wider.
+    /// True if the interval of [`Self::work`] ends where the values end for which curves were computed. The true
+    /// interval is then wider.
     pub at_end_of_table: bool,
-    /// True if this curve differs from the mean of the random profiles by more than 999 of 1000 random profiles do.
+    /// True if the values of γ and E* found from this curve are further from the mean of the random profiles than the
+    /// values found from 999 of 1000 random profiles (Mahalanobis distance).
     pub foreign: bool,
 }
 
@@ -138,6 +141,7 @@ pub struct SummaryDeviation {
     pub logarithm: f64,
     /// [`Self::logarithm`] divided by its standard error.
     pub deviation: f64,
-    /// True if the difference is significant. The level of 1 % holds for all summaries together, not for each of them.
+    /// True if the difference is significant. If random profiles describe the curves, the probability that at least one
+    /// of all summaries has a significant difference is 1 %.
     pub deviates: bool,
 }

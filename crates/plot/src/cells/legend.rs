@@ -29,7 +29,8 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Returns the legend of charts for a terminal. Each entry is a list of coloured texts, of which the last is the name.
+/// Returns the entries of the legend of these charts for a terminal. An entry is a list of coloured texts: samples of the lines,
+/// areas or markers of this name, and at the end the name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
     let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);

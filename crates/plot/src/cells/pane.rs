@@ -27,15 +27,15 @@ const WITH_CONTACT: u16 = 5;
 
 /// Chart in a pane, which is a part of the screen of the terminal. The names of the curves are written beside the curves.
 pub struct PaneChart {
-    /// Main chart.
+    /// Main chart, which has the largest part of the pane.
     pub chart: Chart,
-    /// Texts to write beside points of the chart, in addition to the names of the curves.
+    /// Texts to write beside points of the main chart, in addition to the names of the curves.
     pub names: Vec<Name>,
     /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
     /// Chart of a few rows below the main chart, with the same horizontal axis. A pane with fewer than 11 rows does not show it.
     pub below: Option<Chart>,
-    /// Row of characters directly below the plot that shows which springs are in contact.
+    /// Row of characters directly below the main chart that shows which springs are in contact.
     pub contact: ContactRow,
 }
 
@@ -45,7 +45,7 @@ pub struct PaneChart {
 pub struct ContactRow {
     /// For each spring, from left to right, true if the spring is in contact. Empty for no row.
     pub springs: Vec<bool>,
-    /// Part of the axis between two brackets, given by its ends from 0 (left) to 1 (right); `None` for no brackets.
+    /// Part of the horizontal axis between two brackets, given by its ends from 0 (left) to 1 (right); `None` for no brackets.
     pub marked: Option<(f64, f64)>,
 }
 
@@ -88,8 +88,8 @@ impl PaneChart {
         PaneChart { chart, names: Vec::new(), beside: None, below: None, contact: ContactRow::default() }
     }
 
-    /// Returns the place of the main chart in an area of the screen, and the area of the chart on the right. The area is `None`
-    /// if no chart is shown on the right.
+    /// Divides an area of the screen among the charts of the pane. Returns the place of the main chart [`Self::chart`], and the area
+    /// of the chart [`Self::beside`] on its right; `None` if this chart is missing or has no room.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() { split(area) } else { (area, None) };
         let left = Rect { height: left.height - self.rows_below(area), ..left };

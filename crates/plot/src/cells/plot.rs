@@ -37,7 +37,7 @@ pub struct Name {
 
 /// Area of the screen for one chart, divided into the plot and the numbers on the left and below.
 pub struct CellPlot {
-    /// Area of the plot without the scales.
+    /// Area of the screen in which the data of the chart are drawn, without the numbers along the axes.
     pub plot: Rect,
     left: u16,
     /// Number of rows between the plot and the numbers below it.
@@ -49,7 +49,7 @@ pub struct CellPlot {
 }
 
 impl CellPlot {
-    /// Divides an area of the screen between the plot and the scales of a chart. A small area has no scales.
+    /// Divides an area of the screen between the plot of a chart and the numbers along its axes. A small area has no numbers.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let line = area.height >= WITH_LINE_BELOW;
         CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
@@ -110,7 +110,7 @@ impl CellPlot {
         })
     }
 
-    /// Draws the plot and the scales of the chart into the cells of a buffer.
+    /// Draws the data of the chart and the numbers along its axes into the cells of a buffer.
     pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         if self.plot.is_empty() {
             return;

@@ -37,7 +37,7 @@ impl Colours {
     }
 }
 
-/// Returns the character of a marker.
+/// Returns the character with which a terminal shows a marker.
 pub fn glyph(sign: Sign) -> &'static str {
     match sign {
         Sign::Dot => "●",

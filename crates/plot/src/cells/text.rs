@@ -23,8 +23,8 @@ const WIDEST_CELL: usize = 5;
 const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
-/// Returns a figure as text for a terminal or a file, with its charts below each other. A line has at most `columns` characters;
-/// values of `columns` below 40 count as 40, and values above 160 as 160.
+/// Returns a figure as text for a terminal or a file, with its charts one below the other. A line has at most `columns`
+/// characters; values of `columns` below 40 count as 40, and values above 160 as 160.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
     let ink = |ink: Ink| match (ink, colours) {
