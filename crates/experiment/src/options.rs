@@ -112,7 +112,7 @@ pub struct CurveOptions {
             value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..))
     )]
     pub segments: Vec<usize>,
-    /// Reverse signs: none, displacement, force or both; default: automatic
+    /// Reverse none, displacement, force or both; default: automatic
     #[cfg_attr(feature = "clap", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
     pub negate: Option<Negate>,
     /// Measured force taken as zero: 2nN; default: mean before contact

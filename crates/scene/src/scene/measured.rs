@@ -34,7 +34,7 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long, default_value = "", hide_default_value = true, value_parser = unit_name))]
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// Unit of heights where a file states none, if it is not the unit of lengths
+    /// Unit of heights where a file states none, if not the unit of lengths
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "UNIT", default_value = "", hide_default_value = true, value_parser = unit_name)
@@ -57,7 +57,7 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub align_rows: bool,
-    /// Replace outliers, such as spikes, by heights interpolated from their neighbours
+    /// Replace outliers, such as spikes, by heights from their neighbours
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
@@ -86,7 +86,7 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long, value_enum, hide_possible_values = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub detrend: Option<Detrend>,
-    /// Treat the surface as periodic: no window reduces the heights at its ends
+    /// Treat the surface as periodic: no window acts on its ends
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub periodic: bool,
