@@ -14,7 +14,8 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// The exact solver: a rigid body with its present indentation and the [`Leg`] of its present motion.
+/// Rigid body that the exact solver moves. The body has its present indentation, and as a [`Leg`] the contact at all
+/// indentations of its present motion.
 ///
 /// ```
 /// use asperity_contact::motion::Body;

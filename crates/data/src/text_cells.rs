@@ -132,7 +132,8 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if the commas in the numbers read so far may be decimal marks as well as separators of thousands.
+    /// Returns an error if the numbers read so far leave open whether their commas are decimal marks or separate thousands, as
+    /// in `1,234`.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }

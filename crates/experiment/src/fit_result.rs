@@ -82,7 +82,8 @@ pub struct FitResult {
     pub assumptions: Vec<String>,
     /// Number of force curves that the fit computed.
     pub evaluations: usize,
-    /// Computed force at each point of the curve in N, with the fitted zero, drift and tilt. It can be compared with
+    /// Computed force in N at each point of the measured curve. The force includes the fitted force before contact and its
+    /// fitted linear changes with time (drift) and with displacement (tilt). It can be compared with
     /// [`MeasuredCurve::force`](crate::MeasuredCurve::force).
     #[serde(skip)]
     pub model: Vec<f64>,

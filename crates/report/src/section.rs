@@ -89,12 +89,14 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the part with `springs` springs from the index `first`, with as many columns as a picture in a file shows.
+    /// Returns the part that begins at the index `first` and has this number of springs, with as many columns as a picture in a
+    /// file shows.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs.min(DRAWN) }
     }
 
-    /// Returns the part with `springs` springs from the index `first`, with a column for each spring, for a table.
+    /// Returns the part that begins at the index `first` and has this number of springs, with one column of the chart for each
+    /// spring.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs }
     }

@@ -38,8 +38,8 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// Returns a heat map of the mean of a quantity over the random profiles, over both axes of `grid`; `None` if `grid` has one
-/// axis. Markers (in a terminal letters) show the regimes of adhesion. If `whole` is true, a cell that is not computed yet shows
+/// Returns a heat map with the two axes of `grid`. Its values are means of a quantity over the random profiles. `None` if
+/// `grid` has one axis. Markers (in a terminal letters) show the regimes of adhesion. If `whole` is true, a cell that is not computed yet shows
 /// the value of a computed cell nearby.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);

@@ -33,7 +33,7 @@ const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform whose time is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// State of a measurement, which the function `watch` receives while [`measure`] runs.
+/// Progress of [`measure`], which measures errors and computing times of a scene and passes this to its argument `watch`.
 pub enum Progress<'a> {
     /// Setting that is varied next, with its next value as text, such as `512 springs`.
     Trying(Knob, &'a str),

@@ -47,8 +47,8 @@ pub enum Step {
     Integer(u64, u64),
     /// A small step goes to the next power of two. A large step is as far as four small steps.
     Doubling,
-    /// Changes one number of a pair. A small step changes the last mode or the shortest wavelength, a large step the first
-    /// mode or the longest wavelength.
+    /// Changes one end of a range of waves, which is a pair of modes (waves per length) or of wavelengths. A small step changes
+    /// the second number of the pair, a large step the first.
     Band,
     /// Goes to the next allowed choice.
     Choice,

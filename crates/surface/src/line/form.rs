@@ -224,8 +224,9 @@ impl Form {
         }
     }
 
-    /// Returns an upper bound π A √(r/λ) in m of the depth that the waves of a [`Form::WavySphere`] add to its equivalent
-    /// profile at the distance r in m from the axis.
+    /// Returns an upper bound in m of the depth that the waves of a [`Form::WavySphere`] add to its equivalent profile at the
+    /// distance r in m from the axis. The bound is π A √(r/λ) with the amplitude A and the wavelength λ of the waves, and π A
+    /// for r < λ. It is 0 for all other forms.
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {
