@@ -226,7 +226,7 @@ class Computations(unittest.TestCase):
             import os, time, asperity as asp
             for work in [
                 lambda: asp.ensemble("{SCENE}", profiles=20_000),
-                lambda: asp.reference("rough-sphere", grid=128, maps=10_000),
+                lambda: asp.reference("rough-sphere", grid=128, maps=300),
                 lambda: asp.find("preload", "{SCENE}", "F_a/F_a,max = 20 %", profiles=100_000),
             ]:
                 print("begin", flush=True)
