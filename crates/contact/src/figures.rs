@@ -29,7 +29,7 @@ pub struct Figures {
     /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign. `None` if the smallest
     /// force is above zero, or if the unloading ends in contact while the force still falls.
     pub adhesion_force: Option<f64>,
-    /// Adhesion coefficient F_a/F_n; `None` if there is no adhesion force, or if the preload is not compressive.
+    /// Adhesion coefficient F_a/F_n. The value is `None` if no force pulls, or if the preload does not press.
     pub adhesion_coefficient: Option<f64>,
     /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is `None`. It has a larger
     /// relative error than the adhesion force.

@@ -1,4 +1,4 @@
-//! What the exact and the stepwise solver have in common: a body that moves from target to target, and its history.
+//! Interface of the exact and of the stepwise solver. A body moves from target to target and records its history.
 
 use super::error::ContactError;
 use super::history::{History, LegRecord, Work};

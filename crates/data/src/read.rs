@@ -1,7 +1,7 @@
 //! Reading of files that users name. Only regular files up to a largest size are read.
 //!
 //! To open a pipe would wait for its writer, to open a terminal for its user, and a device may never end. The size that the
-//! system states is no bound, because a file may grow while it is read. Some systems state zero for files with content.
+//! system states for a file may be zero or too small, so the bytes that are read are counted.
 
 use std::fs::{File, OpenOptions};
 use std::io;

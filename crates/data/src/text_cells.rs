@@ -61,7 +61,7 @@ pub enum TextCell {
     Missing,
     /// A number whose decimal mark differs from the numbers before it, such as `0,5` after `0.5`.
     OtherMark,
-    /// A text that is no number.
+    /// Text that cannot be read as a number.
     NoNumber,
 }
 

@@ -71,7 +71,7 @@ pub(crate) struct Choice {
     pub statements: Vec<String>,
 }
 
-/// What the file states besides its columns.
+/// Metadata that the file states in its header.
 #[derive(Clone, Copy)]
 pub(crate) struct Stated<'a> {
     pub metadata: &'a Metadata,
@@ -244,7 +244,7 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String)
     })
 }
 
-/// What the name of a column says.
+/// Quantity and unit that follow from the name of a column.
 #[derive(Clone, Debug)]
 struct Named {
     /// 0 approach, 1 retraction.

@@ -45,6 +45,7 @@ mod quantity;
 mod question;
 mod recorder;
 mod reference;
+mod reference_time;
 mod resolved;
 mod results;
 mod rough_contact;

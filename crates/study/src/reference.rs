@@ -7,11 +7,12 @@
 use super::error::StudyError;
 use super::profiles::{Stop, on_threads_received};
 use super::quantity::Quantity;
+use super::reference_time::{LEAST_CELLS, LONGEST, check_time, seconds_of_square};
 use super::resolved::{Resolved, of_scene};
-use super::spatial::{Body, Loads, Pressing, Pulling};
+use super::spatial::{Loads, Pressing, Pulling};
 use super::statistics::Statistics;
 use asperity_contact::{CurvePoint, Move};
-use asperity_data::{check_room, format_rounded, memory_size, on_threads};
+use asperity_data::{check_room, memory_size, on_threads};
 use asperity_scene::{CheckedScene, Outcome, Scene, Simulation};
 use serde::Serialize;
 use std::sync::mpsc::Sender;
@@ -21,15 +22,6 @@ use std::time::Instant;
 const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
 /// Number of steps of the indentation from the preload to pull-off.
 const STEPS: f64 = 40.0;
-/// Smallest number of cells along the side of a square, and of the coarser square that is compared with it.
-const LEAST_CELLS: usize = 32;
-/// Smallest time in s of a square from which the time of larger squares follows.
-const LEAST_TIMED: f64 = 0.2;
-/// Factor of the time of a square with twice the cells along its side, without and with adhesion.
-const GROWTH: [f64; 2] = [6.5, 8.5];
-/// Longest time of a comparison in s, which is a day.
-const LONGEST: f64 = 86_400.0;
-
 /// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells along the side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
@@ -224,7 +216,12 @@ impl Reference {
         let loads = (&forces[..], depth.abs() / STEPS);
         let of_one = seconds_of_square(&resolved.body, (options.cells, seed), loads, &|| stop())?;
         let seconds = of_one * options.maps.div_ceil(threads as u64) as f64;
-        check_time(&options, seconds, threads as f64 * LONGEST / of_one, resolved.body.works.is_some())?;
+        check_time(
+            (options.cells, options.maps),
+            seconds,
+            threads as f64 * LONGEST / of_one,
+            resolved.body.works.is_some(),
+        )?;
         let lines = on_threads(options.lines, jobs, || {
             let mut simulation = resolved.simulation();
             let (resolved, bare) = (&resolved, &bare);
@@ -330,47 +327,6 @@ impl Reference {
 
 fn run(scene: &CheckedScene, simulation: &mut Simulation, stop: &Stop<'_>) -> Result<Outcome, StudyError> {
     simulation.run(scene, &|| stop(), &mut |_, _, _| Ok(())).map_err(of_scene)
-}
-
-/// Estimates the time of a square in s from smaller squares, each with twice the cells of the one before.
-fn seconds_of_square(
-    body: &Body,
-    (cells, seed): (usize, u64),
-    loads: (&[f64], f64),
-    stop: &dyn Fn() -> bool,
-) -> Result<f64, StudyError> {
-    let growth = GROWTH[usize::from(body.works.is_some())];
-    let mut smaller = LEAST_CELLS;
-    loop {
-        let begun = Instant::now();
-        body.load((smaller, seed), loads, stop)?;
-        let seconds = begun.elapsed().as_secs_f64();
-        if 2 * smaller >= cells || seconds > LEAST_TIMED {
-            return Ok(seconds * growth.powi((cells / smaller).ilog2() as i32) * (1.0 + growth.recip()));
-        }
-        smaller *= 2;
-    }
-}
-
-/// Refuses a comparison that takes longer than a day, in which there is time for `most` squares.
-fn check_time(
-    options: &ReferenceOptions,
-    seconds: f64,
-    most: f64,
-    is_adhesive: bool,
-) -> Result<(), StudyError> {
-    if seconds <= LONGEST {
-        return Ok(());
-    }
-    let ReferenceOptions { cells, maps, .. } = options;
-    let halvings = (seconds / LONGEST).log(GROWTH[usize::from(is_adhesive)]).ceil();
-    let grid = (*cells >> (halvings as u32).min(usize::BITS - 1)).max(LEAST_CELLS);
-    let squares = if most >= 1.0 { format!(", or at most {} squares", most as u64) } else { String::new() };
-    let days = format_rounded(seconds / LONGEST, 2, "1");
-    let squares_found = if *maps == 1 { "square takes" } else { "squares take" };
-    let found = format!("{maps} {squares_found} about {days} days, longer than one day");
-    let allowed = format!("a grid of at most {grid} cells along the side{squares}");
-    Err(StudyError::refused(Some(&format!("{cells} cells")), found, allowed))
 }
 
 /// Returns the point of a loading without adhesion at a force in N, between the samples of its curve.
@@ -492,24 +448,6 @@ mod tests {
             // Three squares scatter more than twelve, but no number is another one by a factor of two.
             assert!((0.5..2.0).contains(&(found.ratio / ratio)), "{ratio}: {found:?}");
         }
-    }
-
-    #[test]
-    fn what_takes_longer_than_a_day_is_refused() {
-        let options = |cells, maps| ReferenceOptions { cells, maps, lines: 16 };
-        let refused =
-            |seconds, most| check_time(&options(1024, 24), seconds, most, false).unwrap_err().to_string();
-        assert!(check_time(&options(1024, 24), LONGEST, 24.0, false).is_ok());
-        assert_eq!(
-            refused(3.0 * LONGEST, 8.5),
-            "1024 cells: 24 squares take about 3 days, longer than one day; allowed: a grid of at most 512 cells \
-             along the side, or at most 8 squares"
-        );
-        assert!(
-            refused(50.0 * LONGEST, 0.4).ends_with("allowed: a grid of at most 128 cells along the side")
-        );
-        let never = check_time(&options(8192, 1), 1e300, 0.0, true).unwrap_err().to_string();
-        assert!(never.contains("at most 32 cells"), "{never}");
     }
 
     #[test]

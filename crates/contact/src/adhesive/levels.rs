@@ -5,7 +5,7 @@ use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Where the edges of a contact patch may lie: only in the middle between two springs, or anywhere between them.
+/// Rule for the edges of a contact patch. An edge lies either in the middle between two springs, or anywhere between them.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};

@@ -273,8 +273,8 @@ impl Leg {
         }
     }
 
-    /// Computes the state of one patch at an indentation in m. `number` counts the patches from the left, from 0. Returns
-    /// `None` if there is no patch with this number.
+    /// Computes the state of one patch at an indentation in m. `number` counts the patches from the left, from 0.
+    /// Returns `None` if the number is not below the number of patches.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         self.pinned_patches(indentation).get(number).map(|patch| self.state_of(patch, indentation))
     }
