@@ -3,7 +3,6 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
-use super::removed;
 use asperity_report::Format;
 use asperity_study::checks::{Case, Check, Verdict};
 use clap::Args;
@@ -32,9 +31,6 @@ impl CheckArguments {
         let has = |case: &Case, word: &String| case.name.contains(word.as_str());
         for word in &self.words {
             if !Case::all().iter().any(|case| has(case, word)) {
-                if let Some(why) = removed::instead_of_case(word) {
-                    return Err(CliError::message(why));
-                }
                 let allowed: Vec<&str> = Case::all().into_iter().map(|case| case.name).collect();
                 let none = format!("no case has this in its name; allowed: parts of {}", allowed.join(", "));
                 return Err(CliError::named(word, none));

@@ -1,7 +1,6 @@
 //! `asperity [SCENE]`: opens the explorer on a scene or on a finished study.
 
 use super::error::CliError;
-use super::removed;
 use super::scene::{Overrides, compute, open_scene};
 use crate::explorer::autosave;
 use crate::explorer::autosave::Kept;
@@ -159,9 +158,6 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
     let name = arguments.scene.as_deref().unwrap_or(default);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
-            if let Some(why) = removed::instead([name]) {
-                return CliError::message(why);
-            }
             if let Some(way) = no_scene(Path::new(name)) {
                 return CliError::message(way);
             }

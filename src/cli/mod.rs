@@ -20,7 +20,6 @@ mod plan;
 mod presets;
 mod progress;
 mod reference;
-mod removed;
 mod reversals;
 mod run;
 mod scene;
@@ -105,11 +104,6 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
     let refused = error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::UnknownArgument);
     let refused = refused.map(ToString::to_string);
-    // Also for the help of a removed command.
-    let candidates = words.first().map(AsRef::as_ref).into_iter().chain(refused.as_deref());
-    if let Some(message) = removed::instead(candidates) {
-        return clap::Error::raw(ErrorKind::InvalidSubcommand, message + "\n");
-    }
     let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
     let Some(first) = words.first() else { return error };
     // A second word without a dash, which the parser takes for a command.

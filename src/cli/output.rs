@@ -97,14 +97,6 @@ impl OutputArguments {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// Returns true if the file, the format or the look belongs to a picture.
-    pub(super) fn asks_for_picture(&self) -> bool {
-        let extensions: Vec<_> = PICTURES.iter().map(|format| format.extension()).collect();
-        let by_file =
-            self.file().is_some_and(|path| check_extension(path, &extensions).is_ok_and(|of| of.is_some()));
-        by_file || self.format.is_some_and(Format::is_picture) || self.look().is_some()
-    }
-
     /// The first given option for figures.
     fn look(&self) -> Option<&'static str> {
         let OutputArguments { width, height, only, no_title, parameters, .. } = self;

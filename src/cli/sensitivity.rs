@@ -3,7 +3,6 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
-use super::removed;
 use super::scene::{SceneArguments, threads};
 use asperity_report::{Format, SensitivityReport};
 use asperity_scene::Simulation;
@@ -32,11 +31,6 @@ pub struct SensitivityArguments {
 }
 
 pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    if arguments.output.asks_for_picture()
-        && let Some(why) = removed::instead([removed::FIGURE_OF_SENSITIVITY])
-    {
-        return Err(CliError::message(why));
-    }
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();

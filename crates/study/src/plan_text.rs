@@ -3,7 +3,7 @@
 use super::axis::{Axis, AxisText, Spacing};
 use super::error::StudyError;
 use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
-use super::quantity::{Quantity, renamed};
+use super::quantity::Quantity;
 use asperity_data::read_regular_text;
 use asperity_scene::library::{is_file_name, is_path};
 use asperity_scene::text::{
@@ -162,12 +162,7 @@ impl Plan {
         let read: PlanText = read_ron(text).map_err(|error| {
             let (offset, error) = explain(text, &error);
             let (line, column) = line_column(text, offset);
-            let word = text[offset..].split(|c: char| !c.is_alphanumeric() && c != '_').next();
-            let what = match word {
-                Some("lines") => "lines is now profiles".to_owned(),
-                word => word.and_then(renamed).unwrap_or_else(|| error.what()),
-            };
-            StudyError::Plan(vec![format!("{name}:{line}:{column}: {what}")])
+            StudyError::Plan(vec![format!("{name}:{line}:{column}: {}", error.what())])
         })?;
         if read.version != PLAN_VERSION {
             return Err(refused(format!(

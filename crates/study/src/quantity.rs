@@ -252,9 +252,6 @@ impl Quantity {
     /// ```
     pub fn named(text: &str) -> Result<Quantity, String> {
         let text = text.trim();
-        if let Some(refused) = renamed(text) {
-            return Err(refused);
-        }
         let name = text.to_lowercase().replace([' ', '-'], "_");
         let is_named = |one: &Quantity| one.symbol() == text || one.name() == name;
         let found: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_named).collect();
@@ -291,20 +288,6 @@ impl Quantity {
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
     }
-}
-
-/// Former names and symbols, each with the present one.
-const RENAMED: [(&str, &str); 4] = [
-    ("zero_load_adhesion_force", "first_touch_adhesion_force"),
-    ("zero_load_adhesion_share", "first_touch_adhesion_share"),
-    ("F_a(0)", "F_a(d=0)"),
-    ("F_a(0)/F_a,max", "F_a(d=0)/F_a,max"),
-];
-
-/// Returns the refusal of a former name or symbol, with the present one.
-pub(super) fn renamed(name: &str) -> Option<String> {
-    let (_, present) = RENAMED.iter().find(|(former, _)| *former == name)?;
-    Some(format!("{name} is now {present}"))
 }
 
 /// Returns the regime that a recorded value means; `None` for NaN.

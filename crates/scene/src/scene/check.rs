@@ -13,7 +13,6 @@ use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
-use super::read::reason_of_version;
 use super::text::index::is_within;
 use super::text::{ron_float, ron_string};
 use super::tree::{Tree, in_ron, written};
@@ -138,8 +137,7 @@ impl Found<'_> {
         };
         let wrong_texts: Vec<_> = texts.iter().filter_map(|text| wrong_text(field, text.as_str()?)).collect();
         for (value, allowed) in wrong.map(|value| (value, field.allowed())).into_iter().chain(wrong_texts) {
-            let reason = if field.path == "version" { reason_of_version(&value) } else { field.name };
-            self.refuse(field.path, value, &allowed, reason);
+            self.refuse(field.path, value, &allowed, field.name);
         }
     }
 

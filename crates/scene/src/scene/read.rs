@@ -18,14 +18,6 @@ const MOST_REPEATED: usize = 60;
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
-/// Returns the reason why a version is refused. The former version 2 had the fields of version 1.
-pub(super) fn reason_of_version(version: &str) -> &'static str {
-    match version {
-        "2" => "there is no version 2 any more: write version: 1, all other fields stay",
-        _ => "version",
-    }
-}
-
 /// Reads a scene without checking its values. `origin` gives the origin of an error at a byte of the text.
 pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
     read_ron(text).map_err(|error| {
@@ -46,7 +38,7 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
         return None;
     }
-    let error = SceneError::of(field.path, value, field.allowed(), reason_of_version(value));
+    let error = SceneError::of(field.path, value, field.allowed(), field.name);
     Some((text.nearest_value("version"), error))
 }
 

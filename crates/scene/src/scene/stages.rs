@@ -179,11 +179,6 @@ pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityErro
 }
 
 fn refused(text: &str) -> QuantityError {
-    if text.contains(" reversals to ") {
-        let why =
-            "a loading has no reversals any more: give each stage, or compute all with asperity reversals";
-        return QuantityError(format!("{:?}: {why}", shown(text)));
-    }
     let examples = "10 µN, 200 nm, displacement 200 nm, touch, zero force, separation, 3 loops 5 µN to 10 µN";
     let most = MOST_STAGES / 2;
     QuantityError(format!("{:?} is not a stage, such as {examples} (at most {most} loops)", shown(text)))
@@ -264,7 +259,6 @@ mod tests {
             ("10 kg", "\"10 kg\" is not a stage"),
             ("[ToForce(10 kg)]", "kg is not a unit of force: use N, mN, µN, nN"),
             ("0 loops 0 N to 1 N", "3 loops 5 µN to 10 µN (at most 50000 loops)"),
-            ("4 reversals to 1 N", "a loading has no reversals any more: give each stage"),
             ("50000 loops touch to 1 N", "too many stages; allowed: at most 100000"),
         ] {
             let refused = read_loading(text).unwrap_err().to_string();
