@@ -9,8 +9,14 @@ use std::sync::{Arc, OnceLock};
 /// Largest number of points of a profile.
 const MOST_POINTS: usize = 1 << 28;
 
-/// Equivalent one-dimensional profile of a rigid body: heights at equally spaced points. Heights are positive towards the
-/// half-space, so the highest point touches first.
+/// Equivalent line of a rigid body: heights at equally spaced points. Heights are positive towards the half-space, so the
+/// highest point touches first.
+///
+/// The equivalent line is not a cut through the body. A body of revolution with the depth f(r) has the equivalent line
+/// g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr, so a sphere of the radius R has x²/R, while a cut through it has x²/(2R). For a rough
+/// surface both lines have the same rms height, but the rms gradient of a cut is 29 % smaller. With a cut in place of the
+/// equivalent line the pull-off force of a sphere is twice too large. `asperity_surface` makes the equivalent line of forms and
+/// of measured surfaces.
 ///
 /// N points at a spacing Δx cover the length N Δx: half a spacing lies beyond the first and the last point. Clones of a
 /// profile share their memory.
@@ -45,7 +51,8 @@ pub struct Springs {
 }
 
 impl Profile {
-    /// Creates a profile from measured or computed heights in m at points with this spacing in m.
+    /// Creates a profile from the heights in m of an equivalent line, at points with this spacing in m. Heights that are
+    /// measured along a line are a cut, not an equivalent line: analyse them with `asperity_surface::Topography`.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height out of its range.
@@ -59,8 +66,9 @@ impl Profile {
         Ok(Profile { summit, ..Profile::from_gaps(heights, spacing)? })
     }
 
-    /// Creates a profile from gaps in m at points with this spacing in m. A gap is the depth of a point below the highest
-    /// point, so at least one gap is 0.
+    /// Creates a profile from the gaps in m of an equivalent line, at points with this spacing in m. A gap is the depth of a
+    /// point below the highest point, so at least one gap is 0. The gaps of a sphere of the radius R are x²/R, twice the depths
+    /// of its cut.
     ///
     /// ```
     /// use asperity_contact::Profile;

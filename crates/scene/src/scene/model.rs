@@ -136,7 +136,7 @@ pub enum Roughness {
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Roughness from a measured surface: random profiles with its spectrum, or the measured profile itself.
+    /// Roughness of a file: random profiles with the spectrum of a measured surface, or the profile of the file as equivalent line.
     Measured(Measured),
 }
 
@@ -230,7 +230,7 @@ impl Scene {
         if let Some(Roughness::Measured(measured)) = &self.roughness { Some(measured) } else { None }
     }
 
-    /// Returns true if the measured heights are used unchanged as the profile.
+    /// Returns true if the heights of the file are used unchanged, as an equivalent line.
     pub fn measured_as_line(&self) -> bool {
         self.measured().is_some_and(|measured| measured.as_line)
     }
