@@ -1,4 +1,4 @@
-"""Exceptions that carry the refused value."""
+"""Exceptions that carry the refused value, and the category of warnings."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class LoadingError(ValueError):
 
     def __init__(self, message: str, stage: int, smallest_force: float | None) -> None:
         super().__init__(message)
-        #: Number of the loading stage, from 1.
+        #: Number of the loading stage, counted from 0, as in `Loop.stage`.
         self.stage = stage
         #: Smallest force in N that the contact can reach; None if the stage is refused for another reason.
         self.smallest_force = smallest_force

@@ -22,7 +22,7 @@ class Loop:
     `pull_off_error` need the form and the roughness of the body. They are None for a profile that is given by its heights.
     """
 
-    #: Index of the loading stage of each point, from 0.
+    #: Number of the loading stage of each point, counted from 0, as in `LoadingError.stage` and in tables.
     stage: npt.NDArray[np.int64]
     #: Indentation d in m.
     d: npt.NDArray[np.float64]

@@ -5,10 +5,10 @@ use crate::failure::Failure;
 use crate::quantity::{Array, array};
 use crate::scene::Scene;
 use asperity::contact::{Figures, LegRecord, Mark};
+use asperity::scene::Outcome;
 use asperity::scene::instrument::displacements;
 use asperity::scene::loading::read_loading;
-use asperity::scene::{Outcome, Simulation};
-use asperity::{Contact, Edges, LoadOptions, Modulus};
+use asperity::{Contact, Edges, LoadOptions, Modulus, ProfileBuilder};
 use asperity_plot::Figure;
 use asperity_report::{ForceLoop, LoopUnits, loop_chart};
 use numpy::PyReadonlyArray1;
@@ -33,11 +33,22 @@ impl Profile {
     /// The profile of a scene.
     #[staticmethod]
     fn of_scene(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
-        let document = &scene.document;
         computed(py, None, |_| {
-            let profile = Simulation::new(document.resolve("")).for_one_scene().profile(document.scene())?;
+            let profile = scene.simulation().for_one_scene().profile(scene.document.scene())?;
             Ok(Profile { profile })
         })
+    }
+
+    /// The profile of the form of a scene with these heights in m as its roughness.
+    #[staticmethod]
+    fn of_roughness(scene: &Scene, heights: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+        let scene = scene.document.scene();
+        let mut builder = ProfileBuilder::new(scene.length, heights.len()?);
+        if let Some(form) = &scene.form {
+            builder = builder.form(form.clone());
+        }
+        let profile = builder.build_with(heights.as_slice()?.to_vec());
+        Ok(Profile { profile: profile.map_err(Failure::from)? })
     }
 
     /// Positions, heights and gaps of the points, m.
@@ -98,10 +109,9 @@ impl Loop {
     /// Loads the body of a scene.
     #[staticmethod]
     fn of_scene(py: Python<'_>, scene: &Scene, progress: Progress) -> PyResult<Loop> {
-        let document = scene.document.clone();
+        let mut simulation = scene.simulation().for_one_scene();
         computed(py, progress, |watch| {
-            let (scene, mut done) = (document.scene(), 0);
-            let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
+            let (scene, mut done) = (scene.document.scene(), 0);
             let outcome = simulation.run(scene, &|| watch.stop(), &mut |_, _, _| {
                 done += 1;
                 watch.report(done, scene.loading.len() as u64);
