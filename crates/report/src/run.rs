@@ -3,7 +3,8 @@
 use crate::ensemble::{caption, ensemble_value};
 use crate::loop_chart::{LoopUnits, force_figure};
 use crate::report::{Json, Report};
-use crate::summary::{summary, warning};
+use crate::summary::summary;
+use crate::warnings::warning_texts;
 use asperity_contact::{CurvePoint, Move};
 use asperity_data::{Table, TableOf, object};
 use asperity_plot::Figure;
@@ -82,7 +83,7 @@ impl Report for RunReport<'_> {
             "steep_waves"?: outcome.steep_waves,
             "criteria": criteria(scene, outcome, ensemble),
             "budget": Budget::of(outcome, estimate, ensemble, self.deviation),
-            "warnings"?: warning(scene, outcome).map(|warning| [warning]),
+            "warnings": warning_texts(&outcome.warnings),
             "curve": self.table(),
             "contacts": &history.contacts,
             "fragments": fragments,

@@ -6,17 +6,6 @@ use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::trust::{Budget, Criterion, criteria};
 
-/// Returns a warning if the Tabor number of a computed scene is below 1, where JKR theory does not apply; otherwise `None`.
-pub fn without_jkr(outcome: &Outcome) -> Option<String> {
-    let number = outcome.tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
-    let number = asperity_data::format_rounded(number, 2, "1");
-    Some(format!(
-        "JKR theory and the rule of Hess do not apply: the Tabor number {number} is below {}, so \
-         that the attraction reaches beyond the contact. DMT theory applies, by which a loop dissipates next to nothing.",
-        Criterion::LEAST_TABOR_NUMBER
-    ))
-}
-
 /// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their sources.
 pub(crate) fn trust(
     sheet: &mut Sheet,
