@@ -325,6 +325,7 @@ impl Body {
             smallest: self.point_of(smallest),
             separation,
             dissipated_energy: released[0] + released[1] + 0.0,
+            reaches_ends: loading.reaches_ends(high),
             forces,
         })
     }
@@ -385,6 +386,8 @@ pub struct Reversal {
     pub separation: f64,
     /// Energy in J dissipated on the way from separation to the turning point and back to separation.
     pub dissipated_energy: f64,
+    /// True if an outermost spring of the profile was in contact at any moment of the loading.
+    pub reaches_ends: bool,
     /// Forces in N on unloading, at the indentations that [`Contact::reversals`] was given. Indentations above the turning
     /// point are left out. At indentations below `separation` the force is 0.
     pub forces: Vec<f64>,

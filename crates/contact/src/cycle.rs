@@ -250,18 +250,34 @@ impl History {
     /// Returns the premises of the model that the loading of a profile does not meet: a contact that ends inside the profile of
     /// a curved body, an unloading to separation, and enough springs in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
-        let mut warnings = Vec::new();
-        if self.legs.iter().any(|stage| stage.reaches_ends) && profile.is_curved() {
-            warnings.push(Warning::ContactAtEnds { length: profile.length() });
-        }
-        warnings.extend(Branch::ends_in_contact(&self.legs));
+        let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
         let most_springs = self.legs.iter().map(LegRecord::most_springs).max().unwrap_or(0);
-        // A profile of few springs, all of which are in contact, is resolved as well as it can be.
-        if most_springs < profile.points() as u64 {
-            warnings.extend(Warning::of_springs_in_contact(most_springs));
-        }
+        let mut warnings = warnings_of_contact(profile, reaches_ends, most_springs);
+        warnings.extend(Branch::ends_in_contact(&self.legs));
         warnings
     }
+}
+
+impl Reversal {
+    /// Returns the premises of the model that the loading of a profile to the turning point does not meet: a contact that ends
+    /// inside the profile of a curved body, and enough springs in contact.
+    pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
+        warnings_of_contact(profile, self.reaches_ends, self.turn.springs)
+    }
+}
+
+/// Returns the premises that a contact does not meet. `reaches_ends` is true if an outermost spring was in contact, and
+/// `most_springs` is the largest number of springs in contact.
+fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if reaches_ends && profile.is_curved() {
+        warnings.push(Warning::ContactAtEnds { length: profile.length() });
+    }
+    // A profile of few springs, all of which are in contact, is resolved as well as it can be.
+    if most_springs < profile.points() as u64 {
+        warnings.extend(Warning::of_springs_in_contact(most_springs));
+    }
+    warnings
 }
 
 impl Cycle {

@@ -261,6 +261,29 @@ impl Warning {
     }
 }
 
+/// What follows from the warnings for stated errors.
+impl Warning {
+    /// Returns true if the results are not those of the stated body, so that no error of them is known.
+    pub fn leaves_errors_unknown(&self) -> bool {
+        matches!(self, Warning::ContactAtEnds { .. })
+    }
+
+    /// Returns true if forces may be wrong by more than the errors due to the number of springs, the sample of profiles and the
+    /// measured spectrum together.
+    pub fn exceeds_errors(&self) -> bool {
+        matches!(
+            self,
+            Warning::ContactAtEnds { .. }
+                | Warning::SteepRoughness { .. }
+                | Warning::LongRangedAttraction { .. }
+                | Warning::HeightsAsProfile
+                | Warning::CutLikeHeights { .. }
+                | Warning::SteepWaves { .. }
+                | Warning::FallingProfile { .. }
+        )
+    }
+}
+
 /// Words of the warnings.
 impl Warning {
     /// Returns the name of the premise: a key in `snake_case`, the same in every version, for counting and for tables.

@@ -3,7 +3,7 @@
 use crate::ensemble::{headline, rounded};
 use crate::sheet::Sheet;
 use crate::trust::trust;
-use crate::warnings::warnings_section;
+use crate::warnings::{counted_section, warnings_section};
 use asperity_contact::{Move, Work};
 use asperity_data::{format_quantity, grouped};
 use asperity_scene::discretisation::Choice;
@@ -30,7 +30,10 @@ pub(crate) fn summary(
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
-    warnings_section(&mut sheet, &outcome.warnings);
+    match ensemble {
+        Some(ensemble) => counted_section(&mut sheet, &ensemble.warnings(), ensemble.profiles()),
+        None => warnings_section(&mut sheet, &outcome.warnings),
+    }
     match ensemble {
         Some(ensemble) => headline(&mut sheet, ensemble),
         None if scene.seed().is_none() => sheet.heading(Ensemble::FIXED),

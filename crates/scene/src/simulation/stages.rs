@@ -300,9 +300,30 @@ impl Simulation {
 
         let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
         let contact = governing.contact(self.made()?)?.edges(edges).loading_stiffness(stiffness).build()?;
-        let measured = self.roughness.as_ref().and_then(|rough| rough.facts);
-        let warnings = scene.warnings_of(&governing, measured);
+        let warnings = self.warnings_before_loading(scene, &governing)?;
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings, warnings })
+    }
+
+    /// Returns the premises of the model that a scene does not meet before its loading: those of its fields, its measured surface
+    /// and its profile.
+    ///
+    /// # Errors
+    /// Returns the same errors as [`Self::make_line`].
+    pub fn warnings(&mut self, scene: &CheckedScene) -> Result<Vec<Warning>, RunError> {
+        let (.., governing) = self.line_of(scene)?;
+        Ok(self.warnings_before_loading(scene, &governing)?)
+    }
+
+    /// Returns the premises that a scene does not meet before its loading, once its profile is made.
+    fn warnings_before_loading(
+        &self,
+        scene: &Scene,
+        governing: &Governing,
+    ) -> Result<Vec<Warning>, ContactError> {
+        let measured = self.roughness.as_ref().and_then(|rough| rough.facts);
+        let mut warnings: Vec<Warning> = self.made()?.doubt().into_iter().collect();
+        warnings.extend(scene.warnings_of(governing, measured));
+        Ok(warnings)
     }
 
     /// Returns the contact of a scene before its loading, and the governing parameters.
@@ -372,7 +393,6 @@ impl Simulation {
             (random_phases, transforms, heights_binned);
 
         let mut warnings = history.warnings(contact.profile());
-        warnings.extend(contact.profile().doubt());
         warnings.extend(of_scene);
         let figures = Figures::of(&history);
         let [first_touch_adhesion_force, zero_force_adhesion_force] = without_preload;
