@@ -63,7 +63,8 @@ proptest! {
             let leg = solver.leg();
             let mut holds_end = false;
             for step in 0..=16 {
-                let at = record.start() + (record.end() - record.start()) * f64::from(step) / 16.0;
+                let between = record.start() + (record.end() - record.start()) * f64::from(step) / 16.0;
+                let at = if step == 16 { record.end() } else { between };
                 let patches = leg.patches(at);
                 let is_held = patches.iter().any(|patch| patch.first == 0 || patch.last == last);
                 prop_assert_eq!(leg.reaches_ends(at), is_held, "{}", at);
