@@ -73,7 +73,7 @@ pub use preloads::Staircase;
 pub use profiles::Stop;
 pub use quantity::Quantity;
 pub use question::{Answer, Question};
-pub use results::Results;
+pub use results::{CountedWarning, Results};
 pub use run::{StudyProgress, run_study};
 pub use sensitivity::{Changed, Influence, Sensitivity};
 pub use shard::Shard;
