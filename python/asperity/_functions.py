@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast
 
 from . import _native
-from ._errors import FieldError
+from ._errors import FieldError, warn_of
 from ._loop import Loop
 from ._native import Scene
 from ._notation import (
@@ -400,7 +400,9 @@ def load(
         stiffness = float("inf") if loading_stiffness is None else loading_stiffness
         foundation = (modulus, works, stiffness)
         load = (foundation, (stages, edges == "grid", samples))
-        return Loop(_native.Loop.of_heights(profile._native, load, progress))
+        loop = Loop(_native.Loop.of_heights(profile._native, load, progress))
+        warn_of(loop.warnings)
+        return loop
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
     fields = {
         "material": {"effective_modulus": modulus},
@@ -411,7 +413,9 @@ def load(
         "numerics.samples": samples,
     }
     body = profile._scene.set(in_fields(fields))
-    return Loop(_native.Loop.of_scene(body, progress), body)
+    loop = Loop(_native.Loop.of_scene(body, progress), body)
+    warn_of(loop.warnings)
+    return loop
 
 
 def run(
@@ -422,7 +426,12 @@ def run(
     `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number
     of finished profiles and the number of all profiles.
     """
-    call = _call(scene, fields, profiles, jobs, progress)
+    outcome = _outcome(_call(scene, fields, profiles, jobs, progress))
+    warn_of(outcome._premises())
+    return outcome
+
+
+def _outcome(call: tuple[Scene, int | None, int | None, Progress]) -> Outcome:
     loop = _native.Loop.of_scene(call[0], None)
     return Outcome(call[0], _native.run(call, loop), loop)
 
@@ -431,7 +440,9 @@ def ensemble(
     scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
 ) -> Ensemble:
     """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    return Ensemble(_native.ensemble(_call(scene, fields, profiles, jobs, progress)))
+    found = Ensemble(_native.ensemble(_call(scene, fields, profiles, jobs, progress)))
+    warn_of(found._premises())
+    return found
 
 
 def find(
@@ -454,7 +465,9 @@ def find(
     field = text(field, "field", "the path of a number of a scene, or preload")
     where = text(where, "where", "a condition such as 'F_a = 1 µN'")
     searched = None if range is None else ends(range, "range")
-    return Found(_native.find(_call(scene, fields, profiles, jobs, progress), field, where, searched))
+    found = Found(_native.find(_call(scene, fields, profiles, jobs, progress), field, where, searched))
+    warn_of(found._premises())
+    return found
 
 
 def preloads(
@@ -475,7 +488,9 @@ def preloads(
     """
     count = whole(count, "count", 2, 10_000)
     axis = f"{ends(between, 'between', _PRELOADS)}:{count}" + (":log" if flag(log, "log") else "")
-    return Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress, takes_heights=True), axis))
+    found = Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress, takes_heights=True), axis))
+    warn_of(found._premises())
+    return found
 
 
 def reversals(
@@ -493,7 +508,9 @@ def reversals(
     """
     forces = None if between is None else ends(between, "between", _PRELOADS)
     count = whole(count, "count", 2, 512)
-    return Reversals(_native.reversals(_call(scene, fields, None, None, progress, takes_heights=True), forces, count))
+    found = Reversals(_native.reversals(_call(scene, fields, None, None, progress, takes_heights=True), forces, count))
+    warn_of(found._premises())
+    return found
 
 
 def reference(
@@ -513,12 +530,14 @@ def reference(
     """
     cells = whole(grid, "grid", 1, 2**16)
     count = None if maps is None else whole(maps, "maps", 1, 10_000)
-    return Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
+    found = Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
+    warn_of(found._premises())
+    return found
 
 
 def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
     """Returns what other theories say of a scene, each with its number, its threshold and its reference."""
-    found: list[Values] = run(scene, profiles=1, **fields).criteria
+    found: list[Values] = _outcome(_call(scene, fields, 1, None, None)).criteria
     return found
 
 
@@ -591,20 +610,24 @@ def surface(
     if isinstance(files, (list, tuple)) and files and all(isinstance(file, (str, os.PathLike)) for file in files):
         distance = None if spacing is None else quantity(cast("Quantity", spacing), "m", "spacing")
         form = _measured([path(file, "files") for file in files], False, distance, reading)
-        return Surface(_native.Surface(_scene_of(form), figures, count, threads, None))
+        found = Surface(_native.Surface(_scene_of(form), figures, count, threads, None))
+        warn_of(found._premises())
+        return found
     for name in ("unit", "height_unit", "channel", "surface_name", "resample"):
         if reading.get(name):
             raise refusal(name, reading.get(name), "nothing for an array, which has heights in m at even distances")
     heights = numbers(cast("npt.ArrayLike", files), "heights", (1, 2), missing=True)
     if spacing is None:
         raise refusal("spacing", None, "the distance between the points of the array, m")
-    distances = (spacing, spacing)
+    distances = [spacing, spacing]
     if isinstance(spacing, (tuple, list)):
-        distances = _pair(spacing, "spacing", "a distance, or the distances along a row and between rows")
-    along, across = (quantity(distance, "m", "spacing") for distance in distances)
+        distances = list(_pair(spacing, "spacing", "a distance, or the distances along a row and between rows"))
+    along, across = (quantity(cast("Quantity", distance), "m", "spacing") for distance in distances)
     scene = _scene_of(_measured(["array"], False, None, reading))
     map_of_heights = (heights.reshape(-1, heights.shape[-1]), [along, across])
-    return Surface(_native.Surface(scene, figures, count, threads, map_of_heights))
+    found = Surface(_native.Surface(scene, figures, count, threads, map_of_heights))
+    warn_of(found._premises())
+    return found
 
 
 def _scene_of(roughness: Form) -> Scene:
@@ -654,7 +677,11 @@ def fit(
     report = _native.fit(call, (all_curves, is_single), [*words, "curves", "scene"])
     if count is not None:
         return EnsembleFit(report)
-    return Fit(report) if is_single else Fits(report)
+    if not is_single:
+        return Fits(report)
+    found = Fit(report)
+    warn_of(found._premises())
+    return found
 
 
 def _columns(curve: Any) -> tuple[Any, Any] | None:

@@ -56,12 +56,15 @@ class Loop:
     regime: str | None
     #: Pull-off force over the ideal adhesion force, F_a/F_a,max.
     share: float | None
+    #: Premises of the model that the loading does not meet, one sentence for each; empty if all hold.
+    warnings: list[str]
 
     def __init__(self, native: _native.Loop, scene: _native.Scene | None = None) -> None:
         self._native, self._scene = native, scene
         (self.stage, self.patches), columns = native.columns()
         self.d, self.F, self.D, self.length, self.energy, self.released = columns
         figures, self.regime, self.jumps = native.figures()
+        self.warnings = native.warnings()
         self.pull_off, self.pull_off_d, self.preload, self.dissipated, self.kappa, self.tabor, self.share = figures
 
     @cached_property

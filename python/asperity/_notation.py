@@ -162,7 +162,7 @@ def numbers(
     if array.dtype.kind not in "fiu":
         raise refusal(field, f"an array of the type {array.dtype}", allowed)
     if np.ma.is_masked(array):
-        count = int(np.ma.count_masked(array))
+        count = int(np.ma.getmaskarray(array).sum())
         if not missing:
             raise refusal(field, f"an array with {count} masked points", allowed)
         array = np.ma.filled(array.astype(np.float64), np.nan)

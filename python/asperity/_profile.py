@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from . import _native
-from ._notation import Quantity, numbers, quantity
+from ._notation import Quantity, numbers, quantity, refusal
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,6 +22,9 @@ class Profile:
     use `asperity.surface(heights, spacing=...).profile(...)`; for a sphere, a cone or a table of a body of revolution use
     `asperity.profile(length, form=...)`.
 
+    `nominal_form` is "flat" or "curved": it states that the heights are those of an equivalent line, of a nominally flat body or
+    of a body such as a sphere, whose contact must end inside the profile. Without it, a loop has a warning.
+
     The function `asperity.profile` makes a profile of a form and a roughness. Only a loop of such a profile has a regime and a
     Tabor number.
     """
@@ -31,9 +34,12 @@ class Profile:
     #: Length of the profile in m.
     length: float
 
-    def __init__(self, heights: npt.ArrayLike, spacing: Quantity) -> None:
+    def __init__(self, heights: npt.ArrayLike, spacing: Quantity, *, nominal_form: str | None = None) -> None:
         distance = quantity(spacing, "m", "spacing")
-        self._take(_native.Profile(numbers(heights, "heights"), distance), None)
+        if nominal_form is not None and nominal_form not in ("flat", "curved"):
+            raise refusal("nominal_form", nominal_form, "flat, curved or None")
+        is_curved = None if nominal_form is None else nominal_form == "curved"
+        self._take(_native.Profile(numbers(heights, "heights"), distance, is_curved), None)
 
     @classmethod
     def _of(cls, native: _native.Profile, scene: _native.Scene | None) -> Profile:

@@ -30,6 +30,19 @@ class Values(dict[str, Any]):
         raise AttributeError(f"no {name!r}; allowed: {', '.join(dict.keys(self))}")
 
 
+def _sentences(warnings: Any, profiles: Any) -> list[str]:
+    """Returns the entry `warnings` of a JSON object as sentences. In an ensemble each one has the number of its profiles."""
+    sentences = []
+    for warning in warnings or []:
+        if not isinstance(warning, Values):
+            sentences.append(str(warning))
+        elif warning.profiles == profiles:
+            sentences.append(warning.text)
+        else:
+            sentences.append(f"On {warning.profiles} of {profiles} profiles: {warning.text}")
+    return sentences
+
+
 class Result:
     """A result of the program. Its attributes are the keys of the JSON object that the command of the same name prints.
 
@@ -48,6 +61,17 @@ class Result:
         if self._values is None:
             self._values = json.loads(self._report.write("json"), object_hook=Values)
         return self._values
+
+    def _premises(self) -> list[str]:
+        """Returns the premises of the model that the result does not meet, one sentence for each."""
+        values = self.to_dict()
+        sentences = _sentences(values.get("warnings"), values.get("profiles"))
+        ensemble = values.get("ensemble")
+        if isinstance(ensemble, Values):
+            counted = _sentences(ensemble.get("warnings"), ensemble.get("profiles"))
+            known = " ".join(sentences)
+            sentences += [sentence for sentence in counted if sentence not in known]
+        return sentences
 
     def __getattr__(self, name: str) -> Any:
         # Asked for by tools that look for methods of their own.

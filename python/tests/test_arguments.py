@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -67,7 +68,9 @@ class EquivalentLines(InFolder):
             for preload, force in zip(found.preload, found.adhesion_force, strict=True):
                 loop = asp.load(heights, stages=[preload, "separation"], **contact)
                 self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
-        self.assertEqual(len(asp.reversals(heights, (0, "1 nN"), count=4, **contact).to_pandas()), 4)
+        last = asp.reversals(heights, (0, "1 nN"), count=4, **contact).to_pandas().iloc[-1]
+        loop = asp.load(heights, stages=[f"{last.turning_indentation} m", "separation"], **contact)
+        self.assertAlmostEqual(last.adhesion_force / loop.pull_off, 1, delta=1e-9)
         self.refused(asp.preloads, asp.Profile([0.0], 1e-6), (0, "1 µN"), field="heights", **contact)
         for function in [asp.run, asp.ensemble, asp.criteria, asp.reference]:
             self.refused(function, heights, field="scene", says="form and roughness are not known", **contact)
@@ -312,6 +315,58 @@ class Texts(InFolder):
                 message = str(self.refused(function, *arguments, **named))
                 self.assertNotRegex(message, "[\x1b\u202e]")
                 self.assertLess(len(message), 1200, message[:200])
+
+
+class Premises(InFolder):
+    def warned(self, function, /, *arguments, **named):
+        """Returns the result of a function, and its warnings, which point at this file."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            found = function(*arguments, **named)
+        self.assertTrue(all(one.category is asp.PremiseWarning and one.filename == __file__ for one in caught))
+        return found, [str(one.message) for one in caught]
+
+    def test_a_contact_at_the_ends_of_the_profile_is_a_warning(self):
+        contact = {"modulus": "1 MPa", "work": "50 mJ/m²", "stages": "100 µN, separation"}
+        for length, is_short in [("20 µm", True), ("30 µm", True), ("100 µm", False)]:
+            body = asp.profile(length, 2048, form=asp.sphere(RADIUS))
+            heights = asp.Profile(body.heights, body.spacing, nominal_form="curved")
+            for given in [body, heights]:
+                loop, said = self.warned(asp.load, given, **contact)
+                self.assertEqual(said, loop.warnings)
+                self.assertEqual([text.startswith("The contact reaches an end") for text in said], [True] if is_short else [])
+            outcome, said = self.warned(asp.run, body, profiles=1, **contact)
+            self.assertEqual((said, outcome.warnings), (loop.warnings, loop.warnings))
+            self.assertEqual(self.warned(asp.criteria, body, **contact)[1], [])
+
+    def test_heights_of_which_nothing_is_stated_are_a_warning(self):
+        x = (np.arange(1024) - 512) * 1e-7
+        contact = {"modulus": MODULUS, "work": WORK, "stages": "5 µN, separation"}
+        for heights, form, word in [
+            (-(x**2) / 2e-4, None, "R = 100 µm"),
+            (-(x**2) / 2e-4, "curved", None),
+            (1e-9 * np.random.default_rng(1).standard_normal(1024), None, "29 %"),
+            (1e-9 * np.random.default_rng(1).standard_normal(1024), "flat", None),
+            (np.zeros(16), None, None),
+        ]:
+            said = self.warned(asp.load, asp.Profile(heights, 1e-7, nominal_form=form), **contact)[1]
+            self.assertEqual([word in text for text in said], [True] if word else [], said)
+        self.refused(asp.Profile, [0, 1], 1, nominal_form="round", field="nominal_form")
+
+    def test_premises_of_random_profiles_have_their_number(self):
+        steep = {"roughness__rms_height": "20 µm", "adhesion": None}
+        found, said = self.warned(asp.ensemble, "pressure-sensitive", profiles=3, **steep)
+        self.assertTrue(any("The rms gradient" in text for text in said), said)
+        self.assertEqual(len(found.warnings), len(said))
+        self.assertEqual({warning.profiles for warning in found.warnings}, {3})
+        outcome, said = self.warned(asp.run, "pressure-sensitive", profiles=3, **steep)
+        self.assertEqual(said[: len(outcome.warnings)], outcome.warnings)
+        self.assertEqual(len(said), len(set(said)))
+
+    def test_doubts_about_a_surface_are_warnings(self):
+        surface, said = self.warned(asp.surface, 1e-3 * rough_map(), spacing=1e-15)
+        self.assertEqual(said, surface.warnings)
+        self.assertTrue(any("rms gradient" in text for text in said), said)
 
 
 class Words(InFolder):
