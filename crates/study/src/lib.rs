@@ -19,13 +19,17 @@
 
 mod axis;
 mod boundary;
+mod bracket;
 mod budget;
 mod case_outcome;
 mod cells;
 mod check;
 mod compute;
+mod coordinates;
 mod criteria;
 mod criterion;
+#[cfg(test)]
+mod dense_scans;
 mod ensemble;
 mod error;
 mod find;
@@ -50,11 +54,14 @@ mod resolved;
 mod results;
 mod rough_contact;
 mod run;
+mod scan;
+mod search;
 mod select;
 mod sensitivity;
 mod shard;
 mod spatial;
 mod square_loops;
+mod stairs;
 mod statistics;
 mod status;
 mod store;
