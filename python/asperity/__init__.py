@@ -10,7 +10,7 @@ A quantity is a number in SI units, or a text with a unit such as "50 mJ/m²". C
 indentation is 0 at first touch. Long calls release the global lock of Python (GIL), and Ctrl-C stops them.
 """
 
-from ._errors import FieldError, LoadingError
+from ._errors import FieldError, LoadingError, PremiseWarning
 from ._functions import (
     cone,
     criteria,
@@ -70,6 +70,7 @@ __all__ = [
     "Loop",
     "Outcome",
     "Preloads",
+    "PremiseWarning",
     "Profile",
     "Reference",
     "Result",

@@ -1,6 +1,9 @@
-"""Exceptions that carry the refused value."""
+"""Exceptions that carry the refused value, and warnings about premises of the model."""
 
 from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable
 
 
 class FieldError(ValueError):
@@ -21,10 +24,20 @@ class LoadingError(ValueError):
 
     def __init__(self, message: str, stage: int, smallest_force: float | None) -> None:
         super().__init__(message)
-        #: Number of the loading stage, from 1.
+        #: Number of the loading stage, counted from 0, as in `Loop.stage`.
         self.stage = stage
         #: Smallest force in N that the contact can reach; None if the stage is refused for another reason.
         self.smallest_force = smallest_force
 
 
-FieldError.__module__ = LoadingError.__module__ = "asperity"
+class PremiseWarning(UserWarning):
+    """Warning of a result that does not meet a premise of the model, such as a contact that reaches the ends of the profile."""
+
+
+def warn_of(sentences: Iterable[str]) -> None:
+    """Issues a PremiseWarning for each sentence, at the line that has called a function of the package."""
+    for sentence in sentences:
+        warnings.warn(sentence, PremiseWarning, stacklevel=3)
+
+
+FieldError.__module__ = LoadingError.__module__ = PremiseWarning.__module__ = "asperity"

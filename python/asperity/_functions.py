@@ -5,12 +5,30 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast
 
 from . import _native
+from ._errors import FieldError, warn_of
 from ._loop import Loop
 from ._native import Scene
-from ._notation import Form, Quantity, in_fields, in_scene, in_words, numbers, quantity, refusal, whole
+from ._notation import (
+    Form,
+    Quantity,
+    Text,
+    ends,
+    field_number,
+    flag,
+    in_fields,
+    in_scene,
+    in_words,
+    numbers,
+    path,
+    quantity,
+    refusal,
+    refused_type,
+    text,
+    whole,
+)
 from ._profile import Profile
 from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
 
@@ -20,58 +38,156 @@ AnyPath: TypeAlias = str | os.PathLike[str]
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    _Curve: TypeAlias = AnyPath | tuple[npt.ArrayLike, npt.ArrayLike]
+    _Curve: TypeAlias = AnyPath | npt.ArrayLike
 
 #: Function that is called with the numbers of finished parts and of all parts. An exception in it stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
-#: Name of a built-in scene, path of a scene file, text of a scene, a Scene, or a Profile that was made of a form and a roughness.
+#: Name of a built-in scene, path of a scene file, text of a scene, a Scene, or a Profile with a modulus.
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 
-#: Scene of a flat smooth body, in which form and roughness are replaced.
+#: Scene of a flat smooth body, in which form, roughness and modulus are replaced.
 _PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"
 _EDGES = {"sub_cell": "SubCell", "grid": "Grid"}
+_DETRENDS = {"none": "Nothing", "nothing": "Nothing", "mean": "Mean", "tilt": "Tilt", "curvature": "Curvature"}
+_FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "Punch", "Table")
+_ROUGHNESS = ("SelfAffine", "Measured")
+#: Arguments of all functions of scenes that are those of `load`.
+_CONTACT = ("modulus", "work", "closing_work", "stages")
+_PRELOADS = "the smallest and the largest force in N; count gives their number, and log=True equal ratios"
+
+
+class Reading(TypedDict, total=False):
+    """Options of reading and analysing a measured surface; `docs/surfaces.md` explains them."""
+
+    #: Unit of the lengths if the file states none, such as "um".
+    unit: str | None
+    #: Unit of the heights if the file states none, and if it is not the unit of the lengths.
+    height_unit: str | None
+    #: True if missing points get heights from their neighbours.
+    interpolate: bool
+    #: True if a profile with uneven distances between points is resampled.
+    resample: bool
+    #: True if the median of each row of a map is subtracted.
+    align_rows: bool
+    #: True if outliers get heights from their neighbours.
+    robust: bool
+    #: Number of the channel of the file, from 0, or name of the surface in a container.
+    channel: int | str | None
+    #: Name of the surface in a container.
+    surface_name: str | None
+    #: Number of the row of a map that is used alone, from 1.
+    row: int | None
+    #: Number of the column of a map that is used alone, from 1.
+    column: int | None
+    #: What is subtracted from the heights: "none", "mean", "tilt" or "curvature".
+    detrend: str | None
+    #: True if the surface repeats itself at its borders.
+    periodic: bool
+    #: Wavelength in m down to which the spectrum continues as a power law.
+    continue_to: Quantity | None
+    #: File of the surface of the opposite body, whose spectrum is added.
+    opposite: AnyPath | None
 
 
 def scene(scene: AnyScene, /, **fields: Any) -> Scene:
-    """Opens a built-in scene, a scene file or the text of a scene, and changes fields of it.
+    """Opens a built-in scene, a scene file, the text of a scene or a profile, and changes fields of it.
 
-    Each further argument changes a field, with two underscores for each point of its path: `adhesion__work="50 mJ/m²"` changes
-    `adhesion.work`. The value None removes an optional part. `docs/scene-file.md` lists the fields.
+    `modulus`, `work`, `closing_work` and `stages` are those of `load`; a profile needs a modulus. Each further argument changes
+    a field, with two underscores for each point of its path: `adhesion__work="50 mJ/m²"` changes `adhesion.work`. The value None
+    removes an optional part. `docs/scene-file.md` lists the fields. All functions that take a scene take these arguments.
     """
-    if isinstance(scene, Profile):
-        if scene.scene is None:
-            saved = "numpy.save('line.npy', numpy.c_[profile.x, profile.heights]) and asperity.measured('line.npy', as_line=True)"
-            raise ValueError(f"a profile of heights is no scene; allowed: a profile with the roughness of a file, {saved}")
-        scene = scene.scene
-    if not isinstance(scene, Scene):
-        text = os.fspath(scene)
-        scene = Scene.parse(text) if text.lstrip().startswith("(") else Scene.open(text)
-    return scene.set(in_fields(fields)) if fields else scene
+    return _opened(scene, fields)
+
+
+def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = False) -> Scene:
+    """Opens a scene and changes its fields. `takes_heights` is true where a profile of given heights is allowed."""
+    contact = {name: fields[name] for name in _CONTACT if fields.get(name) is not None}
+    others = {name: value for name, value in fields.items() if name not in _CONTACT}
+    for name, group in [("modulus", "material"), ("work", "adhesion"), ("closing_work", "adhesion"), ("stages", "loading")]:
+        twice = [other for other in others if other.replace("__", ".").split(".")[0] == group and other != "adhesion__range"]
+        if name in contact and twice:
+            raise refusal(name, contact[name], f"either {name} or {twice[0]}, not both")
+    if isinstance(given, Profile):
+        has_modulus = "modulus" in contact or any(name.startswith("material") for name in others)
+        opened = _scene_of_profile(given, has_modulus, takes_heights)
+    elif isinstance(given, Scene):
+        opened = given
+    elif isinstance(given, (str, os.PathLike)):
+        name = path(given, "scene")
+        opened = Scene.parse(name) if name.lstrip().startswith("(") else Scene.open(name)
+    else:
+        allowed = "the name of a built-in scene, a scene file, the text of a scene, a Scene or a Profile"
+        raise refused_type("scene", given, allowed)
+    changes = []
+    if "modulus" in contact:
+        modulus = quantity(contact["modulus"], "Pa", "modulus")
+        changes += in_fields({"material": {"effective_modulus": modulus}})
+    if "stages" in contact:
+        changes.append(("loading", _stages(contact["stages"])))
+    changes += in_fields(others)
+    closing = contact.get("closing_work")
+    closing = None if closing is None else quantity(closing, "J/m²", "closing_work")
+    if "work" in contact:
+        opened = opened.with_works(quantity(contact["work"], "J/m²", "work"), closing)
+    elif closing is not None:
+        changes += in_fields({"adhesion.closing_work": closing})
+    return opened.set(changes) if changes else opened
+
+
+def _scene_of_profile(profile: Profile, has_modulus: bool, takes_heights: bool) -> Scene:
+    if not has_modulus:
+        raise refusal("modulus", None, "an effective modulus such as '1 MPa', since a profile has none")
+    if profile._scene is not None:
+        return profile._scene
+    if takes_heights:
+        return Scene.of_profile(profile._native, 1e6)
+    allowed = (
+        "asperity.load, asperity.preloads and asperity.reversals; for other functions a profile of a form and a roughness, or "
+        "numpy.save('line.npy', numpy.c_[profile.x, profile.heights]) and asperity.measured('line.npy', as_line=True)"
+    )
+    raise refusal("scene", "a profile of given heights, whose form and roughness are not known", allowed)
+
+
+def _stages(stages: Any) -> str:
+    if isinstance(stages, str):
+        return stages
+    if isinstance(stages, Sequence) and not isinstance(stages, (bytes, bytearray)):
+        return ", ".join(in_scene(stage, "stages") for stage in stages)
+    return in_scene(quantity(stages, "N", "stages"), "stages")
 
 
 def sphere(radius: Quantity) -> Form:
     """Returns a sphere of this radius in m. It is a paraboloid, as in the theories of Hertz and JKR."""
-    return Form("Paraboloid", radius=radius)
+    return Form("Paraboloid", radius=field_number(radius, "form.radius", "Paraboloid", "radius"))
 
 
 def cone(angle: Quantity) -> Form:
     """Returns a cone. `angle` is the angle between its flank and the surface in rad."""
-    return Form("Cone", angle=angle)
+    return Form("Cone", angle=field_number(angle, "form.angle", "Cone", "angle"))
 
 
 def power(coefficient: Quantity, exponent: Quantity) -> Form:
     """Returns a body of revolution with the depth b rⁿ at the radius r. `coefficient` is b in m^(1−n), `exponent` is n."""
-    return Form("Power", coefficient=coefficient, exponent=exponent)
+    return Form(
+        "Power",
+        coefficient=field_number(coefficient, "form.coefficient", "Power", "coefficient"),
+        exponent=field_number(exponent, "form.exponent", "Power", "exponent"),
+    )
 
 
 def punch(radius: Quantity) -> Form:
     """Returns a flat punch of this radius in m."""
-    return Form("Punch", radius=radius)
+    return Form("Punch", radius=field_number(radius, "form.radius", "Punch", "radius"))
 
 
 def wavy_sphere(radius: Quantity, amplitude: Quantity, wavelength: Quantity) -> Form:
     """Returns a sphere with concentric waves. Radius, amplitude and wavelength are in m."""
-    return Form("WavySphere", radius=radius, amplitude=amplitude, wavelength=wavelength)
+    return Form(
+        "WavySphere",
+        radius=field_number(radius, "form.radius", "WavySphere", "radius"),
+        amplitude=field_number(amplitude, "form.amplitude", "WavySphere", "amplitude"),
+        wavelength=field_number(wavelength, "form.wavelength", "WavySphere", "wavelength"),
+    )
 
 
 def table(file: str | os.PathLike[str], unit: str | None = None) -> Form:
@@ -80,8 +196,8 @@ def table(file: str | os.PathLike[str], unit: str | None = None) -> Form:
     `numpy.save("tip.npy", numpy.c_[radii, depths])` writes such a file of two arrays.
     """
     if not isinstance(file, (str, os.PathLike)):
-        raise refusal("file", f"an object of the type {type(file).__name__}", "a path, numpy.save('tip.npy', numpy.c_[radii, depths])")
-    return Form("Table", file=Path(file).absolute(), unit=unit)
+        raise refused_type("file", file, "a path, numpy.save('tip.npy', numpy.c_[radii, depths])")
+    return _checked("form", Form("Table", file=Path(path(file, "file")).absolute(), unit=_unit(unit, "unit")))
 
 
 def self_affine(
@@ -99,42 +215,150 @@ def self_affine(
     number of waves per length, or by `wavelengths`, the longest and the shortest one in m. Above the wavelength `roll_off` in m
     the spectrum of the surface is flat.
     """
+
+    def number(value: Quantity | None, name: str) -> float | None:
+        return None if value is None else field_number(value, f"roughness.{name}", "SelfAffine", name)
+
+    first_and_last = None
+    if modes is not None:
+        first, last = _pair(modes, "modes", "the first and the last number of waves per length")
+        first_and_last = (whole(first, "modes", 1, 2**27), whole(last, "modes", 1, 2**27))
+    longest_and_shortest = None
+    if wavelengths is not None:
+        longest, shortest = _pair(wavelengths, "wavelengths", "the longest and the shortest wavelength")
+        longest_and_shortest = (number(longest, "wavelengths"), number(shortest, "wavelengths"))
     return Form(
         "SelfAffine",
-        hurst=hurst,
-        rms_height=rms_height,
-        rms_gradient=rms_gradient,
-        modes=modes,
-        wavelengths=wavelengths,
-        roll_off=roll_off,
+        hurst=field_number(hurst, "roughness.hurst", "SelfAffine", "hurst"),
+        rms_height=number(rms_height, "rms_height"),
+        rms_gradient=number(rms_gradient, "rms_gradient"),
+        modes=first_and_last,
+        wavelengths=longest_and_shortest,
+        roll_off=number(roll_off, "roll_off"),
     )
 
 
-def measured(file: AnyPath, **options: Any) -> Form:
-    """Returns the roughness of a measured surface in a file. Options are the fields `roughness.*` of `docs/surfaces.md`.
+def measured(
+    file: AnyPath,
+    *,
+    further_files: Sequence[AnyPath] = (),
+    as_line: bool = False,
+    spacing: Quantity | None = None,
+    **reading: Unpack[Reading],
+) -> Form:
+    """Returns the roughness of a measured surface in a file. `further_files` are further measurements of the same surface.
 
-    Profiles are random and have the measured spectrum. With `as_line=True` the profile is the measured one.
+    Profiles are random and have the spectrum of the surface. `spacing` is the distance between points in m if the file states
+    none. The options `reading` are those of `docs/surfaces.md`, such as `unit="um"` and `detrend="tilt"`.
+
+    With `as_line=True` the heights of the file are used unchanged. They must be those of an equivalent line, which
+    `asperity.Profile` explains. A measured profile is a cut through the surface and no equivalent line.
     """
-    return Form("Measured", file=Path(file).absolute(), **options)
+    names = [str(Path(path(name, "file")).absolute()) for name in (file, *further_files)]
+    return _measured(names, as_line, spacing, reading)
+
+
+def _measured(files: Sequence[str], as_line: bool, spacing: Quantity | None, reading: Mapping[str, Any]) -> Form:
+    unknown = [name for name in reading if name not in Reading.__annotations__]
+    if unknown:
+        raise refusal(unknown[0], reading[unknown[0]], f"one of the arguments spacing, {', '.join(Reading.__annotations__)}")
+    given = {name: value for name, value in reading.items() if value is not None}
+    values: dict[str, Any] = {"file": Text(files[0]), "further_files": [Text(file) for file in files[1:]] or None}
+    switches = {"as_line": as_line}
+    for name in ("interpolate", "resample", "align_rows", "robust", "periodic"):
+        switches[name] = given.get(name, False)
+    values.update({name: flag(value, name) or None for name, value in switches.items()})
+    for name, length in [("spacing", spacing), ("continue_to", given.get("continue_to"))]:
+        if length is not None:
+            values[name] = field_number(length, f"roughness.{name}", "Measured", name)
+    values["unit"] = _unit(given.get("unit"), "unit")
+    values["height_unit"] = _unit(given.get("height_unit"), "height_unit")
+    if "opposite" in given:
+        values["opposite"] = Text(path(given["opposite"], "opposite"))
+    channel = given.get("channel")
+    if isinstance(channel, str):
+        values["surface_name"] = Text(channel)
+    elif channel is not None:
+        values["channel"] = whole(channel, "channel", 0, 2**32 - 1)
+    if "surface_name" in given:
+        values["surface_name"] = Text(text(given["surface_name"], "surface_name", "the name of a surface"))
+    for name in ("row", "column"):
+        if name in given:
+            values[name] = whole(given[name], name, 1, 2**28)
+    if "detrend" in given:
+        detrend = given["detrend"]
+        if not isinstance(detrend, str) or detrend.lower() not in _DETRENDS:
+            raise refusal("detrend", detrend, "none, mean, tilt or curvature")
+        values["detrend"] = _DETRENDS[detrend.lower()]
+    return _checked("roughness", Form("Measured", **values))
+
+
+def _unit(unit: str | None, field: str) -> Text | None:
+    return None if unit is None else Text(text(unit, field, "a unit of length, such as um"))
+
+
+def _checked(group: str, form: Form) -> Form:
+    """Returns a form or a roughness if a scene allows its values. Errors name its arguments."""
+    try:
+        Scene.parse(_PLAIN).set(in_fields({group: form}))
+    except FieldError as error:
+        name = error.field.removeprefix(f"{group}.")
+        raise refusal(name, error.value, error.allowed or str(error)) from None
+    return form
+
+
+def _pair(values: Any, field: str, allowed: str) -> tuple[Any, Any]:
+    try:
+        first, second = values
+    except (TypeError, ValueError):
+        raise refusal(field, values, allowed) from None
+    return first, second
 
 
 def profile(
     length: Quantity,
-    points: int = 16384,
+    points: int | None = None,
     *,
     form: Form | None = None,
-    roughness: Form | None = None,
+    roughness: Form | Surface | npt.ArrayLike | None = None,
     seed: int = 1,
 ) -> Profile:
-    """Makes the profile of a body with a form and a roughness, with `points` points along a length in m.
+    """Makes the profile of a body with a form and a roughness, with `points` points along a length in m, by default 16384.
 
-    A seed gives the same random phases on any machine and for any number of points.
+    A `roughness` is made by `self_affine` or `measured`, or it is a `Surface`, whose spectrum the profile gets. An array has the
+    heights in m of the roughness at each point, those of an equivalent line as in `asperity.Profile`. The axis of the form is at
+    the point with the index `points // 2`. A seed gives the same random phases on any machine and for any number of points.
     """
-    if roughness is not None and not roughness.values.get("as_line"):
-        roughness = Form(roughness.kind, **{**roughness.values, "seed": seed})
-    fields = {"length": length, "numerics.points": points, "form": form, "roughness": roughness}
-    scene = Scene.parse(_PLAIN).set(in_fields(fields))
-    return Profile._of(_native.Profile.of_scene(scene), scene)
+    form_allowed = "a form of a body, such as asperity.sphere('1 mm')"
+    _check_kind(form, _FORMS, "form", form_allowed)
+    heights = None
+    if roughness is not None and not isinstance(roughness, (Form, str, Surface)):
+        heights = numbers(roughness, "roughness")
+    count = whole(points, "points", 2, 2**28) if points is not None else 16384 if heights is None else len(heights)
+    number = whole(seed, "seed", 0, 2**64 - 1)
+    metres = field_number(length, "length", "", "length")
+    plain = Scene.parse(_PLAIN).set(in_fields({"length": metres, "numerics.points": count, "form": form}))
+    if heights is not None:
+        if len(heights) != count:
+            raise refusal("roughness", f"{len(heights)} heights", f"{count} heights, one for each point")
+        return Profile._of(_native.Profile.of_roughness(plain, heights), None)
+    if isinstance(roughness, Surface):
+        rough = roughness._surface.roughen(plain, number)
+        return Profile._of(_native.Profile.of_scene(rough), rough)
+    _check_kind(roughness, _ROUGHNESS, "roughness", "asperity.self_affine(...), asperity.measured(...), a Surface or an array")
+    if isinstance(roughness, Form) and not roughness.values.get("as_line"):
+        roughness = Form(roughness.kind, **{**roughness.values, "seed": number})
+    rough = plain.set(in_fields({"roughness": roughness}))
+    return Profile._of(_native.Profile.of_scene(rough), rough)
+
+
+def _check_kind(given: Any, kinds: tuple[str, ...], field: str, allowed: str) -> None:
+    if given is None or isinstance(given, str):
+        return
+    if not isinstance(given, Form):
+        raise refused_type(field, given, allowed)
+    if given.kind not in kinds:
+        raise refusal(field, given, allowed)
 
 
 def load(
@@ -158,21 +382,27 @@ def load(
     default infinite. `edges` is `"sub_cell"` for edges of contact patches between springs, or `"grid"` for whole springs. The
     force curve has `samples` points on each stage. The smallest and the largest force do not depend on their number.
     """
+    if not isinstance(profile, Profile):
+        allowed = "a profile that asperity.profile or asperity.Profile makes; asperity.run computes scenes"
+        raise refused_type("profile", profile, allowed)
+    _check_progress(progress)
     modulus = quantity(modulus, "Pa", "modulus")
     work = quantity(work, "J/m²", "work")
     closing_work = None if closing_work is None else quantity(closing_work, "J/m²", "closing_work")
     if loading_stiffness is not None:
         loading_stiffness = quantity(loading_stiffness, "N/m", "loading_stiffness")
     samples = whole(samples, "samples", 2, 1_000_000)
-    if edges not in _EDGES:
+    if not isinstance(edges, str) or edges not in _EDGES:
         raise refusal("edges", edges, ", ".join(_EDGES))
-    stages = stages if isinstance(stages, str) else ", ".join(map(in_scene, stages))
-    if profile.scene is None:
+    stages = _stages(stages)
+    if profile._scene is None:
         works = [work if closing_work is None else closing_work, work]
         stiffness = float("inf") if loading_stiffness is None else loading_stiffness
         foundation = (modulus, works, stiffness)
         load = (foundation, (stages, edges == "grid", samples))
-        return Loop(_native.Loop.of_heights(profile._native, load, progress))
+        loop = Loop(_native.Loop.of_heights(profile._native, load, progress))
+        warn_of(loop.warnings)
+        return loop
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
     fields = {
         "material": {"effective_modulus": modulus},
@@ -182,8 +412,10 @@ def load(
         "numerics.edges": _EDGES[edges],
         "numerics.samples": samples,
     }
-    body = profile.scene.set(in_fields(fields))
-    return Loop(_native.Loop.of_scene(body, progress), body)
+    body = profile._scene.set(in_fields(fields))
+    loop = Loop(_native.Loop.of_scene(body, progress), body)
+    warn_of(loop.warnings)
+    return loop
 
 
 def run(
@@ -194,7 +426,12 @@ def run(
     `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number
     of finished profiles and the number of all profiles.
     """
-    call = _call(scene, fields, profiles, jobs, progress)
+    outcome = _outcome(_call(scene, fields, profiles, jobs, progress))
+    warn_of(outcome._premises())
+    return outcome
+
+
+def _outcome(call: tuple[Scene, int | None, int | None, Progress]) -> Outcome:
     loop = _native.Loop.of_scene(call[0], None)
     return Outcome(call[0], _native.run(call, loop), loop)
 
@@ -203,7 +440,9 @@ def ensemble(
     scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
 ) -> Ensemble:
     """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    return Ensemble(_native.ensemble(_call(scene, fields, profiles, jobs, progress)))
+    found = Ensemble(_native.ensemble(_call(scene, fields, profiles, jobs, progress)))
+    warn_of(found._premises())
+    return found
 
 
 def find(
@@ -223,8 +462,12 @@ def find(
     The value is found for each of several random profiles. `range` are its limits, by default a hundredth and a hundred times
     of the value in the scene.
     """
-    searched = None if range is None else _range(range)
-    return Found(_native.find(_call(scene, fields, profiles, jobs, progress), field, where, searched))
+    field = text(field, "field", "the path of a number of a scene, or preload")
+    where = text(where, "where", "a condition such as 'F_a = 1 µN'")
+    searched = None if range is None else ends(range, "range")
+    found = Found(_native.find(_call(scene, fields, profiles, jobs, progress), field, where, searched))
+    warn_of(found._premises())
+    return found
 
 
 def preloads(
@@ -239,9 +482,15 @@ def preloads(
     progress: Progress = None,
     **fields: Any,
 ) -> Preloads:
-    """Computes the adhesion force after each of `count` preloads between two forces in N, with `log` at equal ratios."""
-    axis = f"{_range(between)}:{count}" + (":log" if log else "")
-    return Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress), axis))
+    """Computes the adhesion force after each of `count` preloads between two forces in N, with `log` at equal ratios.
+
+    A profile of given heights is allowed, with a modulus: `preloads(profile, (0, "1 µN"), modulus="1 MPa", work="50 mJ/m²")`.
+    """
+    count = whole(count, "count", 2, 10_000)
+    axis = f"{ends(between, 'between', _PRELOADS)}:{count}" + (":log" if flag(log, "log") else "")
+    found = Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress, takes_heights=True), axis))
+    warn_of(found._premises())
+    return found
 
 
 def reversals(
@@ -257,9 +506,11 @@ def reversals(
 
     By default the turning points lie between first touch and the preload of the scene.
     """
-    ends = None if between is None else _range(between)
+    forces = None if between is None else ends(between, "between", _PRELOADS)
     count = whole(count, "count", 2, 512)
-    return Reversals(_native.reversals(_call(scene, fields, None, None, progress), ends, count))
+    found = Reversals(_native.reversals(_call(scene, fields, None, None, progress, takes_heights=True), forces, count))
+    warn_of(found._premises())
+    return found
 
 
 def reference(
@@ -279,21 +530,23 @@ def reference(
     """
     cells = whole(grid, "grid", 1, 2**16)
     count = None if maps is None else whole(maps, "maps", 1, 10_000)
-    return Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
+    found = Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
+    warn_of(found._premises())
+    return found
 
 
 def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
     """Returns what other theories say of a scene, each with its number, its threshold and its reference."""
-    found: list[Values] = run(scene, profiles=1, **fields).criteria
+    found: list[Values] = _outcome(_call(scene, fields, 1, None, None)).criteria
     return found
 
 
 def study(
     scene: AnyScene,
-    axes: Mapping[str, Sequence[Quantity]],
+    axes: Mapping[str, Sequence[Quantity] | npt.NDArray[Any] | Quantity],
     /,
     *,
-    record: Sequence[str] = ("adhesion_force", "regime"),
+    record: Sequence[str] | str = ("adhesion_force", "regime"),
     profiles: int = 16,
     jobs: int | None = None,
     progress: Progress = None,
@@ -301,10 +554,21 @@ def study(
 ) -> Study:
     """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles for each.
 
-    `record` names the quantities to record; `docs/studies.md` lists them.
+    A value is a number in SI units or a text with a unit. `record` names the quantities to record; `docs/studies.md` lists them.
     """
-    values = [(path, [float(value) for value in axis]) for path, axis in axes.items()]
-    return Study(_native.study(_call(scene, fields, profiles, jobs, progress), values, list(record)))
+    if not isinstance(axes, Mapping):
+        raise refused_type("axes", axes, "a dictionary of paths and values, such as {'adhesion.kappa': [2, 6, 20]}")
+    names = [record] if isinstance(record, str) else list(record)
+    for name in names:
+        text(name, "record", "names of quantities")
+    call = _call(scene, fields, profiles, jobs, progress)
+    return Study(_native.study(call, [_axis(name, values) for name, values in axes.items()], names))
+
+
+def _axis(name: str, values: Any) -> tuple[str, list[float | str]]:
+    name = text(name, "axes", "paths of numbers of a scene as keys").replace("__", ".")
+    given = [values] if isinstance(values, str) or not hasattr(values, "__iter__") else list(values)
+    return name, [value if isinstance(value, str) else quantity(value, "the unit of the path", name) for value in given]
 
 
 def surface(
@@ -312,35 +576,78 @@ def surface(
     /,
     *,
     spacing: Quantity | tuple[Quantity, Quantity] | None = None,
-    opposite: AnyPath | None = None,
-    **options: Any,
+    tip_radius: Quantity | None = None,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    preload: Quantity | None = None,
+    profiles: int | None = None,
+    jobs: int | None = None,
+    **reading: Unpack[Reading],
 ) -> Surface:
     """Reads and analyses a measured surface: a file, several files with measurements of the same surface, or an array.
 
-    An array holds the heights of a profile or a map in m. `spacing` is the distance between its points in m, or the two
-    distances along a row and between rows. `opposite` is a file of the opposite surface. `asperity surface --help` lists the
-    further options, for example `unit="um"`, `detrend="tilt"`, `periodic=True`, `interpolate=True`, `channel=1`,
-    `continue_to="10 nm"`, `tip_radius="10 nm"` and `modulus="2.7 MPa"`.
+    An array holds the heights of a profile or a map in m. Its masked points and its points of NaN are missing points, which
+    `interpolate=True` fills from their neighbours. `spacing` is the distance between the points in m, or for an array the two
+    distances along a row and between rows. The options `reading` are those of `docs/surfaces.md`, such as `unit="um"`,
+    `detrend="tilt"` and `periodic=True`. `tip_radius` in m gives the reliability cut-off.
+
+    With a `modulus` in Pa and a `work` of adhesion in J/m², the adhesion force of the equivalent line after a `preload` in N, by
+    default turned at zero force, is computed on `profiles` random profiles, by default 16 for at most 131 072 springs.
     """
+    figures = [_positive(tip_radius, "m", "tip_radius"), _positive(modulus, "Pa", "modulus")]
+    figures += [_positive(work, "J/m²", "work"), _positive(preload, "N", "preload")]
+    for name, value in [("work", work), ("preload", preload)]:
+        if value is not None and modulus is None:
+            raise refusal("modulus", None, f"an effective modulus such as '1 MPa', since the argument {name} needs it")
+    if profiles is not None and work is None:
+        raise refusal("work", None, "a work of adhesion such as '50 mJ/m²', since the argument profiles needs it")
+    count = None if profiles is None else whole(profiles, "profiles", 2, 1_000_000)
+    threads = None if jobs is None else whole(jobs, "jobs", 1, 1024)
+    if isinstance(files, bytes):
+        raise refused_type("files", files, "the path of a file, paths of files, or an array of heights")
     if isinstance(files, (str, os.PathLike)):
         files = [files]
-    words = in_words({"opposite": opposite, **options})
-    if isinstance(files, (list, tuple)) and files and all(isinstance(one, (str, os.PathLike)) for one in files):
-        words += [*in_words({"spacing": spacing}), "--", *map(os.fspath, files)]
-        return Surface(_native.Surface(words, None))
+    if isinstance(files, (list, tuple)) and files and all(isinstance(file, (str, os.PathLike)) for file in files):
+        distance = None if spacing is None else quantity(cast("Quantity", spacing), "m", "spacing")
+        form = _measured([path(file, "files") for file in files], False, distance, reading)
+        found = Surface(_native.Surface(_scene_of(form), figures, count, threads, None))
+        warn_of(found._premises())
+        return found
+    for name in ("unit", "height_unit", "channel", "surface_name", "resample"):
+        if reading.get(name):
+            raise refusal(name, reading.get(name), "nothing for an array, which has heights in m at even distances")
+    heights = numbers(cast("npt.ArrayLike", files), "heights", (1, 2), missing=True)
     if spacing is None:
         raise refusal("spacing", None, "the distance between the points of the array, m")
-    distances = spacing if isinstance(spacing, tuple) else (spacing, spacing)
-    along, across = (quantity(distance, "m", "spacing") for distance in distances)
-    heights = numbers(cast("npt.ArrayLike", files), "heights", (1, 2))
-    return Surface(_native.Surface([*words, "array"], (heights.reshape(-1, heights.shape[-1]), [along, across])))
+    distances = [spacing, spacing]
+    if isinstance(spacing, (tuple, list)):
+        distances = list(_pair(spacing, "spacing", "a distance, or the distances along a row and between rows"))
+    along, across = (quantity(cast("Quantity", distance), "m", "spacing") for distance in distances)
+    scene = _scene_of(_measured(["array"], False, None, reading))
+    map_of_heights = (heights.reshape(-1, heights.shape[-1]), [along, across])
+    found = Surface(_native.Surface(scene, figures, count, threads, map_of_heights))
+    warn_of(found._premises())
+    return found
+
+
+def _scene_of(roughness: Form) -> Scene:
+    return Scene.parse(_PLAIN).set(in_fields({"roughness": roughness}))
+
+
+def _positive(value: Quantity | None, unit: str, field: str) -> float | None:
+    if value is None:
+        return None
+    number = quantity(value, unit, field)
+    if not 0 < number < float("inf"):
+        raise refusal(field, value, f"above 0 {unit}")
+    return number
 
 
 def fit(
     curves: _Curve | Sequence[_Curve],
     scene: AnyScene,
     /,
-    free: Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
     *,
     profiles: int | None = None,
     jobs: int | None = None,
@@ -350,37 +657,81 @@ def fit(
 ) -> Fit | Fits | EnsembleFit:
     """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
 
-    A curve is a file, or a pair of arrays with displacements in m and forces in N. `free` names the parameters to fit: work,
-    closing_work, modulus, offset, zero, stiffness and radius. A dictionary gives their ranges as well. With `profiles`, one
-    work of adhesion is found for all curves of a rough body, by comparison with so many random profiles. `options` state how to
-    read the curves, as `asperity fit --help` lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
+    A curve is a file, or two arrays with displacements in m and forces in N: a pair, an array of two rows or columns, or a table
+    of pandas with two columns. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness and
+    radius. A dictionary gives their ranges as well. With `profiles`, one work of adhesion is found for all curves of a rough
+    body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help` lists
+    them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
     """
-    is_single = isinstance(curves, (str, os.PathLike, tuple))
-    given: list[Any] = [curves] if is_single else list(cast("Sequence[_Curve]", curves))
+    is_single = _is_curve(curves)
+    given: list[Any] = [curves] if is_single else _list(curves, "curves")
     if not given:
         raise refusal("curves", given, "a curve, or a list of at least one curve")
-    all_curves = [_curve(number, curve) for number, curve in enumerate(given, 1)]
-    named = [name if ends is None else f"{name}={_range(ends)}" for name, ends in _ranges(free)]
-    words = [f"--free={one}" for one in named] + in_words({"profiles": profiles, **(options or {})})
+    all_curves = [_curve(number, curve) for number, curve in enumerate(given)]
+    named = [name if between is None else f"{name}={ends(between, name)}" for name, between in _ranges(free)]
+    if options is not None and not isinstance(options, Mapping):
+        raise refused_type("options", options, "a dictionary such as {'noise': '2 nN'}")
+    count = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
+    words = [f"--free={name}" for name in named] + in_words({"profiles": count, **(options or {})})
     call = _call(scene, fields, None, jobs, progress)
     report = _native.fit(call, (all_curves, is_single), [*words, "curves", "scene"])
-    if profiles is not None:
+    if count is not None:
         return EnsembleFit(report)
-    return Fit(report) if is_single else Fits(report)
+    if not is_single:
+        return Fits(report)
+    found = Fit(report)
+    warn_of(found._premises())
+    return found
 
 
-def _curve(number: int, curve: Any) -> tuple[str, Any]:
-    if isinstance(curve, tuple) and len(curve) == 2:
-        return f"curve {number}", (numbers(curve[0], "displacement"), numbers(curve[1], "force"))
+def _columns(curve: Any) -> tuple[Any, Any] | None:
+    """Returns the displacements and the forces of a curve that is given by numbers; None if it is given otherwise."""
+    if hasattr(curve, "to_numpy"):
+        curve = curve.to_numpy()
+    if isinstance(curve, tuple) and len(curve) == 2 and not any(isinstance(part, (str, os.PathLike)) for part in curve):
+        return curve[0], curve[1]
+    shape = getattr(curve, "shape", None)
+    if shape is not None and len(shape) == 2 and 2 in shape:
+        rows = curve if shape[0] == 2 else curve.T
+        return rows[0], rows[1]
+    if isinstance(curve, list) and len(curve) == 2 and all(_is_row_of_numbers(part) for part in curve):
+        return curve[0], curve[1]
+    return None
+
+
+def _is_row_of_numbers(part: Any) -> bool:
+    if isinstance(part, (str, os.PathLike, bytes)) or not hasattr(part, "__len__") or len(part) == 0:
+        return False
+    return not any(hasattr(value, "__len__") for value in part)
+
+
+def _is_curve(curves: Any) -> bool:
+    return isinstance(curves, (str, os.PathLike)) or _columns(curves) is not None
+
+
+def _curve(index: int, curve: Any) -> tuple[str, Any]:
+    columns = _columns(curve)
+    if columns is not None:
+        return f"curve {index + 1}", (numbers(columns[0], "displacement"), numbers(columns[1], "force"))
     if isinstance(curve, (str, os.PathLike)):
-        return os.fspath(curve), None
-    raise refusal("curves", curve, "a file, or a pair of arrays with displacements and forces")
+        return path(curve, "curves"), None
+    allowed = "a file, or two arrays with displacements and forces"
+    raise refusal("curves", f"curve {index}, counted from 0, of the type {type(curve).__name__}", allowed)
+
+
+def _list(values: Any, field: str) -> list[Any]:
+    if isinstance(values, (bytes, Mapping)) or not hasattr(values, "__iter__"):
+        raise refused_type(field, values, "a file, two arrays, or a list of these")
+    return list(values)
 
 
 def _ranges(
-    free: Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
 ) -> Sequence[tuple[str, tuple[Quantity, Quantity] | None]]:
-    return list(free.items()) if isinstance(free, Mapping) else [(name, None) for name in free]
+    if isinstance(free, Mapping):
+        return [(text(name, "free", "names of parameters"), between) for name, between in free.items()]
+    names = [free] if isinstance(free, str) else _list(free, "free")
+    return [(text(name, "free", "names of parameters"), None) for name in names]
 
 
 def press(
@@ -404,7 +755,7 @@ def press(
     cells = len(square)
     if square.shape != (cells, cells):
         raise refusal("heights", f"an array of the shape {square.shape}", "a square map")
-    maps, figures = _native.press(square, load, periodic, quantity(residual, "1", "residual"))
+    maps, figures = _native.press(square, load, flag(periodic, "periodic"), quantity(residual, "1", "residual"))
     pressure, gap = (found.reshape(cells, cells) for found in maps)
     found = Values(zip(["force", "indentation", "area", "residual", "convolutions"], figures, strict=True))
     return Values(found, convolutions=int(found.convolutions), pressure=pressure, gap=gap)
@@ -416,12 +767,19 @@ def presets() -> list[str]:
 
 
 def _call(
-    given: AnyScene, fields: Mapping[str, Any], profiles: int | None, jobs: int | None, progress: Progress
+    given: AnyScene,
+    fields: Mapping[str, Any],
+    profiles: int | None,
+    jobs: int | None,
+    progress: Progress,
+    takes_heights: bool = False,
 ) -> tuple[Scene, int | None, int | None, Progress]:
     profiles = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     jobs = None if jobs is None else whole(jobs, "jobs", 1, 1024)
-    return scene(given, **fields), profiles, jobs, progress
+    _check_progress(progress)
+    return _opened(given, fields, takes_heights), profiles, jobs, progress
 
 
-def _range(ends: tuple[Quantity, Quantity] | str) -> str:
-    return ends if isinstance(ends, str) else "..".join(map(in_scene, ends))
+def _check_progress(progress: Any) -> None:
+    if progress is not None and not callable(progress):
+        raise refused_type("progress", progress, "a function of two numbers, or None")

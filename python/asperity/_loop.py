@@ -22,7 +22,7 @@ class Loop:
     `pull_off_error` need the form and the roughness of the body. They are None for a profile that is given by its heights.
     """
 
-    #: Index of the loading stage of each point, from 0.
+    #: Number of the loading stage of each point, counted from 0, as in `LoadingError.stage` and in tables.
     stage: npt.NDArray[np.int64]
     #: Indentation d in m.
     d: npt.NDArray[np.float64]
@@ -56,12 +56,15 @@ class Loop:
     regime: str | None
     #: Pull-off force over the ideal adhesion force, F_a/F_a,max.
     share: float | None
+    #: Premises of the model that the loading does not meet, one sentence for each; empty if all hold.
+    warnings: list[str]
 
     def __init__(self, native: _native.Loop, scene: _native.Scene | None = None) -> None:
         self._native, self._scene = native, scene
         (self.stage, self.patches), columns = native.columns()
         self.d, self.F, self.D, self.length, self.energy, self.released = columns
         figures, self.regime, self.jumps = native.figures()
+        self.warnings = native.warnings()
         self.pull_off, self.pull_off_d, self.preload, self.dissipated, self.kappa, self.tabor, self.share = figures
 
     @cached_property

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._loop import Loop
-from ._notation import Quantity, in_fields, quantity, whole
+from ._notation import Form, Quantity
+from ._notation import path as file_path
 from ._profile import Profile
 
 if TYPE_CHECKING:
@@ -18,13 +19,28 @@ if TYPE_CHECKING:
 
 
 class Values(dict[str, Any]):
-    """A dictionary of the values of a JSON object, which are also attributes."""
+    """A dictionary of the values of a JSON object, which are also attributes. A key hides the method of a dictionary."""
+
+    def __getattribute__(self, name: str) -> Any:
+        if not name.startswith("__") and dict.__contains__(self, name):
+            return dict.__getitem__(self, name)
+        return super().__getattribute__(name)
 
     def __getattr__(self, name: str) -> Any:
-        try:
-            return self[name]
-        except KeyError:
-            raise AttributeError(f"no {name!r}; allowed: {', '.join(self)}") from None
+        raise AttributeError(f"no {name!r}; allowed: {', '.join(dict.keys(self))}")
+
+
+def _sentences(warnings: Any, profiles: Any) -> list[str]:
+    """Returns the entry `warnings` of a JSON object as sentences. In an ensemble each one has the number of its profiles."""
+    sentences = []
+    for warning in warnings or []:
+        if not isinstance(warning, Values):
+            sentences.append(str(warning))
+        elif warning.profiles == profiles:
+            sentences.append(warning.text)
+        else:
+            sentences.append(f"On {warning.profiles} of {profiles} profiles: {warning.text}")
+    return sentences
 
 
 class Result:
@@ -46,11 +62,25 @@ class Result:
             self._values = json.loads(self._report.write("json"), object_hook=Values)
         return self._values
 
+    def _premises(self) -> list[str]:
+        """Returns the premises of the model that the result does not meet, one sentence for each."""
+        values = self.to_dict()
+        sentences = _sentences(values.get("warnings"), values.get("profiles"))
+        ensemble = values.get("ensemble")
+        if isinstance(ensemble, Values):
+            counted = _sentences(ensemble.get("warnings"), ensemble.get("profiles"))
+            known = " ".join(sentences)
+            sentences += [sentence for sentence in counted if sentence not in known]
+        return sentences
+
     def __getattr__(self, name: str) -> Any:
         # Asked for by tools that look for methods of their own.
         if name.startswith("_"):
             raise AttributeError(name)
-        return getattr(self.to_dict(), name)
+        values = self.to_dict()
+        if name not in values:
+            raise AttributeError(f"no {name!r}; allowed: {', '.join(dict.keys(values))}")
+        return values[name]
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self.to_dict()})
@@ -76,7 +106,7 @@ class Result:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the result to a file. Its ending selects the format: json, csv, npy, txt, or svg, png, pdf for a figure."""
-        written = self._report.write(os.path.splitext(os.fspath(path))[1].lstrip(".").lower())
+        written = self._report.write(os.path.splitext(file_path(path, "path"))[1].lstrip(".").lower())
         with open(path, "wb") as file:
             file.write(written)
 
@@ -139,7 +169,22 @@ class Ensemble(Result):
 
 
 class Found(Result):
-    """Value of a field that meets a condition: median and quartiles over the profiles."""
+    """Value of a field that meets a condition: median and quartiles over the profiles.
+
+    `value` is the median, `values` has the value on each profile, and `target` is the wanted value of the condition.
+    """
+
+    @property
+    def value(self) -> float | None:
+        """Median of the found values in the SI unit of the field; None if fewer than half of the profiles have one."""
+        median: float | None = self.median
+        return median
+
+    @property
+    def target(self) -> float:
+        """Wanted value of the quantity in its SI unit."""
+        values = self.to_dict()
+        return float(values["target"] if "target" in values else values["value"])
 
     def __repr__(self) -> str:
         return f"<Found: {self.answer}>"
@@ -195,19 +240,18 @@ class Surface(Drawn):
         super().__init__(surface.report)
         self._surface = surface
 
-    def profile(self, length: Quantity, points: int = 16384, *, seed: int = 1) -> Profile:
-        """Makes a random profile with the measured spectrum, with `points` points along a length in m."""
-        count, number = whole(points, "points", 1, 2**28), whole(seed, "seed", 0, 2**64 - 1)
-        return Profile._of(self._surface.profile(quantity(length, "m", "length"), count, number), None)
+    def profile(self, length: Quantity, points: int = 16384, *, form: Form | None = None, seed: int = 1) -> Profile:
+        """Makes a random profile with the measured spectrum, with `points` points along a length in m, on a body with a form."""
+        from ._functions import profile
+
+        return profile(length, points, form=form, roughness=self, seed=seed)
 
     def scene(self, *, modulus: Quantity, work: Quantity | None = None, **fields: Any) -> _native.Scene:
         """Returns a scene of random profiles with the measured spectrum, as long as the scan. It names the files of the surface.
 
-        `modulus` is the effective modulus in Pa, `work` the work of adhesion in J/m².
+        `modulus` is the effective modulus in Pa, `work` the work of adhesion in J/m². A scene of an array keeps the spectrum in
+        memory, so its text cannot be opened again.
         """
-        if self.files[0].file == "array":
-            saved = "numpy.save('map.npy', heights) and asperity.surface('map.npy', unit='m', spacing=...)"
-            raise ValueError(f"a surface of an array has no file that a scene could name; allowed: profile(), or {saved}")
-        if work is not None:
-            fields = {"adhesion": {"work": quantity(work, "J/m²", "work")}, **fields}
-        return self._surface.scene(quantity(modulus, "Pa", "modulus")).set(in_fields(fields))
+        from ._functions import scene
+
+        return scene(self._surface.scene(1e6), modulus=modulus, work=work, **fields)

@@ -1,17 +1,21 @@
 //! Computations that take long: without the lock of Python, with progress, and stopped by Ctrl-C.
 
 use crate::failure::Failure;
-use crate::scene::Scene;
+use crate::scene::{Scene, simulation};
 use asperity::data::parallel;
-use asperity::scene::Document;
+use asperity::scene::{Document, Simulation};
 use asperity::study::Ensemble;
+use asperity::surface::lines::MeasuredRoughness;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::Duration;
+
+/// Sentence for a defect of the program.
+pub const DEFECT: &str = "internal error, please report it";
 
 /// Callback of the progress.
 pub type Progress = Option<Py<PyAny>>;
@@ -73,7 +77,7 @@ pub fn computed<R: Send>(
     if let Some(error) = watch.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(error);
     }
-    Ok(done?.map_err(|_| PyRuntimeError::new_err("internal error, please report it"))??)
+    Ok(done?.map_err(|_| PyRuntimeError::new_err(DEFECT))??)
 }
 
 /// A scene, number of profiles, number of threads, and callback of the progress; numbers may be left to the program.
@@ -83,9 +87,28 @@ pub struct Call(Py<Scene>, pub Option<u64>, Option<usize>, Progress);
 /// A call that is computed.
 pub struct Case<'a> {
     pub document: Document,
+    /// Roughness in memory, of which the scene has no file.
+    in_memory: Option<Arc<MeasuredRoughness>>,
     pub profiles: u64,
     pub jobs: usize,
     pub watch: &'a Watch,
+}
+
+impl Case<'_> {
+    /// Returns a simulation of the scene.
+    pub fn simulation(&self) -> Simulation {
+        simulation(&self.document, self.in_memory.as_ref())
+    }
+
+    /// Returns an error for a scene whose roughness is in memory, for a computation that reads the files of a scene.
+    pub fn check_files(&self) -> Result<(), Failure> {
+        if self.in_memory.is_none() {
+            return Ok(());
+        }
+        let allowed = "a surface in a file: numpy.save('map.npy', heights) and \
+                       asperity.surface('map.npy', unit='m', spacing=...)";
+        Err(Failure::field("scene", "a scene with a surface in memory", allowed))
+    }
 }
 
 impl Call {
@@ -96,9 +119,10 @@ impl Call {
         work: impl FnOnce(Case<'_>) -> Result<R, Failure> + Send,
     ) -> PyResult<R> {
         let Call(scene, profiles, jobs, progress) = self;
-        let document = scene.get().document.clone();
+        let Scene { document, in_memory } = scene.get();
+        let (document, in_memory) = (document.clone(), in_memory.clone());
         let profiles = profiles.unwrap_or_else(|| Ensemble::profiles_of(document.scene()));
         let jobs = jobs.unwrap_or_else(parallel::threads);
-        computed(py, progress, move |watch| work(Case { document, profiles, jobs, watch }))
+        computed(py, progress, move |watch| work(Case { document, in_memory, profiles, jobs, watch }))
     }
 }

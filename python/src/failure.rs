@@ -1,6 +1,8 @@
 //! Failures of computations and their exceptions.
 
+use crate::words::sentence;
 use asperity::contact::ContactError;
+use asperity::data::shown;
 use asperity::experiment::ExperimentError;
 use asperity::scene::{Error, Origin, RunError, SceneError, SceneErrors};
 use asperity::study::StudyError;
@@ -25,21 +27,28 @@ impl Failure {
         }))
     }
 
-    /// A value that is not allowed, with what is allowed.
-    fn field(message: String, field: &str, value: &str, allowed: &str) -> Failure {
-        Failure::of_class("FieldError", (message, field, value, allowed))
+    /// A value that is not allowed, with what is allowed. The sentence escapes and shortens the value.
+    pub fn field(field: &str, value: &str, allowed: &str) -> Failure {
+        let message = format!("{} = {}; allowed: {allowed}", shown(field), shown(value));
+        Failure::field_in_words(message, field, value, allowed)
+    }
+
+    /// A value that is not allowed, with a sentence of its own.
+    fn field_in_words(message: String, field: &str, value: &str, allowed: &str) -> Failure {
+        Failure::of_class("FieldError", (sentence(&message), field, value, allowed))
     }
 
     /// A text that is not understood, for this reason.
     pub fn explained(field: &str, value: &str, reason: &impl Display) -> Failure {
-        Failure::field(format!("{field} = {value:?}: {reason}"), field, value, &reason.to_string())
+        let message = format!("{} = \"{}\": {reason}", shown(field), shown(value));
+        Failure::field_in_words(message, field, value, &reason.to_string())
     }
 
     /// The failure to read files if one of them does not open, otherwise the failure that their content explains.
     pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
         let is_missing = |path: &PathBuf| path.is_dir() || File::open(path).is_err();
         let is_any_missing = files.iter().any(is_missing);
-        if is_any_missing { Failure(PyOSError::new_err(error.to_string())) } else { error.into() }
+        if is_any_missing { Failure(PyOSError::new_err(sentence(&error.to_string()))) } else { error.into() }
     }
 
     /// The sentence of the exception.
@@ -56,7 +65,7 @@ impl From<Failure> for PyErr {
 
 impl From<String> for Failure {
     fn from(message: String) -> Failure {
-        Failure(PyValueError::new_err(message))
+        Failure(PyValueError::new_err(sentence(&message)))
     }
 }
 
@@ -69,7 +78,10 @@ impl From<SceneErrors> for Failure {
         };
         let message = errors.iter().map(line).collect::<Vec<_>>().join("\n");
         let SceneError { field, value, allowed, .. } = errors.first();
-        if field.is_empty() { message.into() } else { Failure::field(message, field, value, allowed) }
+        if field.is_empty() {
+            return message.into();
+        }
+        Failure::field_in_words(message, field, value, allowed)
     }
 }
 
@@ -78,11 +90,14 @@ impl From<ContactError> for Failure {
         let message = error.to_string();
         match (error.stage(), &error) {
             (Some(stage), _) => {
-                Failure::of_class("LoadingError", (message, stage + 1, error.smallest_force()))
+                // Stages count from 0 in Python, as in all tables.
+                let reason = message.strip_prefix(&format!("stage {}: ", stage + 1)).unwrap_or(&message);
+                let message = format!("stage {stage}, counted from 0: {reason}");
+                Failure::of_class("LoadingError", (sentence(&message), stage, error.smallest_force()))
             }
             (None, ContactError::OutOfMemory(_)) => Failure(PyMemoryError::new_err(message)),
             (None, ContactError::Value { name, value, allowed }) => {
-                Failure::field(message, name, &value.to_string(), allowed)
+                Failure::field_in_words(message, name, &value.to_string(), allowed)
             }
             _ => message.into(),
         }
@@ -96,8 +111,8 @@ macro_rules! failures {
             fn from(error: $error) -> Failure {
                 match error {
                     $($error::$inner(inner) => inner.into(),)*
-                    $($error::$memory { .. } => Failure(PyMemoryError::new_err(error.to_string())),)*
-                    $($error::$file { .. } => Failure(PyOSError::new_err(error.to_string())),)*
+                    $($error::$memory { .. } => Failure(PyMemoryError::new_err(sentence(&error.to_string()))),)*
+                    $($error::$file { .. } => Failure(PyOSError::new_err(sentence(&error.to_string()))),)*
                     _ => error.to_string().into(),
                 }
             }
@@ -119,7 +134,7 @@ impl From<StudyError> for Failure {
             StudyError::Measured(error) => error.into(),
             StudyError::Run { place, error } if place.is_empty() => error.into(),
             StudyError::TooManyRecords(_) | StudyError::Memory { .. } => {
-                Failure(PyMemoryError::new_err(error.to_string()))
+                Failure(PyMemoryError::new_err(sentence(&error.to_string())))
             }
             error => error.to_string().into(),
         }

@@ -1,27 +1,16 @@
 //! Fits of scenes to measured force curves.
 
-use crate::computing::{Call, Case};
+use crate::computing::Call;
 use crate::failure::Failure;
 use crate::results::{Report, bytes};
-use asperity::cli::arguments::{Arguments, Command};
+use crate::words::command;
+use asperity::cli::arguments::Command;
 use asperity::data::{Control, on_threads, path_name};
 use asperity::experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
-use clap::Parser;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
-
-/// A command of the program with its options as words; an error has the words of the command line.
-pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failure> {
-    let line = ["asperity".to_owned(), name.to_owned()].into_iter().chain(words);
-    let parsed = Arguments::try_parse_from(line).map_err(|error| {
-        let text = error.to_string();
-        let lines = text.lines().map(|line| line.trim().trim_start_matches("error: "));
-        lines.take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
-    });
-    Ok(parsed?.command)
-}
 
 /// A measured curve: its name, and displacements, m, and forces, N, unless the name is that of a file.
 #[derive(FromPyObject)]
@@ -40,15 +29,27 @@ impl Curve {
     }
 }
 
+/// Returns an error if no curve was fitted, with the reason of the first one.
+fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> {
+    if rows.iter().any(|row| row.error.is_empty()) {
+        return Ok(());
+    }
+    let reason = rows.first().map(|row| row.error.as_str()).unwrap_or_default();
+    let message = format!("none of {} curves is fitted; the first one: {reason}", rows.len());
+    let files = curves.iter().filter(|curve| curve.1.is_none()).map(|curve| PathBuf::from(&curve.0));
+    Err(Failure::of_files(&files.collect::<Vec<_>>(), message))
+}
+
 /// Fits a scene to one curve, to each of several, or on random profiles to all together; the words are options of `asperity fit`.
 #[pyfunction]
 pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<String>) -> PyResult<Report> {
     let (curves, is_one) = curves;
     call.computed(py, |case| {
+        case.check_files()?;
         let Some(Command::Fit(arguments)) = command("fit", words)? else {
             return Err("fit: no options of a fit".to_owned().into());
         };
-        let Case { document, jobs, watch, .. } = case;
+        let (document, jobs, watch) = (case.document, case.jobs, case.watch);
         let (free, instrument) = (arguments.free, document.scene().loading_stiffness);
         let (reading, stop) = (CurveOptions { instrument, ..arguments.reading }, || watch.stop());
         let mut report = |done| watch.report(done, 0);
@@ -87,6 +88,7 @@ pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<St
             }
         };
         let rows = on_threads(all, jobs, worker)?;
+        check_any_fitted(&curves, &rows)?;
         let is_free = |one: &Parameter| free.iter().any(|free: &Free| free.parameter == *one);
         let free: Vec<Parameter> = Parameter::ALL.into_iter().filter(is_free).collect();
         Ok(Report::new(move |format| {

@@ -4,13 +4,14 @@ use crate::computing::{Progress, computed};
 use crate::failure::Failure;
 use crate::quantity::{Array, array};
 use crate::scene::Scene;
-use asperity::contact::{Figures, LegRecord, Mark};
+use asperity::contact::{Figures, LegRecord, Mark, NominalForm};
+use asperity::data::Warning;
+use asperity::scene::Outcome;
 use asperity::scene::instrument::displacements;
 use asperity::scene::loading::read_loading;
-use asperity::scene::{Outcome, Simulation};
-use asperity::{Contact, Edges, LoadOptions, Modulus};
+use asperity::{Contact, Edges, LoadOptions, Modulus, ProfileBuilder};
 use asperity_plot::Figure;
-use asperity_report::{ForceLoop, LoopUnits, loop_chart};
+use asperity_report::{ForceLoop, LoopUnits, loop_chart, warning_texts};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -25,19 +26,35 @@ pub struct Profile {
 #[pymethods]
 impl Profile {
     #[new]
-    fn new(heights: PyReadonlyArray1<'_, f64>, spacing: f64) -> PyResult<Self> {
+    fn new(heights: PyReadonlyArray1<'_, f64>, spacing: f64, is_curved: Option<bool>) -> PyResult<Self> {
         let profile = asperity::Profile::from_heights(heights.as_slice()?, spacing);
-        Ok(Profile { profile: profile.map_err(Failure::from)? })
+        let nominal_form = match is_curved {
+            Some(true) => NominalForm::Curved,
+            Some(false) => NominalForm::Flat,
+            None => NominalForm::Unstated,
+        };
+        Ok(Profile { profile: profile.map_err(Failure::from)?.with_nominal_form(nominal_form) })
     }
 
     /// The profile of a scene.
     #[staticmethod]
     fn of_scene(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
-        let document = &scene.document;
         computed(py, None, |_| {
-            let profile = Simulation::new(document.resolve("")).for_one_scene().profile(document.scene())?;
+            let profile = scene.simulation().for_one_scene().profile(scene.document.scene())?;
             Ok(Profile { profile })
         })
+    }
+
+    /// The profile of the form of a scene with these heights in m as its roughness.
+    #[staticmethod]
+    fn of_roughness(scene: &Scene, heights: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+        let scene = scene.document.scene();
+        let mut builder = ProfileBuilder::new(scene.length, heights.len()?);
+        if let Some(form) = &scene.form {
+            builder = builder.form(form.clone());
+        }
+        let profile = builder.build_with(heights.as_slice()?.to_vec());
+        Ok(Profile { profile: profile.map_err(Failure::from)? })
     }
 
     /// Positions, heights and gaps of the points, m.
@@ -67,6 +84,8 @@ pub struct Loop {
     /// Stiffness of the instrument, N/m.
     stiffness: f64,
     title: String,
+    /// Premises of the model that the loading does not meet.
+    warnings: Vec<Warning>,
     /// The outcome of a scene.
     pub outcome: Option<Arc<Outcome>>,
 }
@@ -90,18 +109,18 @@ impl Loop {
             };
             let options = LoadOptions::default().samples(samples).before_stage(&mut proceed);
             let cycle = contact.load_with(&targets, options)?;
+            let warnings = cycle.warnings();
             let (stages, figures, title) = (cycle.stages().to_vec(), cycle.figures(), String::new());
-            Ok(Loop { stages, figures, stiffness, title, outcome: None })
+            Ok(Loop { stages, figures, stiffness, title, warnings, outcome: None })
         })
     }
 
     /// Loads the body of a scene.
     #[staticmethod]
     fn of_scene(py: Python<'_>, scene: &Scene, progress: Progress) -> PyResult<Loop> {
-        let document = scene.document.clone();
+        let mut simulation = scene.simulation().for_one_scene();
         computed(py, progress, |watch| {
-            let (scene, mut done) = (document.scene(), 0);
-            let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
+            let (scene, mut done) = (scene.document.scene(), 0);
             let outcome = simulation.run(scene, &|| watch.stop(), &mut |_, _, _| {
                 done += 1;
                 watch.report(done, scene.loading.len() as u64);
@@ -109,8 +128,9 @@ impl Loop {
             })?;
             let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
             let (stages, figures) = (outcome.history.legs.clone(), outcome.figures);
+            let warnings = outcome.warnings.clone();
             let (title, outcome) = (scene.title.clone(), Some(Arc::new(outcome)));
-            Ok(Loop { stages, figures, stiffness, title, outcome })
+            Ok(Loop { stages, figures, stiffness, title, warnings, outcome })
         })
     }
 
@@ -143,6 +163,11 @@ impl Loop {
         let named = Mark::all(&self.stages).into_iter();
         let named = named.map(|(mark, point)| (mark.name(), (point.indentation, point.force)));
         (figures, regime, named.collect())
+    }
+
+    /// Premises of the model that the loading does not meet, one sentence for each.
+    fn warnings(&self) -> Vec<String> {
+        warning_texts(&self.warnings)
     }
 
     /// The force curve as a figure in SVG.

@@ -11,6 +11,7 @@ mod quantity;
 mod results;
 mod scene;
 mod surface;
+mod words;
 
 /// The native part of the package.
 #[pyo3::pymodule]
@@ -22,7 +23,7 @@ mod _native {
         fit::fit,
         force_loop::{Loop, Profile},
         press::press,
-        quantity::{in_words, parsed},
+        quantity::{in_field, in_words, parsed, shown, unit_of},
         results::{Report, ensemble, find, preloads, reference, reversals, run, study},
         scene::{Scene, presets},
         surface::Surface,

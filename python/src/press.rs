@@ -1,7 +1,9 @@
 //! The contact of a square map without adhesion in three dimensions.
 
 use crate::computing::computed;
+use crate::failure::Failure;
 use crate::quantity::{Array, array};
+use asperity::data::format_quantity;
 use asperity_half_space::{Boundary, HalfSpace, Load, Square};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -24,6 +26,11 @@ pub fn press<'py>(
         let stop = || watch.stop();
         Ok(HalfSpace::new(cells, boundary)?.press(&square, Load::Force(force), residual, &stop)?)
     })?;
+    let is_finite = |map: &[f64]| map.iter().all(|number| number.is_finite());
+    if !(is_finite(&found.pressure) && is_finite(&found.gap) && found.indentation.is_finite()) {
+        let allowed = "a force whose indentation is not far larger than the heights of the map";
+        return Err(Failure::field("force", &format_quantity(force, "N"), allowed).into());
+    }
     let numbers = [found.force, found.indentation, found.area, found.residual, found.convolutions as f64];
     Ok(([found.pressure, found.gap].map(|map| array(py, map)), numbers))
 }

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use asperity::data::{format_quantity, parse_quantity};
+use asperity::scene::fields::field;
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
@@ -9,6 +10,29 @@ use pyo3::prelude::*;
 #[pyfunction]
 pub fn parsed(text: &str, unit: &str, field: &str) -> Result<f64, Failure> {
     parse_quantity(text, unit).map_err(|error| Failure::explained(field, text, &error))
+}
+
+/// Returns the SI unit of the number at a path of a scene, of the variant of a form or of a roughness that has it.
+#[pyfunction]
+pub fn unit_of(path: &str, variant: &str) -> &'static str {
+    field(path, Some(variant)).map_or("1", |field| field.unit)
+}
+
+/// Returns a number if a scene allows it at a path. Errors name the argument.
+#[pyfunction]
+pub fn in_field(number: f64, path: &str, variant: &str, argument: &str) -> Result<f64, Failure> {
+    match field(path, Some(variant)) {
+        Some(field) if field.range.ends().is_some() && !field.range.contains(number) => {
+            Err(Failure::field(argument, &number.to_string(), &field.allowed()))
+        }
+        _ => Ok(number),
+    }
+}
+
+/// Returns a text without signs that control a terminal, and not longer than a line.
+#[pyfunction]
+pub fn shown(text: &str) -> String {
+    asperity::data::shown(text)
 }
 
 /// A number with its unit as people read it: `2.5 MPa`.

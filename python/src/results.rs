@@ -1,20 +1,23 @@
 //! Results of scenes: the functions of the libraries, and the reports of the program as their answers.
 
-use crate::computing::{Call, Case};
+use crate::computing::{Call, Case, DEFECT};
 use crate::failure::Failure;
 use crate::force_loop::Loop;
-use asperity::data::Control;
-use asperity::scene::{Document, Simulation, estimate};
+use asperity::data::{Control, parse_quantity};
+use asperity::scene::{CheckedScene, Document, estimate};
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity::study::trust::MeasuredAdhesion;
-use asperity::study::{Axis, Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
+use asperity::study::{
+    Axis, Ensemble, Found, Plan, Quantity, Question, Results, Spacing, Staircase, compute,
+};
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport, RunReport,
     scene_provenance,
 };
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// A result in the formats of the program: JSON, a table as CSV or as an array of NumPy, text, and a figure.
@@ -48,16 +51,19 @@ impl Report {
             let names = Format::ALL.map(Format::extension).join(", ");
             PyValueError::new_err(format!("format {format:?}; allowed: {names}"))
         })?;
-        py.detach(|| (self.0)(known)).map_err(|error| PyValueError::new_err(error.to_string()))
+        // A defect of the program is an exception like any other.
+        let write = || catch_unwind(AssertUnwindSafe(|| (self.0)(known)));
+        let written = py.detach(write).map_err(|_| PyRuntimeError::new_err(DEFECT))?;
+        written.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 }
 
 /// The results of a scene on its random profiles, with these further quantities.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
-    let Case { document, profiles, jobs, watch } = case;
-    let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| watch.report(computed, *profiles);
-    let (scene, simulation) = (document.scene(), (Simulation::new(case.document.resolve("")), *jobs));
-    Ok(Ensemble::of(scene, further, *profiles, simulation, &|| watch.stop(), &mut report)?)
+    let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| case.watch.report(computed, case.profiles);
+    let workers = (case.simulation(), case.jobs);
+    let stop = || case.watch.stop();
+    Ok(Ensemble::of(case.document.scene(), further, case.profiles, workers, &stop, &mut report)?)
 }
 
 /// The report of a computed scene, with the results on its random profiles.
@@ -94,7 +100,7 @@ pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
 #[pyfunction]
 pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<&str>) -> PyResult<Report> {
     call.computed(py, |case| {
-        let (scene, mut simulation) = (case.document.scene(), Simulation::new(case.document.resolve("")));
+        let (scene, mut simulation) = (case.document.scene(), case.simulation());
         let mut question =
             Question::new(scene, field, Question::parse_condition(value)?, case.profiles, &mut simulation)?;
         if let Some(range) = range {
@@ -115,7 +121,7 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
     call.computed(py, |case| {
         let (scene, stop, axis) =
             (case.document.scene(), || case.watch.stop(), Axis::parse_preloads(preloads)?);
-        let mut simulation = Simulation::new(case.document.resolve(""));
+        let mut simulation = case.simulation();
         let staircase = Staircase::find(scene, &axis, &mut simulation, &stop, &mut |_| ())?;
         let mut results = Results::begin(scene, &Results::OF_PRELOADS, case.profiles, Some(&axis))?;
         let mut done = 0;
@@ -136,7 +142,7 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
 pub fn reversals(py: Python<'_>, call: Call, range: Option<&str>, count: usize) -> PyResult<Report> {
     call.computed(py, |case| {
         let ends = range.map(|range| Axis::parse_range(range, "N")).transpose()?;
-        let mut simulation = Simulation::new(case.document.resolve("")).for_one_scene();
+        let mut simulation = case.simulation().for_one_scene();
         let map = simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
         Ok(Report::new(move |format| {
             let (title, scene) = (case.document.title(), case.document.scene());
@@ -160,7 +166,7 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
                 case.watch.report(done, options.maps);
             }
         };
-        let simulation = (Simulation::new(case.document.resolve("")), case.jobs);
+        let simulation = (case.simulation(), case.jobs);
         let found = Reference::of(scene, options, simulation, &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
@@ -169,15 +175,49 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
     })
 }
 
-/// Paths of fields with their values.
-type Axes = Vec<(String, Vec<f64>)>;
+/// Value on an axis of a study: a number in the SI unit of the axis, or a text with a unit.
+#[derive(FromPyObject)]
+pub enum AxisValue {
+    Number(f64),
+    Text(String),
+}
+
+/// Path of a field with its values in a study.
+type GivenAxis = (String, Vec<AxisValue>);
+
+fn read_axis(scene: &CheckedScene, (path, values): &GivenAxis) -> Result<(String, Vec<f64>), Failure> {
+    let unit = Axis::new(path, Spacing::List, Vec::new(), scene)?.unit;
+    let mut numbers = Vec::with_capacity(values.len());
+    for value in values {
+        numbers.push(match value {
+            AxisValue::Number(number) => *number,
+            AxisValue::Text(text) => read_axis_value(text, path, unit)?,
+        });
+    }
+    Ok((path.clone(), numbers))
+}
+
+fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
+    parse_quantity(text, unit).map_err(|error| {
+        if path == "preload" {
+            let allowed = "a number in units of E* h L; the axis preload_in_N takes forces";
+            return Failure::field("preload", text, allowed);
+        }
+        Failure::explained(path, text, &error)
+    })
+}
 
 /// Computes a scene for all combinations of values on axes, on random profiles of each.
 #[pyfunction]
-pub fn study(py: Python<'_>, call: Call, axes: Axes, record: Vec<String>) -> PyResult<Report> {
+pub fn study(py: Python<'_>, call: Call, axes: Vec<GivenAxis>, record: Vec<String>) -> PyResult<Report> {
     call.computed(py, |case| {
+        case.check_files()?;
         let record = record.iter().map(|name| Quantity::named(name)).collect::<Result<Vec<_>, _>>()?;
-        let axes: Vec<_> = axes.iter().map(|(path, values)| (path.as_str(), values.as_slice())).collect();
+        let mut read = Vec::new();
+        for axis in &axes {
+            read.push(read_axis(case.document.scene(), axis)?);
+        }
+        let axes: Vec<_> = read.iter().map(|(path, values)| (path.as_str(), values.as_slice())).collect();
         let plan = Plan::new(&case.document, &axes, case.profiles, &record)?;
         let (stop, all) = (|| case.watch.stop(), plan.records_in_all());
         let mut report = |done| case.watch.report(done, all);

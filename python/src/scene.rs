@@ -1,14 +1,60 @@
-//! Scenes: named, read from files or from text, with other values of their fields.
+//! Scenes: named, read from files or from text, with other values of their fields, and with surfaces in memory.
 
 use crate::failure::Failure;
+use crate::force_loop::Profile;
+use asperity::data::shown;
 use asperity::scene::library::is_path;
-use asperity::scene::{Document, open};
+use asperity::scene::text::ron_float;
+use asperity::scene::{
+    Document, Material, Measured, Numerics, Roughness, Scene as SceneValues, Simulation, open,
+};
+use asperity::surface::lines::{MeasuredProfile, MeasuredRoughness};
 use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// Name in place of a file for an equivalent line of which only the heights are known.
+const HEIGHTS: &str = "heights in memory";
 
 /// A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of its computation.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Scene {
     pub document: Document,
+    /// Roughness in memory, of which the scene has no file.
+    pub in_memory: Option<Arc<MeasuredRoughness>>,
+}
+
+impl Scene {
+    /// Returns a simulation of this scene.
+    pub fn simulation(&self) -> Simulation {
+        simulation(&self.document, self.in_memory.as_ref())
+    }
+
+    /// Returns the roughness in memory if the document, which was made from this scene, still has it.
+    fn kept_in_memory(&self, document: &Document) -> Result<Option<Arc<MeasuredRoughness>>, Failure> {
+        let (Some(in_memory), Some(before), Some(after)) =
+            (&self.in_memory, self.document.scene().measured(), document.scene().measured())
+        else {
+            return Ok(None);
+        };
+        if before.file != after.file {
+            return Ok(None);
+        }
+        let with_former_seed = Measured { seed: before.seed, ..after.clone() };
+        if with_former_seed != *before {
+            let allowed = "another seed alone, since the surface is in memory; asperity.surface takes the other options";
+            return Err(Failure::field("roughness", &before.file, allowed));
+        }
+        Ok(Some(Arc::clone(in_memory)))
+    }
+}
+
+/// Returns a simulation of a document, with a roughness in memory in place of files.
+pub fn simulation(document: &Document, in_memory: Option<&Arc<MeasuredRoughness>>) -> Simulation {
+    let simulation = Simulation::new(document.resolve(""));
+    match in_memory {
+        Some(in_memory) => simulation.with_measured(Arc::clone(in_memory)),
+        None => simulation,
+    }
 }
 
 #[pymethods]
@@ -20,18 +66,58 @@ impl Scene {
             true => Failure::of_files(&[name.into()], errors),
             false => errors.into(),
         });
-        Ok(Scene { document: document? })
+        Ok(Scene { document: document?, in_memory: None })
     }
 
     /// Reads the text of a scene. Files that the scene names are relative to the working folder.
     #[staticmethod]
     fn parse(text: &str) -> Result<Scene, Failure> {
-        Ok(Scene { document: Document::parse(text, "scene")? })
+        Ok(Scene { document: Document::parse(text, "scene")?, in_memory: None })
+    }
+
+    /// Returns a scene of a profile whose heights are given, on a body of this effective modulus in Pa.
+    #[staticmethod]
+    fn of_profile(profile: &Profile, modulus: f64) -> Result<Scene, Failure> {
+        let profile = &profile.profile;
+        let points = profile.points();
+        if points < 2 {
+            return Err(Failure::field("heights", "1 height", "at least 2 heights"));
+        }
+        let (length, cell) = (profile.length(), profile.length() / points as f64);
+        let positions = (0..points).map(|index| (index as f64 + 0.5) * cell).collect();
+        let heights = MeasuredProfile { positions, heights: profile.heights().collect() };
+        let roughness = Measured { as_line: true, ..Measured::of_file(HEIGHTS) };
+        let scene = SceneValues {
+            roughness: Some(Roughness::Measured(roughness)),
+            numerics: Numerics { points: points as u64, ..Numerics::default() },
+            ..SceneValues::new(Material::effective(modulus), length)
+        };
+        let document = Document::from_scene(&scene, "scene")?;
+        Ok(Scene { document, in_memory: Some(Arc::new(MeasuredRoughness::Profile(heights))) })
     }
 
     /// Returns the scene with other values of fields, given as pairs of a path and a value in the notation of a scene file.
     fn set(&self, fields: Vec<(String, String)>) -> Result<Scene, Failure> {
-        Ok(Scene { document: self.document.set_all(&fields)? })
+        let document = self.document.set_all(&fields)?;
+        let in_memory = self.kept_in_memory(&document)?;
+        Ok(Scene { document, in_memory })
+    }
+
+    /// Returns the scene with these works of adhesion in J/m². Without `closing`, both works are equal. The range of the
+    /// attraction stays. A work of 0 removes the adhesion.
+    fn with_works(&self, work: f64, closing: Option<f64>) -> Result<Scene, Failure> {
+        if work == 0.0 && closing.is_none() {
+            return self.set(vec![("adhesion".to_owned(), "None".to_owned())]);
+        }
+        let range = self.document.scene().adhesion.and_then(|adhesion| adhesion.range);
+        let mut text = format!("(work: {}", ron_float(work));
+        for (name, value) in [("closing_work", closing), ("range", range)] {
+            if let Some(value) = value {
+                text += &format!(", {name}: {}", ron_float(value));
+            }
+        }
+        text.push(')');
+        self.set(vec![("adhesion".to_owned(), text)])
     }
 
     /// Text of the scene, as a scene file holds it.
@@ -41,7 +127,7 @@ impl Scene {
     }
 
     fn __repr__(&self) -> String {
-        format!("<Scene {:?}>", self.document.title())
+        format!("<Scene \"{}\">", shown(self.document.title()))
     }
 }
 

@@ -2,14 +2,13 @@
 
 use crate::computing::computed;
 use crate::failure::Failure;
-use crate::fit::command;
-use crate::force_loop::Profile;
 use crate::results::{Report, bytes};
 use crate::scene::Scene;
-use asperity::cli::arguments::Command;
-use asperity::cli::surface::SurfaceArguments;
-use asperity::scene::Document;
-use asperity::surface::{EquivalentLine, Topography, analyse};
+use asperity::cli::surface::SurfaceTask;
+use asperity::data::parallel;
+use asperity::scene::{Document, Roughness};
+use asperity::surface::lines::MeasuredRoughness;
+use asperity::surface::{Topography, analyse};
 use asperity_report::{MeasuredFace, SurfaceFile, SurfaceReport};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -19,40 +18,48 @@ use std::sync::Arc;
 /// A map of heights, m, and the distances between its points and between its rows, m.
 type Map<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
 
+/// Radius of the tip (m), effective modulus (Pa), work of adhesion (J/m²), preload (N); a number may be unknown.
+type Numbers = [Option<f64>; 4];
+
 /// An analysed measured surface, from which profiles and scenes are made.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Surface {
-    arguments: SurfaceArguments,
+    task: SurfaceTask,
     report: Arc<SurfaceReport>,
+    /// True if the heights are those of an array, which no scene can name.
+    is_array: bool,
 }
 
 #[pymethods]
 impl Surface {
-    /// Analyses the files among the words, or a map of heights in m with the distances between points and between rows, m.
+    /// Analyses the files of the measured roughness of a scene, or a map of heights that is read with the options of this
+    /// roughness. With a modulus and a work of adhesion, computes the adhesion on `profiles` random profiles.
     #[new]
-    fn new(py: Python<'_>, words: Vec<String>, map: Option<Map<'_>>) -> PyResult<Surface> {
-        let map = map.as_ref().map(|(map, at)| Ok::<_, PyErr>((map.as_slice()?, map.shape()[1], *at)));
-        let map = map.transpose()?;
+    fn new(
+        py: Python<'_>,
+        scene: &Scene,
+        numbers: Numbers,
+        profiles: Option<u32>,
+        jobs: Option<usize>,
+        map: Option<Map<'_>>,
+    ) -> PyResult<Surface> {
+        let Some(measured) = scene.document.scene().measured().cloned() else {
+            return Err(Failure::from("a scene without a measured surface".to_owned()).into());
+        };
+        let [tip_radius, modulus, work, preload] = numbers;
+        let jobs = jobs.unwrap_or_else(parallel::threads);
+        let task = SurfaceTask { measured, tip_radius, modulus, work, preload, profiles, jobs };
+        let heights = match &map {
+            Some((map, spacing)) => Some((map.as_slice()?, map.shape()[1], *spacing)),
+            None => None,
+        };
         computed(py, None, |_| {
-            let Some(Command::Surface(arguments)) = command("surface", words)? else {
-                return Err("surface: no options of a surface".to_owned().into());
+            let faces = match heights {
+                None => read_faces(&task)?,
+                Some((heights, columns, spacing)) => faces_of_map(&task, heights, columns, spacing)?,
             };
-            let faces = match map {
-                None => arguments
-                    .faces()
-                    .map_err(|error| Failure::of_files(&arguments.files, error.to_string()))?,
-                Some((heights, columns, spacing)) => {
-                    let surface = Topography::from_map(heights, columns, spacing)?;
-                    let options = arguments.options().map_err(|error| error.to_string())?;
-                    let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
-                    vec![MeasuredFace { files, analysis: analyse(&[surface], &options.spectrum)? }]
-                }
-            };
-            let line =
-                EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
-            let (modulus, work) = (arguments.modulus, arguments.work);
-            let report = Arc::new(SurfaceReport { faces, line, modulus, work, adhesion: None });
-            Ok(Surface { arguments, report })
+            let report = task.report(faces, true).map_err(|error| error.to_string())?;
+            Ok(Surface { task, report: Arc::new(report), is_array: heights.is_some() })
         })
     }
 
@@ -63,18 +70,49 @@ impl Surface {
         Report::new(move |format| bytes(None, &*report, format))
     }
 
-    /// A random profile of the equivalent line.
-    fn profile(&self, py: Python<'_>, length: f64, points: usize, seed: u64) -> PyResult<Profile> {
-        computed(py, None, |_| {
-            let heights = self.report.line.heights(length, points, seed)?;
-            let profile = asperity::Profile::from_heights(heights, length / points as f64)?;
-            Ok(Profile { profile })
-        })
+    /// Returns a scene with the roughness of this surface and this seed of its random phases. The spectrum of an array is in memory.
+    fn roughen(&self, scene: &Scene, seed: u64) -> Result<Scene, Failure> {
+        let mut measured = self.task.measured.clone();
+        measured.seed = seed;
+        let mut rough = (**scene.document.scene()).clone();
+        rough.roughness = Some(Roughness::Measured(measured));
+        Ok(Scene { document: Document::from_scene(&rough, "scene")?, in_memory: self.in_memory() })
     }
 
-    /// A scene of the equivalent line over the length of the scan, on a body of this effective modulus, Pa.
+    /// A scene of the equivalent line over the length of the scan, on a body of this effective modulus in Pa.
     fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
-        let scene = self.arguments.scene_of(modulus, &self.report.faces, &self.report.line);
-        Ok(Scene { document: Document::from_scene(&scene.map_err(|error| error.to_string())?, "scene")? })
+        let scene = self.task.scene(modulus, &self.report.faces, &self.report.line);
+        Ok(Scene { document: Document::from_scene(&scene, "scene")?, in_memory: self.in_memory() })
     }
+}
+
+impl Surface {
+    fn in_memory(&self) -> Option<Arc<MeasuredRoughness>> {
+        self.is_array.then(|| Arc::new(MeasuredRoughness::Equivalent(self.report.line.clone())))
+    }
+}
+
+fn read_faces(task: &SurfaceTask) -> Result<Vec<MeasuredFace>, Failure> {
+    let mut files = task.files();
+    files.extend(task.measured.opposite.iter().map(PathBuf::from));
+    task.faces().map_err(|error| Failure::of_files(&files, error.to_string()))
+}
+
+/// Analyses a map of heights in m, and the file of the opposite face if there is one.
+fn faces_of_map(
+    task: &SurfaceTask,
+    heights: &[f64],
+    columns: usize,
+    spacing: [f64; 2],
+) -> Result<Vec<MeasuredFace>, Failure> {
+    let options = task.options();
+    let surface = Topography::from_map_with(heights, columns, spacing, &options.reading)?;
+    let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
+    let mut faces = vec![MeasuredFace { files, analysis: analyse(&[surface], &options.spectrum)? }];
+    if let Some(file) = &task.measured.opposite {
+        let opposite = task.opposite_face();
+        let opposite = opposite.map_err(|error| Failure::of_files(&[file.into()], error.to_string()))?;
+        faces.extend(opposite);
+    }
+    Ok(faces)
 }

@@ -101,7 +101,7 @@ class Refusals(unittest.TestCase):
             (["a"], "the type <U1"),
             (np.zeros(3, complex), "complex128"),
             (np.zeros(3, bool), "bool"),
-            ([[1], [2, 3]], "inhomogeneous"),
+            ([[1], [2, 3]], "rows of different lengths"),
         ]:
             error = self.refused(asp.FieldError, f"^heights = .*{found}.*; allowed: a one-dim", asp.Profile, heights, 1)
             self.assertEqual(error.field, "heights")
@@ -109,14 +109,14 @@ class Refusals(unittest.TestCase):
             error = self.refused(asp.FieldError, "allowed: from 1e-50 to 1e50 m|not a number", asp.Profile, [1, 2], spacing)
             self.assertEqual(error.field, "spacing")
         self.refused(asp.FieldError, 'spacing = "3 kg": kg is not a unit of length', asp.Profile, [1, 2], "3 kg")
-        self.refused(TypeError, "spacing: bool; allowed: a number in m", asp.Profile, [1, 2], True)
+        self.refused(asp.FieldError, "spacing = .*bool; allowed: a number in m", asp.Profile, [1, 2], True)
 
     def test_loadings(self):
         body = sphere(64)
         for body in [body, asp.Profile(body.heights, body.spacing)]:
             out_of_reach = {**LOAD, "stages": "10 µN, -1 N"}
-            error = self.refused(asp.LoadingError, "stage 2: the contact detaches before -1 N", asp.load, body, **out_of_reach)
-            self.assertEqual(error.stage, 2)
+            error = self.refused(asp.LoadingError, "^stage 1, counted from 0: the contact detaches before -1 N", asp.load, body, **out_of_reach)
+            self.assertEqual(error.stage, 1)
             self.assertAlmostEqual(error.smallest_force, -23.56e-6, delta=1e-7)
             for name, value in [("modulus", -1), ("modulus", "2 kg"), ("work", -1), ("work", np.nan), ("edges", "x")]:
                 self.refused(asp.FieldError, "=|:", asp.load, body, **{**LOAD, name: value})
@@ -134,7 +134,7 @@ class Refusals(unittest.TestCase):
         self.assertIn("above 0 and below 1", error.allowed)
         for name in ["profiles", "jobs"]:
             self.refused(asp.FieldError, f"^{name} = 0; allowed: a whole number from 1", asp.run, SCENE, **{name: 0})
-        self.refused(TypeError, "object; allowed: a number", asp.run, SCENE, roughness__hurst=object())
+        self.refused(asp.FieldError, "object; allowed: a number", asp.run, SCENE, roughness__hurst=object())
         self.refused(ValueError, "no such number", asp.find, "x", SCENE, "F_a = 1 N")
         self.refused(ValueError, "allowed: a quantity", asp.find, "preload", SCENE, "much")
 
@@ -173,19 +173,18 @@ class Computations(unittest.TestCase):
     def test_what_cannot_be_measured_is_refused(self):
         for wrong, sentence in [
             (lambda: asp.surface("no.txt"), "no.txt: cannot be read"),
-            (lambda: asp.surface([1, 2, np.nan], spacing=1), "heights = nan with the index 2"),
+            (lambda: asp.surface([1, 2, np.inf], spacing=1), "heights = inf with the index 2"),
             (lambda: asp.surface([1, 2, 3]), "spacing = None; allowed: the distance between the points"),
-            (lambda: asp.surface([[1, 2], [3]], spacing=1), "heights = .*inhomogeneous"),
-            (lambda: asp.surface("no.txt", nosuch=1), "unexpected argument '--nosuch' found"),
+            (lambda: asp.surface([[1, 2], [3]], spacing=1), "heights = rows of different lengths"),
+            (lambda: asp.surface("no.txt", nosuch=1), "nosuch = 1; allowed: one of the arguments spacing, unit"),
             (lambda: asp.fit("no.csv", SCENE, ["work"]), "no.csv: cannot be read"),
             (lambda: asp.fit([], SCENE, ["work"]), r"curves = \[\]; allowed"),
             (lambda: asp.fit(([1], [1, 2]), SCENE, ["work"]), "1 displacements and 2 forces"),
             (lambda: asp.fit(([1], [1]), SCENE, ["wrk"]), "did you mean work"),
             (lambda: asp.fit(([1], [1]), SCENE, ["work"], options={"noise": "-5 nN"}), "allowed: a standard deviation above 0"),
             (lambda: asp.study(SCENE, {"adhesion.kappa": []}), "no values; allowed: at least one"),
-            (lambda: asp.surface(np.arange(64.0) % 3, spacing=1).scene(modulus=1), r"numpy\.save\('map\.npy', heights\)"),
             (lambda: asp.table([[0, 1], [0, 2]]), r"numpy\.save\('tip\.npy', numpy\.c_\[radii, depths\]\)"),
-            (lambda: asp.run(asp.Profile([0, 1], 1)), r"asperity\.measured\('line\.npy', as_line=True\)"),
+            (lambda: asp.run(asp.Profile([0, 1], 1), modulus=1e6), r"asperity\.measured\('line\.npy', as_line=True\)"),
             (lambda: asp.press(np.zeros((32, 33)), side=1, modulus=1, force=1), "a square map"),
             (lambda: asp.press(np.zeros((31, 31)), side=1, modulus=1, force=1), "31"),
         ]:
@@ -204,6 +203,10 @@ class Computations(unittest.TestCase):
         before = threads()
         with self.assertRaisesRegex(KeyError, "enough"):
             asp.ensemble(SCENE, profiles=20_000, progress=fail)
+        # The system may list a thread that has ended for a moment.
+        end = time.monotonic() + 5
+        while threads() > before and time.monotonic() < end:
+            time.sleep(0.01)
         self.assertEqual(threads(), before)
 
     def test_other_threads_run_meanwhile(self):

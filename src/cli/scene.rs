@@ -66,7 +66,7 @@ impl SceneArguments {
     /// Opens the scene and applies the overrides.
     pub(super) fn open(&self) -> Result<Document, CliError> {
         let document = self.overrides.apply(open_scene(&self.scene)?)?;
-        if let Some(warning) = document.scene().warning() {
+        for warning in document.scene().warnings() {
             // The command continues even if standard error is closed.
             let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(document.name()));
         }

@@ -137,6 +137,18 @@ impl SurfaceArguments {
         })
     }
 
+    fn task(&self) -> Result<SurfaceTask, CliError> {
+        Ok(SurfaceTask {
+            measured: self.surfaces()?,
+            tip_radius: self.in_metres("--tip-radius", self.tip_radius)?,
+            modulus: self.modulus,
+            work: self.work,
+            preload: self.preload,
+            profiles: self.lines,
+            jobs: threads(None),
+        })
+    }
+
     /// Returns an error for an output file that is one of the measured files, even with `--force`: it could not be measured
     /// again.
     fn check_outputs(&self) -> Result<(), CliError> {
@@ -152,51 +164,104 @@ impl SurfaceArguments {
             None => Ok(()),
         }
     }
+}
 
-    /// Options of reading and analysing the files.
-    ///
-    /// # Errors
-    /// A length without a unit, and a wavelength out of its range.
-    pub fn options(&self) -> Result<MeasuredOptions, CliError> {
-        let mut options = self.surfaces()?.options();
-        options.spectrum.tip_radius = self.in_metres("--tip-radius", self.tip_radius)?;
-        Ok(options)
+/// Task of analysing a measured surface, and of computing the adhesion of its equivalent line.
+#[derive(Clone, Debug)]
+pub struct SurfaceTask {
+    /// Files of the surface, and the options for reading and analysing them.
+    pub measured: Measured,
+    /// Radius of the tip in m, for the reliability cut-off; `None` if it is unknown.
+    pub tip_radius: Option<f64>,
+    /// Effective modulus E* in Pa; `None` if no elastic energy is wanted.
+    pub modulus: Option<f64>,
+    /// Work of adhesion γ in J/m²; `None` if no adhesion is wanted.
+    pub work: Option<f64>,
+    /// Preload in N; `None` for a loading that turns at zero force.
+    pub preload: Option<f64>,
+    /// Number of random profiles of the adhesion force; `None` for 16 on at most 131 072 springs, and none on more.
+    pub profiles: Option<u32>,
+    /// Number of threads. No result depends on it.
+    pub jobs: usize,
+}
+
+impl SurfaceTask {
+    /// Returns the options of reading and analysing the files.
+    pub fn options(&self) -> MeasuredOptions {
+        let mut options = self.measured.options();
+        options.spectrum.tip_radius = self.tip_radius;
+        options
     }
 
-    /// The faces with their files read and analysed: that of the files, and an opposite one.
+    /// Returns the files of the surface, without the file of the opposite face.
+    pub fn files(&self) -> Vec<PathBuf> {
+        std::iter::once(&self.measured.file).chain(&self.measured.further_files).map(PathBuf::from).collect()
+    }
+
+    /// Reads and analyses the files of the surface, and the file of the opposite face if there is one.
     ///
     /// # Errors
-    /// As for [`SurfaceArguments::options`], and a file that cannot be read or analysed.
+    /// Returns an error for a file that cannot be read or analysed.
     pub fn faces(&self) -> Result<Vec<MeasuredFace>, CliError> {
-        let options = self.options()?;
-        let opposite = self.opposite.as_ref().map(std::slice::from_ref);
-        std::iter::once(&self.files[..]).chain(opposite).map(|files| face(files, &options)).collect()
+        let mut faces = vec![face(&self.files(), &self.options())?];
+        faces.extend(self.opposite_face()?);
+        Ok(faces)
     }
 
-    /// Creates a scene of the equivalent line over the length of the scan, on a body of this effective modulus, Pa; of two faces
-    /// the shorter scan counts.
+    /// Reads and analyses the file of the opposite face; `None` if there is none.
     ///
     /// # Errors
-    /// As for [`SurfaceArguments::options`].
-    pub fn scene_of(
-        &self,
-        modulus: f64,
-        faces: &[MeasuredFace],
-        line: &EquivalentLine,
-    ) -> Result<Scene, CliError> {
-        let measured = self.surfaces()?;
-        let name = self.files.first().and_then(|file| file.file_name()).unwrap_or_default();
+    /// Returns an error if the file cannot be read or analysed.
+    pub fn opposite_face(&self) -> Result<Option<MeasuredFace>, CliError> {
+        let Some(file) = &self.measured.opposite else {
+            return Ok(None);
+        };
+        face(&[PathBuf::from(file)], &self.options()).map(Some)
+    }
+
+    /// Creates a scene of the equivalent line over the length of the scan, on a body of this effective modulus in Pa. Of two
+    /// faces the shorter scan counts.
+    pub fn scene(&self, modulus: f64, faces: &[MeasuredFace], line: &EquivalentLine) -> Scene {
+        let name = Path::new(&self.measured.file).file_name().unwrap_or_default();
         let length = faces.iter().map(|face| face.analysis.length).fold(f64::INFINITY, f64::min);
         // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
         let length = round_to(length, 12);
-        Ok(Scene {
+        Scene {
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
-            roughness: Some(Roughness::Measured(measured)),
+            roughness: Some(Roughness::Measured(self.measured.clone())),
             adhesion: self.work.map(Adhesion::by_work),
             loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
             numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
             ..Scene::new(Material::effective(modulus), length)
-        })
+        }
+    }
+
+    /// Makes the report of analysed faces. If `computes_adhesion` is true and a work of adhesion is given, the adhesion of the
+    /// equivalent line is computed on random profiles.
+    ///
+    /// # Errors
+    /// Returns an error for a value that a scene does not allow, and if a profile cannot be computed.
+    pub fn report(
+        &self,
+        faces: Vec<MeasuredFace>,
+        computes_adhesion: bool,
+    ) -> Result<SurfaceReport, CliError> {
+        let line =
+            EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
+        let mut report =
+            SurfaceReport { faces, line, modulus: self.modulus, work: self.work, adhesion: None };
+        let (true, Some(modulus), Some(_)) = (computes_adhesion, self.modulus, self.work) else {
+            return Ok(report);
+        };
+        let scene = self.scene(modulus, &report.faces, &report.line).checked()?;
+        let is_quick = scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
+        let profiles = self.profiles.or(is_quick.then_some(LINES));
+        let solve = |count: u32| MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs);
+        let solved = profiles.map(solve).transpose();
+        let solved =
+            solved.map_err(|error| CliError::named(path_name(Path::new(&self.measured.file)), error))?;
+        report.adhesion = Some((scene, solved));
+        Ok(report)
     }
 }
 
@@ -206,26 +271,14 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     if let Some(file) = &arguments.scene {
         check_file(file, "ron", arguments.output.force)?;
     }
-    let faces = arguments.faces()?;
-    let line = EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
-    let modulus = arguments.modulus;
-    let scene = modulus.map(|modulus| arguments.scene_of(modulus, &faces, &line)).transpose()?;
-    if let (Some(file), Some(scene)) = (&arguments.scene, &scene) {
-        write_scene(file, scene.clone(), arguments.output.force)?;
+    let task = arguments.task()?;
+    // Adhesion is computed for text and JSON alone, since it takes seconds.
+    let report = task.report(task.faces()?, matches!(format, Format::Text | Format::Json))?;
+    if let (Some(file), Some(modulus)) = (&arguments.scene, task.modulus) {
+        let scene = task.scene(modulus, &report.faces, &report.line);
+        write_scene(file, scene, arguments.output.force)?;
     }
-    // Adhesion is computed for text and JSON, if it is asked for or takes seconds.
-    let is_asked = arguments.work.is_some() && matches!(format, Format::Text | Format::Json);
-    let adhesion = scene.filter(|_| is_asked).map(|scene| {
-        let scene = scene.checked()?;
-        let unasked = (scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS).then_some(LINES);
-        let solve = |lines: u32| MeasuredAdhesion::of_line(&scene, &line, lines, threads(None));
-        let solved = arguments.lines.or(unasked).map(solve).transpose();
-        let solved = solved.map_err(|error| CliError::named(path_name(&arguments.files[0]), error))?;
-        Ok::<_, CliError>((scene, solved))
-    });
-    let adhesion = adhesion.transpose()?;
     let files: Vec<PathBuf> = arguments.files.iter().chain(&arguments.opposite).cloned().collect();
-    let report = SurfaceReport { faces, line, modulus, work: arguments.work, adhesion };
     arguments.output.write(stdout, &report, format, Origin::Files(&files))
 }
 

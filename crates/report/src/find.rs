@@ -23,59 +23,93 @@ pub struct FindReport<'a> {
     pub found: &'a Found,
 }
 
-/// Returns the answer of a search in one sentence. It has the median and the quartiles, over the profiles, of the number at which
-/// the result reaches the wanted value.
+/// Returns the answer of a search in one or two sentences. They have the median and the quartiles, over the profiles, of the
+/// number at which the result reaches the wanted value, and state how many profiles have no such number and where a crossing
+/// may be missed.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
-    let (axis, count) = (&question.axis, found.answers.len());
-    let (name, quantity) = (axis.symbol_or_name(), question.quantity.symbol_or_name());
-    let (target, searched) = (target_in_words(found), format_range(question.searched, 4, axis.unit));
+    let count = found.answers.len();
+    let (name, quantity) = (question.axis.symbol_or_name(), question.quantity.symbol_or_name());
+    let (target, searched) = (target_in_words(found), format_range(question.searched, 4, question.axis.unit));
     let reachable = found.reachable().map_or_else(String::new, |ends| values_in_words(found, ends));
-    let numbers = |ends: (f64, f64)| format_range(ends, 3, axis.unit);
-    let everywhere = |answer: &&Answer| answer.crossings.is_empty() && answer.reached == [true; 2];
-    let reached = found.answers.iter().filter(everywhere).count();
-    let met = found.values().iter().flatten().count();
-    if reached == count {
-        let any = if question.is_of_preload() { "preload" } else { name };
+    let is_enough = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [true; 2];
+    if question.seeks_least_preload() && found.answers.iter().all(is_enough) {
         let touch = at_touch_in_words(found);
         return format!(
-            "{target} is reached at any {any} from {searched}{touch}: {quantity} is {reachable}."
+            "{target} is reached at any preload from {searched}{touch}: {quantity} is {reachable}."
         );
     }
-    if met + reached == 0 {
-        return format!("{target} is never reached with {name} from {searched}: {quantity} is {reachable}.");
+    let with_value = count - found.unreached();
+    if with_value == 0 {
+        let never = never_in_words(found);
+        let missed = missed_in_words(found).map_or_else(String::new, |missed| format!(" {missed}"));
+        return format!(
+            "{target} is {never} with {name} from {searched}: {quantity} is {reachable}.{missed}"
+        );
     }
-    match [0.25, 0.5, 0.75].map(|share| found.quantile(share)) {
-        [_, Some(median), _] if count == 1 => {
-            format!("{name} = {} for {target}.", format_quantity(median, axis.unit))
-        }
-        [low, Some(median), high] => {
-            let quartile = |end: Option<f64>| end.map(|end| numbers((end, end)));
-            let quartiles = match (low.zip(high), quartile(low), quartile(high)) {
-                (Some(both), ..) => format!("quartiles {}", numbers(both)),
-                (None, Some(low), _) => {
-                    format!("lower quartile {low}, the upper one beyond the searched range")
-                }
-                (None, _, Some(high)) => {
-                    format!("upper quartile {high}, the lower one beyond the searched range")
-                }
-                (None, None, None) => "both quartiles beyond the searched range".to_owned(),
-            };
-            let median = format_quantity(median, axis.unit);
-            format!("{name} = {median} for {target}: median of {count} profiles, {quartiles}.")
-        }
-        [_, None, _] if met == 0 => {
+    let Some(median) = found.quantile(0.5) else {
+        let range = found
+            .range()
+            .map_or_else(String::new, |ends| format!(", at {}", format_range(ends, 3, question.axis.unit)));
+        return format!(
+            "{target} is reached on {with_value} of {count} profiles with {name} from {searched}{range}, which is too few \
+             for a median: {quantity} is {reachable}."
+        );
+    };
+    let median = format_quantity(median, question.axis.unit);
+    if count == 1 {
+        let crossings = found.answers[0].crossings.len();
+        let at_least = match (found.answers[0].may_miss, crossings) {
+            (false, _) => String::new(),
+            (true, 1) => ", the first of at least 1 crossing".to_owned(),
+            (true, _) => format!(", the first of at least {crossings} crossings"),
+        };
+        return format!("{name} = {median} for {target}{at_least}.");
+    }
+    let mut beside = vec![quartiles_in_words(found)];
+    if found.unreached() > 0 {
+        beside.push(format!("{} of {count} profiles without a value", found.unreached()));
+    }
+    let beside = beside.join("; ");
+    let missed = missed_in_words(found).map_or_else(String::new, |missed| format!(" {missed}"));
+    format!("{name} = {median} ({beside}) for {target}: median of {count} profiles.{missed}")
+}
+
+/// Returns the quartiles in words: `quartiles 6.71 to 17.3 µN`.
+fn quartiles_in_words(found: &Found) -> String {
+    let unit = found.question.axis.unit;
+    match [0.25, 0.75].map(|share| found.quantile(share)) {
+        [Some(low), Some(high)] => format!("quartiles {}", format_range((low, high), 3, unit)),
+        [Some(low), None] => {
             format!(
-                "{target} is crossed on no profile with {name} from {searched}: {quantity} is {reachable}."
+                "lower quartile {}, the upper one beyond the searched range",
+                format_rounded(low, 3, unit)
             )
         }
-        [_, None, _] => {
-            let range = found.range().map_or_else(String::new, |ends| format!(", at {}", numbers(ends)));
+        [None, Some(high)] => {
             format!(
-                "{target} is crossed on {met} of {count} profiles with {name} from {searched}{range}, which is too few for a \
-                 median: {quantity} is {reachable}."
+                "upper quartile {}, the lower one beyond the searched range",
+                format_rounded(high, 3, unit)
             )
         }
+        [None, None] => "both quartiles beyond the searched range".to_owned(),
+    }
+}
+
+/// Returns words for a target without a crossing on any profile.
+fn never_in_words(found: &Found) -> &'static str {
+    let is_proven = found.answers.iter().all(|answer| answer.is_proven && !answer.may_miss);
+    if is_proven { "never reached" } else { "reached at none of the computed values" }
+}
+
+/// Returns a sentence on the profiles on which a crossing may be missed; `None` without such a profile.
+fn missed_in_words(found: &Found) -> Option<String> {
+    let count = found.answers.iter().filter(|answer| answer.may_miss).count();
+    let all = found.answers.len();
+    match (count, all) {
+        (0, _) => None,
+        (_, 1) => Some("Crossings may be missed.".to_owned()),
+        _ => Some(format!("On {count} of {all} profiles crossings may be missed.")),
     }
 }
 
@@ -101,6 +135,28 @@ fn values_in_words(found: &Found, (least, most): (f64, f64)) -> String {
     one_unit([least, most].map(|value| rounded(found.question.quantity, value, 4)))
 }
 
+/// Returns words on the numbers at which the quantity was computed. They are empty if the crossings follow from a proof.
+fn computed_in_words(found: &Found) -> String {
+    let waves = if found.question.is_of_whole_waves() {
+        ", only where a whole number of waves fits on the length"
+    } else {
+        ""
+    };
+    let mut tried: Vec<u64> = Vec::new();
+    for answer in &found.answers {
+        if !answer.is_proven {
+            tried.push(answer.tried);
+        }
+    }
+    let (Some(least), Some(most)) = (tried.iter().min(), tried.iter().max()) else {
+        return waves.to_owned();
+    };
+    let count =
+        if least == most { grouped(*most) } else { format!("{} to {}", grouped(*least), grouped(*most)) };
+    let each = if found.answers.len() > 1 { " on each profile" } else { "" };
+    format!(", computed at {count} values{each}{waves}")
+}
+
 impl FindReport<'_> {
     /// Returns sentences on the profiles whose answer is not a single number.
     fn exceptions(&self) -> Vec<String> {
@@ -118,7 +174,7 @@ impl FindReport<'_> {
             // The answer itself says so.
             return sentences;
         }
-        if question.is_of_preload() {
+        if question.seeks_least_preload() {
             let least = format_quantity(question.searched.0, question.axis.unit);
             let enough = of_profiles(&|answer| answer.reached[0]);
             sentences.extend(enough.map(|on| format!("{on} {least} is enough, and counts.")));
@@ -143,10 +199,12 @@ impl FindReport<'_> {
         let unit = self.found.question.axis.unit;
         let several = self.found.answers.iter().filter(|answer| answer.crossings.len() > 1);
         let row = |answer: &Answer| {
-            let all: Vec<String> =
+            let numbers: Vec<String> =
                 answer.crossings.iter().map(|number| format_rounded(*number, 3, unit)).collect();
+            let at_least =
+                if answer.may_miss { format!("at least {}: ", numbers.len()) } else { String::new() };
             let seed = answer.seed.map_or("this profile".to_owned(), |seed| format!("seed {seed}"));
-            (seed, all.join(", "))
+            (seed, format!("{at_least}{}", numbers.join(", ")))
         };
         several.map(row).collect()
     }
@@ -169,8 +227,12 @@ impl Report for FindReport<'_> {
         }
         let refused =
             found.refused.as_ref().map(|why| format!(" Not all of these numbers are allowed: {why}."));
-        let searched =
-            format!("Searched: {} from {}.", axis.name, format_range(question.searched, 4, axis.unit));
+        let searched = format!(
+            "Searched: {} from {}{}.",
+            axis.name,
+            format_range(question.searched, 4, axis.unit),
+            computed_in_words(found)
+        );
         let profiles = match found.answers.first().and_then(|answer| answer.seed) {
             Some(first) => format!(
                 "{}, {} springs.",
@@ -196,13 +258,16 @@ impl Report for FindReport<'_> {
             "field": &question.axis.path,
             "unit": question.axis.unit,
             "quantity": question.quantity,
-            "value": question.target,
+            "target": question.target,
+            "value": median,
             "profiles": question.profiles(),
+            "unreached": found.unreached(),
             "median": median,
             "quartiles": [low, high],
             "range": found.range(),
             "values": found.values(),
             "crossings": found.answers.iter().map(|answer| answer.crossings.len()).collect::<Vec<_>>(),
+            "at_least": found.answers.iter().map(|answer| answer.may_miss).collect::<Vec<_>>(),
             "all_crossings": found.answers.iter().map(|answer| &answer.crossings).collect::<Vec<_>>(),
             "at_first_touch": question.is_of_preload().then(|| found.answers.iter().filter(|answer| answer.at_touch).count()),
             "reachable": found.reachable(),
@@ -212,7 +277,8 @@ impl Report for FindReport<'_> {
     }
 
     /// Returns a table with a row for each profile: the number that was found, how often the result crosses the wanted value
-    /// in the searched range, and the smallest and largest result in this range.
+    /// in the searched range, 1 if it may cross it more often and otherwise 0, and the smallest and largest result in this
+    /// range.
     fn table(&self) -> Option<Table<'_>> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());
@@ -223,6 +289,7 @@ impl Report for FindReport<'_> {
         let table = table
             .with(self.found.question.axis.path.clone(), Kind::Real, |(_, value)| *value)
             .whole("crossings", |(answer, _)| answer.crossings.len() as u64)
+            .whole("at_least", |(answer, _)| u64::from(answer.may_miss))
             .real("least", |(answer, _)| answer.reachable.map(|ends| ends.0))
             .real("most", |(answer, _)| answer.reachable.map(|ends| ends.1));
         Some(table.done())

@@ -2,8 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::summary::tabor_number;
-use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped};
+use asperity_data::{AxisScale, Table, Warning, format_quantity, format_rounded, grouped};
 use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
@@ -90,7 +89,9 @@ impl Report for FitReport<'_> {
             sheet.paragraph(&format!("Pull-off force of the curve {}{work}.", format_quantity(force, "N")));
         }
         if let Some(number) = fit.tabor {
-            sheet.paragraph(&format!("Tabor number μ = {}.", tabor_number(number)));
+            sheet.paragraph(&format!("Tabor number μ = {}.", format_quantity(number, "1")));
+            let warning = Warning::of_tabor_number(number);
+            warning.iter().for_each(|warning| sheet.paragraph(&warning.to_string()));
         }
         let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
         if let Some((one, other, value)) = strongest {

@@ -15,6 +15,7 @@ const LEAST: f64 = 1.0;
 const HALF: f64 = 0.35;
 
 /// Report on how much the results of a scene change if one of its numbers is changed by +10 % or −10 %, for each number in turn.
+/// A whole number changes by at least 1, and a wavelength by at least one wave on the length.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     /// Title of the scene.
@@ -34,6 +35,12 @@ fn change_text(change: f64) -> String {
         LARGE.. => format!("×{}", format_rounded(1.0 + change, 3, "1")),
         _ => format!("{percent:+.digits$} %"),
     }
+}
+
+/// Writes the relative change of a number to two digits: `+10 %`, `-11 %`.
+fn step_text(step: f64) -> String {
+    let sign = if step < 0.0 { "-" } else { "+" };
+    format!("{sign}{} %", format_rounded(100.0 * step.abs(), 2, "1"))
 }
 
 /// Text in place of the range of changes, if the scene does not allow the number.
@@ -64,7 +71,7 @@ impl Side<'_> {
         match self.influence {
             None => ["least", "most"][self.side].to_owned(),
             Some(one) if one.axis.is_whole() => format!("{:+}", one.sides[self.side].0 - one.value),
-            Some(_) => format!("{:+} %", [-100.0, 100.0][self.side] * Sensitivity::STEP),
+            Some(one) => step_text(one.step(self.side)),
         }
     }
 
@@ -161,7 +168,15 @@ impl SensitivityReport<'_> {
             ),
             None => Ensemble::FIXED.to_owned(),
         };
-        format!("{} {profiles}", others_stay(self.scene.adhesion))
+        let has_wavelengths =
+            self.sensitivity.influences.iter().any(|one| one.axis.path.starts_with("roughness.wavelengths"));
+        let waves = if has_wavelengths {
+            " A wavelength changes so that whole waves fit on the length. Where the length changes, the numbers of waves on it \
+             stay."
+        } else {
+            ""
+        };
+        format!("{}{waves} {profiles}", others_stay(self.scene.adhesion))
     }
 }
 
@@ -193,13 +208,18 @@ impl Report for SensitivityReport<'_> {
         let ends = |range: [Option<(f64, f64)>; 3]| {
             object! { "adhesion_force": range[0], "first_touch_adhesion_force": range[1], "dissipated_energy": range[2] }
         };
-        let side = move |(value, changed): &(f64, Option<Changed>)| {
+        let side = move |influence: &Influence, side: usize| {
+            let (value, changed) = influence.sides[side];
+            let change = influence.step(side);
             changed.map(|changed| {
-                object! { "value": *value, "results": values(changed.medians), "profile_changes": ends(changed.range) }
+                object! {
+                    "value": value, "change": change, "results": values(changed.medians),
+                    "profile_changes": ends(changed.range),
+                }
             })
         };
         let influence = |influence: &Influence| {
-            let [smaller, larger] = influence.sides.each_ref().map(side);
+            let [smaller, larger] = [side(influence, 0), side(influence, 1)];
             object! {
                 "path": influence.axis.path.clone(), "name": influence.axis.name.clone(), "value": influence.value,
                 "smaller": smaller, "larger": larger,

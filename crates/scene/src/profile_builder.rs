@@ -4,17 +4,18 @@ use crate::analysis::governing::Governing;
 use crate::error::Error;
 use crate::scene::adhesion::Adhesion;
 use crate::scene::checked::CheckedScene;
+use crate::scene::errors::{SceneError, SceneErrors};
 use crate::scene::measured::Measured;
 use crate::scene::model::{Material, Numerics, Roughness, SPRINGS_PER_WAVE, Scene};
 use crate::simulation::outcome::{Outcome, RunError};
-use crate::simulation::stages::Simulation;
-use asperity_contact::{ContactError, Modulus, Move, Profile};
+use crate::simulation::stages::{Simulation, nominal_form, profile_of};
+use asperity_contact::{ContactError, Modulus, Move, NominalForm, Profile};
 use asperity_surface::lines::{Line, MeasuredRoughness};
 use asperity_surface::{EquivalentLine, Form};
 use std::sync::Arc;
 
 /// Builder of the one-dimensional profile that is equivalent to a body with a form and a roughness. By default the body is
-/// nominally flat and smooth.
+/// nominally flat and smooth. The order of the calls does not matter; of two values for the same quantity, the last one counts.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move};
@@ -33,30 +34,42 @@ pub struct ProfileBuilder {
     length: f64,
     points: usize,
     form: Option<Form>,
-    roughness: Option<Roughness>,
-    /// Measured spectrum in memory, used in place of the files of the roughness.
+    /// Members of a self-affine roughness, in the variant [`Roughness::SelfAffine`].
+    self_affine: Option<Roughness>,
+    /// Measured spectrum in memory.
     spectrum: Option<Arc<MeasuredRoughness>>,
+    /// Seed of the random phases of either roughness.
+    seed: u64,
 }
 
 /// Changes a member of the self-affine roughness. A roughness that begins here has no Hurst exponent yet.
 macro_rules! with_member {
     ($builder:expr, $member:ident, $value:expr) => {{
         let (mut builder, value) = ($builder, $value);
-        if !matches!(builder.roughness, Some(Roughness::SelfAffine { .. })) {
-            builder = builder.self_affine(f64::NAN);
-        }
-        if let Some(Roughness::SelfAffine { $member, .. }) = &mut builder.roughness {
+        let roughness = builder.self_affine.get_or_insert(WITHOUT_MEMBERS);
+        if let Roughness::SelfAffine { $member, .. } = roughness {
             *$member = value;
         }
         builder
     }};
 }
 
+/// Self-affine roughness of which no member is given. A scene refuses it.
+const WITHOUT_MEMBERS: Roughness = Roughness::SelfAffine {
+    hurst: f64::NAN,
+    rms_height: None,
+    rms_gradient: None,
+    modes: None,
+    wavelengths: None,
+    roll_off: None,
+    seed: 1,
+};
+
 impl ProfileBuilder {
     /// Begins a profile of this length in m with this number of points, one for each spring.
     #[must_use]
     pub fn new(length: f64, points: usize) -> Self {
-        ProfileBuilder { length, points, form: None, roughness: None, spectrum: None }
+        ProfileBuilder { length, points, form: None, self_affine: None, spectrum: None, seed: 1 }
     }
 
     /// Sets the macroscopic form of the body.
@@ -75,16 +88,7 @@ impl ProfileBuilder {
     /// [`Self::rms_height`] or [`Self::rms_gradient`], and waves, by [`Self::modes`] or [`Self::wavelengths`].
     #[must_use]
     pub fn self_affine(self, hurst: f64) -> Self {
-        let roughness = Roughness::SelfAffine {
-            hurst,
-            rms_height: None,
-            rms_gradient: None,
-            modes: None,
-            wavelengths: None,
-            roll_off: None,
-            seed: 1,
-        };
-        ProfileBuilder { roughness: Some(roughness), spectrum: None, ..self }
+        with_member!(self, hurst, hurst)
     }
 
     /// Sets the rms height of the self-affine roughness in m. Give either the rms height or the rms gradient.
@@ -118,7 +122,7 @@ impl ProfileBuilder {
         with_member!(self, roll_off, Some(wavelength))
     }
 
-    /// Sets a roughness with a measured spectrum and random phases, in place of a self-affine roughness.
+    /// Sets a roughness with a measured spectrum and random phases. A body with a self-affine roughness as well is refused.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -134,19 +138,13 @@ impl ProfileBuilder {
     /// ```
     #[must_use]
     pub fn spectrum(self, line: EquivalentLine) -> Self {
-        let roughness = Some(Roughness::Measured(Measured::of_file("spectrum in memory")));
-        ProfileBuilder { roughness, spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))), ..self }
+        ProfileBuilder { spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))), ..self }
     }
 
-    /// Sets the seed of the random phases of a roughness that is already set. By default the seed is 1.
+    /// Sets the seed of the random phases of the roughness. By default the seed is 1.
     #[must_use]
-    pub fn seed(mut self, wanted: u64) -> Self {
-        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
-            &mut self.roughness
-        {
-            *seed = wanted;
-        }
-        self
+    pub fn seed(self, seed: u64) -> Self {
+        ProfileBuilder { seed, ..self }
     }
 
     /// Computes the profile of the form and the roughness.
@@ -179,7 +177,8 @@ impl ProfileBuilder {
     }
 
     /// Computes the profile of the form with `heights` in m as its roughness, one height for each point. Of N points, the
-    /// point of index ⌊N/2⌋ is on the axis of the form.
+    /// point of index ⌊N/2⌋ is on the axis of the form. The heights are those of an equivalent line, not of a cut through a
+    /// rough surface, whose spectrum [`ProfileBuilder::spectrum`] takes.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -194,7 +193,7 @@ impl ProfileBuilder {
     /// Returns the same errors as [`Self::build`]. Also returns [`Error::Contact`] for a wrong number of heights or a height
     /// that is not finite.
     pub fn build_with(&self, heights: Vec<f64>) -> Result<Profile, Error> {
-        let smooth = ProfileBuilder { roughness: None, spectrum: None, ..self.clone() };
+        let smooth = ProfileBuilder { self_affine: None, spectrum: None, ..self.clone() };
         let scene = smooth.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
         let value =
             |name: String, value: f64, allowed| Err(ContactError::Value { name, value, allowed }.into());
@@ -206,7 +205,9 @@ impl ProfileBuilder {
             return value(format!("height with index {index}"), heights[index], "from -1e50 to 1e50 m");
         }
         let line = Line::from_roughness(heights, self.length, scene.form.as_ref(), 1.0);
-        Ok(crate::simulation::stages::profile_of(&line.map_err(RunError::from)?)?)
+        // Without a form the heights may be those of the form.
+        let form = if self.form.is_none() { NominalForm::Unstated } else { nominal_form(&scene) };
+        Ok(profile_of(&line.map_err(RunError::from)?, form)?)
     }
 
     /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`] changes its other fields.
@@ -221,7 +222,7 @@ impl ProfileBuilder {
     ) -> Result<CheckedScene, Error> {
         let scene = Scene {
             form: self.form.clone(),
-            roughness: self.roughness.clone(),
+            roughness: self.roughness()?,
             adhesion,
             loading: loading.to_vec(),
             numerics: Numerics { points: self.points as u64, ..Numerics::default() },
@@ -279,6 +280,27 @@ impl ProfileBuilder {
     ) -> Result<Outcome, Error> {
         let scene = self.scene(modulus, adhesion, loading)?;
         Ok(self.simulation().compute(&scene)?)
+    }
+
+    /// Returns the roughness with its seed; `None` for a smooth body.
+    fn roughness(&self) -> Result<Option<Roughness>, SceneErrors> {
+        if self.spectrum.is_none() {
+            let mut self_affine = self.self_affine.clone();
+            if let Some(Roughness::SelfAffine { seed, .. }) = &mut self_affine {
+                *seed = self.seed;
+            }
+            return Ok(self_affine);
+        }
+        if self.self_affine.is_some() {
+            let refused = SceneError {
+                field: "roughness".to_owned(),
+                value: "a measured spectrum and a self-affine roughness".to_owned(),
+                allowed: "one of them".to_owned(),
+                ..SceneError::default()
+            };
+            return Err(refused.into());
+        }
+        Ok(Some(Roughness::Measured(Measured { seed: self.seed, ..Measured::of_file("spectrum in memory") })))
     }
 
     fn simulation(&self) -> Simulation {

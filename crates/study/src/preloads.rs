@@ -20,7 +20,7 @@ const ALLOWED: &str =
 /// Share of the axis of preloads within which each step of a staircase is located.
 const FINEST: f64 = 1.0 / 2048.0;
 /// Relative difference up to which two adhesion forces count as equal.
-const SAME: f64 = 1e-9;
+pub(super) const SAME: f64 = 1e-9;
 
 impl Axis {
     /// Smallest and largest number of preloads that an axis may have.

@@ -2,29 +2,26 @@
 //! profile.
 
 use super::axis::{Axis, Spacing, Target};
-use super::cells::Streak;
+use super::coordinates::{Allowed, Coordinates};
 use super::error::StudyError;
 use super::plan::{PRELOAD, Plan};
 use super::quantity::Quantity;
-use super::recorder::{Recorded, with_recorder};
 use asperity_contact::Move;
-use asperity_data::{AxisScale, format_quantity, parse_quantity};
+use asperity_data::{AxisScale, format_quantity, format_range, parse_quantity};
+use asperity_scene::fields::Field;
 use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
-use std::mem::replace;
 
-/// Relative distance between the ends of the interval with the sought value at which the search for this value ends.
-pub const WITHIN: f64 = 1e-9;
 /// Ratio of the ends of the searched range to the number of the scene.
 const FACTOR: f64 = 100.0;
 /// Ratio of the largest searched preload to the preload of full contact, for a loading without a force.
 const DEEPER: f64 = 10.0;
-/// Number of intervals into which the searched range is divided for a quantity that may rise and fall.
-const INTERVALS: usize = 32;
-/// Ratio of the smallest computed preload above 0 N to the largest one.
-const LEAST_PRELOAD: f64 = 1e-4;
 /// Largest width of an allowed range that is searched as a whole, and share of the range that is left out at its ends.
 const NARROW: f64 = 2.0;
 const MARGIN: f64 = 0.01;
+/// Share of the largest preload up to which preloads are spread evenly if the range begins at 0 N. Above it their
+/// logarithms are.
+const EVEN_PRELOADS: f64 = 1e-5;
+
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
 
@@ -47,22 +44,46 @@ pub struct Question {
     pub(super) plan: Plan,
 }
 
+/// How a quantity depends on the sought number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Course {
+    /// The quantity never falls, or never rises, with the number.
+    OneWay,
+    /// The quantity is F_a/F_n over the preload.
+    Ratio,
+    /// The quantity is constant between two steps of F_a over the preload.
+    Steps,
+    /// The quantity may rise and fall.
+    Unknown,
+}
+
 /// Answer to a [`Question`] on one random profile.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number at which the quantity crosses the target. Each has a relative error of at most 1e-9, or
-    /// is at most 1 from the crossing if the number is whole. The quantity is at least the target at each listed value.
+    /// Ascending values of the number at which the quantity crosses the target, or comes to rest on it. Each has a relative
+    /// error of at most 1e-9. If only some values are allowed, such as whole numbers, it is the allowed value beside the
+    /// crossing at which the quantity is at least the target.
     pub crossings: Vec<f64>,
-    /// True if the quantity is at least the target: first for the smallest, then for the largest searched number.
+    /// True if there may be more crossings than the listed ones, since the quantity comes close to the target between two
+    /// numbers at which it was computed. Also the first one may be missed.
+    pub may_miss: bool,
+    /// True if the crossings follow from a proof: the quantity cannot turn, or is known in closed form, or was computed at all
+    /// allowed numbers. Otherwise the quantity was computed at [`Answer::tried`] numbers, and a crossing between two of
+    /// them is missed if the quantity leaves its course there for a short way.
+    pub is_proven: bool,
+    /// Number of computations.
+    pub tried: u64,
+    /// True if the quantity is at least the target: first for the smallest, then for the largest searched number at which it
+    /// has a value.
     pub reached: [bool; 2],
     /// True if F_a(d=0) reaches the target already, so that no preload is needed. False if no preload is sought or if the
     /// quantity is not an adhesion force after the preload.
     pub at_touch: bool,
-    /// Smallest and largest value of the quantity at several numbers spread over the searched range; `None` if it has no value
-    /// at any of these numbers.
+    /// Smallest and largest value of the quantity at all numbers at which it was computed; `None` if it has no value at any of
+    /// them.
     pub reachable: Option<(f64, f64)>,
 }
 
@@ -146,8 +167,7 @@ impl Question {
             (axis, range)
         };
         StudyError::check_profiles(scene, profiles)?;
-        let record: Vec<Quantity> = std::iter::once(quantity).chain(at_touch(&axis, quantity)).collect();
-        let plan = Plan::of_scene(&base, profiles, &record);
+        let plan = Plan::of_scene(&base, profiles, &recorded(&axis, quantity));
         // A number below zero has no range around it.
         let searched = usual.unwrap_or((f64::NAN, f64::NAN));
         Ok(Question { axis, quantity, target, searched, scale, plan })
@@ -158,7 +178,7 @@ impl Question {
         let (from, to) = self.searched;
         // Also for an end that is no number.
         if from < to && (to - from).is_finite() {
-            return Ok(());
+            return self.check_allowed();
         }
         let [first, last] = [from, to].map(|end| format_quantity(end, self.axis.unit));
         let refused = |found, allowed| Err(StudyError::refused(Some(&self.axis.path), found, allowed));
@@ -169,9 +189,15 @@ impl Question {
         refused(format!("range {first} to {last}"), "two finite numbers, the first below the second")
     }
 
-    /// Returns the scale on which the range is searched, which is logarithmic only for fractions of numbers above zero.
-    fn scale(&self) -> AxisScale {
-        if self.searched.0 > 0.0 && !self.axis.is_whole() { self.scale } else { AxisScale::Linear }
+    /// Returns an error for a range without an allowed number, such as a whole one.
+    fn check_allowed(&self) -> Result<(), StudyError> {
+        if self.coordinates().is_some() {
+            return Ok(());
+        }
+        let range = format_range(self.searched, 4, self.axis.unit);
+        let waves = "a range with a number for which whole waves fit on the length";
+        let allowed = if self.allowed() == Allowed::Whole { "a range with a whole number" } else { waves };
+        Err(StudyError::refused(Some(&self.axis.path), format!("range {range}"), allowed))
     }
 
     /// Returns the number of random profiles on which the question is answered.
@@ -184,136 +210,90 @@ impl Question {
         self.axis.is_of_preloads()
     }
 
-    /// Returns true if the quantity never falls with the sought number.
-    fn only_rises(&self) -> bool {
-        at_touch(&self.axis, self.quantity).is_some()
+    /// Returns how the quantity depends on the sought number, as far as this is known for any profile.
+    pub(super) fn course(&self) -> Course {
+        match self.axis.target {
+            Target::Preload { .. } => match self.quantity {
+                Quantity::AdhesionCoefficient => Course::Ratio,
+                Quantity::PullOffIndentation => Course::Steps,
+                Quantity::Fragments => Course::Unknown,
+                // A deeper preload leaves more springs in contact at each indentation of the unloading. Therefore the pull and
+                // the area of the loop grow. Quantities without a loading are constant.
+                _ => Course::OneWay,
+            },
+            _ if self.is_adhesion_over_work() => Course::OneWay,
+            _ => Course::Unknown,
+        }
     }
 
-    /// Returns the numbers at which the quantity is computed first.
-    fn grid(&self) -> Vec<f64> {
+    /// Returns true if the question asks for a work of adhesion, κ or e_el/γ, and the quantity is the adhesion force of a
+    /// loop. A larger work of adhesion leaves more springs in contact at each indentation.
+    fn is_adhesion_over_work(&self) -> bool {
+        let is_work = matches!(self.axis.target, Target::Number(Field { path: WORK, .. }));
+        let scene = &self.plan.scene;
+        let is_loop = match scene.loading[..] {
+            [Move::ToTouch | Move::ToZeroForce, Move::ToSeparation] => true,
+            [Move::ToForce(press) | Move::ToIndentation(press), Move::ToSeparation] => press >= 0.0,
+            _ => false,
+        };
+        let is_loop_force = match self.quantity {
+            Quantity::AdhesionForce => is_loop,
+            Quantity::FirstTouchAdhesionForce | Quantity::ZeroForceAdhesionForce => true,
+            _ => false,
+        };
+        let is_rigid = scene.loading_stiffness.is_none() && scene.numerics.solver == Solver::Exact;
+        (is_work || self.axis.target.parameter().is_some()) && is_loop_force && is_rigid
+    }
+
+    /// Returns true if the first preload that reaches the target is sought: the quantity never falls with the preload.
+    pub fn seeks_least_preload(&self) -> bool {
+        self.is_of_preload() && self.course() == Course::OneWay
+    }
+
+    /// Returns true if the waves of the roughness are given by wavelengths and the sought number changes how many of them fit
+    /// on the length. Only numbers at which a whole number of waves fits are answers.
+    pub fn is_of_whole_waves(&self) -> bool {
+        matches!(self.allowed(), Allowed::Fractions(_) | Allowed::Multiples(_))
+    }
+
+    /// Returns the values that the sought number can have.
+    pub(super) fn allowed(&self) -> Allowed {
+        Allowed::of(&self.axis, &self.plan.scene)
+    }
+
+    /// Returns coordinates of the searched range; `None` if the range has no allowed number.
+    pub(super) fn coordinates(&self) -> Option<Coordinates> {
         let (from, to) = self.searched;
-        let between = |scale: AxisScale, low: f64| {
-            let (first, last) = (scale.coordinate(low), scale.coordinate(to));
-            let at = move |index: usize| first + (last - first) * (index as f64 / INTERVALS as f64);
-            (0..=INTERVALS).map(move |index| scale.number(at(index)).clamp(low, to)).collect::<Vec<f64>>()
-        };
-        let mut grid = match self.axis.target {
-            _ if self.only_rises() => vec![from, to],
-            Target::Preload { .. } if from <= 0.0 => {
-                [vec![from], between(AxisScale::Logarithmic, LEAST_PRELOAD * to)].concat()
-            }
-            Target::Preload { .. } => between(AxisScale::Logarithmic, from),
-            _ => between(self.scale(), from),
-        };
-        if self.axis.is_whole() {
-            grid.iter_mut().for_each(|value| *value = value.round());
+        let is_of_preload = self.is_of_preload();
+        if is_of_preload && from <= 0.0 && self.course() != Course::OneWay {
+            let unit = EVEN_PRELOADS * to.abs().max(from.abs());
+            return Some(Coordinates::on_both_sides(unit, [from, to]));
         }
-        grid.dedup();
-        grid
-    }
-
-    /// Returns the records of a profile at these numbers, with the reasons of numbers that the scene does not allow.
-    fn records(
-        &self,
-        simulation: &mut Simulation,
-        line: u64,
-        at: &[f64],
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Vec<Recorded>, RunError> {
-        let plan =
-            Plan { axes: vec![Axis { values: at.to_vec(), ..self.axis.clone() }], ..self.plan.clone() };
-        // One loading serves all preloads.
-        let step = if self.is_of_preload() { plan.cells() } else { 1 };
-        let starts = (0..plan.cells()).step_by(step as usize);
-        let records = with_recorder(&plan, simulation, stop, |recorder| {
-            let each = |cell| recorder.record_each(&Streak { cells: cell..cell + step, line });
-            starts.map(each).collect::<Result<Vec<_>, _>>()
-        });
-        Ok(records?.concat())
-    }
-
-    pub(super) fn answer(
-        &self,
-        simulation: &mut Simulation,
-        line: u64,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<(Answer, Option<String>), RunError> {
-        let grid = self.grid();
-        let records = self.records(simulation, line, &grid, stop)?;
-        let value = |record: &Recorded| record.as_ref().map_or(f64::NAN, |values| values[0]);
-        let values: Vec<f64> = records.iter().map(value).collect();
-        let mut crossings = Vec::new();
-        for (at, ends) in grid.windows(2).zip(values.windows(2)) {
-            let is_known = !ends[0].is_nan() && !ends[1].is_nan();
-            if is_known && (ends[0] >= self.target) != (ends[1] >= self.target) {
-                crossings.push(self.crossing([(at[0], ends[0]), (at[1], ends[1])], &mut |number| {
-                    let records = self.records(simulation, line, &[number], stop)?;
-                    Ok(records.first().map_or(f64::NAN, value))
-                })?);
-            }
-        }
-        let known = || values.iter().copied().filter(|value| !value.is_nan());
-        let least = known().reduce(f64::min);
-        let touch =
-            |record: &Recorded| record.as_ref().is_ok_and(|values| values.get(1) >= Some(&self.target));
-        let answer = Answer {
-            seed: self.plan.scene.seed().map(|_| self.plan.seed_of(line)),
-            crossings,
-            reached: [values.first(), values.last()].map(|end| end.is_some_and(|end| *end >= self.target)),
-            at_touch: records.first().is_some_and(touch),
-            reachable: least.zip(known().reduce(f64::max)),
+        let scale = if is_of_preload && self.course() == Course::OneWay {
+            AxisScale::Linear
+        } else if is_of_preload {
+            AxisScale::Logarithmic
+        } else {
+            self.scale
         };
-        Ok((answer, records.into_iter().find_map(Recorded::err)))
-    }
-
-    /// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the quantity is smooth
-    /// enough, otherwise bisection. Returns the end at which the quantity is at least the target.
-    fn crossing(
-        &self,
-        [(from, at_from), (to, at_to)]: [(f64, f64); 2],
-        value: &mut dyn FnMut(f64) -> Result<f64, RunError>,
-    ) -> Result<f64, RunError> {
-        // A number that the scene does not allow does not reach the target.
-        let excess = |value: f64| if value.is_nan() { -1.0 - self.target.abs() } else { value - self.target };
-        let (scale, is_whole) = (self.scale(), self.axis.is_whole());
-        let [mut last, mut other] =
-            [(to, at_to), (from, at_from)].map(|(number, value)| (scale.coordinate(number), excess(value)));
-        // A crossing at zero has no digits of its own.
-        let floor = f64::EPSILON * (scale.coordinate(self.searched.1) - scale.coordinate(self.searched.0));
-        let mut share = 0.5;
-        loop {
-            let width = (other.0 - last.0).abs();
-            let size = if scale == AxisScale::Linear { last.0.abs().max(other.0.abs()) } else { 1.0 };
-            let least = if is_whole { 1.0 } else { (WITHIN * size).max(floor) };
-            let place = last.0 + share * (other.0 - last.0);
-            let place = if is_whole { place.round() } else { place };
-            if width <= least || place == last.0 || place == other.0 {
-                return Ok(scale.number(if last.1 >= 0.0 { last.0 } else { other.0 }));
-            }
-            let next = (place, excess(value(scale.number(place))?));
-            let before = if (next.1 >= 0.0) == (last.1 >= 0.0) { last } else { replace(&mut other, last) };
-            last = next;
-            let [x, y] =
-                [(last.0 - other.0) / (before.0 - other.0), (last.1 - other.1) / (before.1 - other.1)];
-            share = 0.5;
-            if !is_whole && y * y < x && (1.0 - y) * (1.0 - y) < 1.0 - x {
-                let [far, near] = [before.1 / (other.1 - before.1), other.1 / (before.1 - other.1)];
-                let shift = (before.0 - last.0) / (other.0 - last.0);
-                share = last.1 / (other.1 - last.1) * far + shift * last.1 / (before.1 - last.1) * near;
-                let margin = 0.5 * least / (other.0 - last.0).abs();
-                share = share.max(margin).min(1.0 - margin);
-            }
-        }
+        Coordinates::on(scale, [from, to], self.allowed())
     }
 }
 
 /// Returns the same quantity turned at first touch, for an adhesion force over the preload, which never falls.
-fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
+pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
         (Target::Preload { .. }, Quantity::AdhesionForce) => Some(Quantity::FirstTouchAdhesionForce),
         (Target::Preload { .. }, Quantity::AdhesionShare) => Some(Quantity::FirstTouchAdhesionShare),
         _ => None,
     }
+}
+
+/// Returns the quantities that are recorded at each number: the quantity of the question, then one that the search needs.
+fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
+    let follows_steps = matches!(quantity, Quantity::AdhesionCoefficient | Quantity::PullOffIndentation);
+    let steps = (axis.is_of_preloads() && follows_steps).then_some(Quantity::AdhesionForce);
+    std::iter::once(quantity).chain(at_touch(axis, quantity)).chain(steps).collect()
 }
 
 /// Returns the scale and the range on which a number is searched whose value in the scene is `present`.
@@ -331,7 +311,7 @@ fn usual_range(axis: &Axis, present: f64) -> (AxisScale, Option<(f64, f64)>) {
 impl Answer {
     /// Returns the number of the profile: the first crossing, or the smallest preload that reaches the target.
     pub(super) fn value(&self, question: &Question) -> Option<f64> {
-        let already = question.is_of_preload() && self.reached[0];
+        let already = question.seeks_least_preload() && self.reached[0];
         if already { Some(question.searched.0) } else { self.crossings.first().copied() }
     }
 }

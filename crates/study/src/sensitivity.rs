@@ -1,8 +1,9 @@
 //! The sensitivity of the results of a scene: how the medians over random profiles change when each number of the scene changes
 //! by a tenth.
 
-use super::axis::{Axis, Shapes};
+use super::axis::{Axis, Shapes, Spacing};
 use super::cells::Streak;
+use super::coordinates::Allowed;
 use super::ensemble::Ensemble;
 use super::error::StudyError;
 use super::place::{numbers, scene_with};
@@ -11,7 +12,7 @@ use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::recorder::with_recorder;
 use asperity_data::median;
-use asperity_scene::{CheckedScene, Scene, Simulation};
+use asperity_scene::{CheckedScene, Scene, SceneErrors, Simulation};
 use std::cmp::Reverse;
 
 /// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`]; `None` for a result that the scene does not
@@ -33,11 +34,19 @@ pub struct Changed {
 pub struct Influence {
     /// Path, name and unit of the number, as an axis without values.
     pub axis: Axis,
-    /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`].
+    /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`]. A wavelength is the one that is
+    /// computed, of which a whole number fits on the length.
     pub value: f64,
     /// First the smaller, then the larger value of the number, each with the results for this value; `None` if the scene does
-    /// not allow the value.
+    /// not allow the value. The changes of a wavelength and of a whole number differ from [`Sensitivity::STEP`].
     pub sides: [(f64, Option<Changed>); 2],
+}
+
+impl Influence {
+    /// Returns the change of the number divided by its size. `side` is 0 for the smaller value and 1 for the larger one.
+    pub fn step(&self, side: usize) -> f64 {
+        (self.sides[side].0 - self.value) / self.value.abs()
+    }
 }
 
 /// How much the results of a scene change if one number of the scene is changed by a tenth, for each number.
@@ -58,7 +67,8 @@ pub struct Sensitivity {
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
-    /// Relative change by which each number of the scene is made smaller and larger. A whole number changes by at least 1.
+    /// Relative change by which each number of the scene is made smaller and larger. A whole number changes by at least 1, and a
+    /// wavelength by at least one wave on the length. [`Influence::step`] is the change that is made.
     pub const STEP: f64 = 0.1;
 
     /// Results of the scene whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
@@ -67,7 +77,7 @@ impl Sensitivity {
 
     /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random profiles. There are as many
     /// profiles as [`Ensemble::profiles_of`] returns. A scene with κ instead of a work of adhesion keeps κ when another number
-    /// changes.
+    /// changes. Where the length changes, the numbers of waves on it stay, so wavelengths change with it.
     ///
     /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads, which does not change the
     /// results. After each profile `report` receives the sensitivity over the profiles so far.
@@ -98,13 +108,13 @@ impl Sensitivity {
         let mut plans = vec![(Shapes::Passes, Plan::of_scene(scene, lines, &Self::RESULTS))];
         let mut influences = Vec::new();
         for (axis, value) in numbers(scene) {
+            let allowed = Allowed::of(&axis, scene);
+            let value = computed(allowed, value);
             let sides = [-1.0, 1.0].map(|sign| {
-                let number = changed(&axis, value, sign);
-                let neighbour = scene_with(scene, std::iter::once((&axis, number)));
-                let allowed = neighbour.ok().and_then(|scene| scene.checked().ok());
+                let (number, neighbour) = changed(scene, &axis, value, sign);
                 let plan = |scene: &CheckedScene| Plan::of_scene(scene, lines, &Self::RESULTS);
-                plans.extend(allowed.iter().map(|scene| (axis.target.shapes(), plan(scene))));
-                (number, allowed.map(|_| Changed::default()))
+                plans.extend(neighbour.iter().map(|scene| (axis.target.shapes(), plan(scene))));
+                (number, neighbour.map(|_| Changed::default()))
             });
             influences.push(Influence { axis, value, sides });
         }
@@ -186,10 +196,41 @@ impl Sensitivity {
     }
 }
 
-/// Returns a number that is changed by the share [`Sensitivity::STEP`] up or down, a whole number by at least 1.
-fn changed(axis: &Axis, value: f64, sign: f64) -> f64 {
+/// Returns the number with which a scene computes: of a wavelength a whole number fits on the length.
+fn computed(allowed: Allowed, value: f64) -> f64 {
+    if matches!(allowed, Allowed::Fractions(_)) { allowed.nearest(value) } else { value }
+}
+
+/// Returns a number that is changed up or down by the share [`Sensitivity::STEP`], or to the nearest other number that is
+/// allowed, and the scene with this number. The scene is `None` if the number is not allowed.
+fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<CheckedScene>) {
     let step = Sensitivity::STEP * value.abs();
-    if axis.is_whole() { value + sign * step.round().max(1.0) } else { value + sign * step }
+    let number = match Allowed::of(axis, scene) {
+        Allowed::Whole => value + sign * step.round().max(1.0),
+        allowed @ Allowed::Fractions(_) => {
+            let wanted = value + sign * step;
+            let Some(number) = allowed.nearest_other(value, wanted) else { return (wanted, None) };
+            number
+        }
+        // The numbers of waves on the length stay.
+        Allowed::Any | Allowed::Multiples(_) => value + sign * step,
+    };
+    let neighbour = with_number(scene, axis, number);
+    (number, neighbour.ok().and_then(|scene| scene.checked().ok()))
+}
+
+/// Returns the scene with another value of a number. Where the length changes, the numbers of waves on it stay.
+fn with_number(scene: &Scene, axis: &Axis, number: f64) -> Result<Scene, SceneErrors> {
+    let mut values = vec![(axis.clone(), number)];
+    if let Allowed::Multiples(_) = Allowed::of(axis, scene) {
+        for path in ["roughness.wavelengths.0", "roughness.wavelengths.1"] {
+            let Ok(wave) = Axis::new(path, Spacing::List, Vec::new(), scene) else { continue };
+            let Some(wavelength) = wave.value_in(scene, None) else { continue };
+            let count = (scene.length / wavelength).round();
+            values.push((wave, number / count));
+        }
+    }
+    scene_with(scene, values.iter().map(|(axis, number)| (axis, *number)))
 }
 
 #[cfg(test)]
@@ -226,6 +267,59 @@ mod tests {
         }
         let first = found.ordered(0)[0];
         assert!(matches!(first.axis.symbol, "R" | "γ"), "{first:?}");
+    }
+
+    /// Wavelengths move by whole waves, and the results are those of a scene with these modes. The length moves with its waves.
+    #[test]
+    fn wavelengths_change_by_whole_waves() {
+        let base = open("pressure-sensitive").unwrap().set("numerics.points", "1024").unwrap();
+        let with = |document: &asperity_scene::Document, waves: &str, modes: &str| {
+            let fields = [("roughness.modes", modes), ("roughness.wavelengths", waves)];
+            document.set_all(&fields.map(|(path, value)| (path.to_owned(), value.to_owned())))
+        };
+        let force = |document: asperity_scene::Document| {
+            let run = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+            run.figures.adhesion_force
+        };
+        for (waves, modes, path, sides) in [
+            ("(1e-4, 1e-6)", [1, 100], "roughness.wavelengths.0", [Some([2, 100]), None]),
+            ("(5e-5, 1e-6)", [2, 100], "roughness.wavelengths.0", [Some([3, 100]), Some([1, 100])]),
+            // Not whole on the length: the profile has 4 waves of 25 µm, not of 23 µm.
+            ("(2.3e-5, 1e-6)", [4, 100], "roughness.wavelengths.0", [Some([5, 100]), Some([3, 100])]),
+            ("(1e-4, 1e-6)", [1, 100], "roughness.wavelengths.1", [Some([1, 111]), Some([1, 91])]),
+            // The shortest wave is the longest one.
+            ("(2.5e-5, 2.5e-5)", [4, 4], "roughness.wavelengths.0", [None, Some([3, 4])]),
+            ("(2.5e-5, 2.5e-5)", [4, 4], "roughness.wavelengths.1", [Some([4, 5]), None]),
+        ] {
+            let document = with(&base, waves, "None").unwrap();
+            let found = Sensitivity::of(document.scene(), (Simulation::default(), 1), &|| false, &mut |_| ())
+                .unwrap();
+            let influence = found.influences.iter().find(|one| one.axis.path == path).unwrap();
+            let end = usize::from(path.ends_with(".1"));
+            assert!((influence.value * modes[end] as f64 / 1e-4 - 1.0).abs() < 1e-12, "{influence:?}");
+            for (side, modes) in sides.into_iter().enumerate() {
+                let (number, changed) = influence.sides[side];
+                assert_eq!(changed.is_some(), modes.is_some(), "{waves} {path} {side}");
+                let (Some(modes), Some(changed)) = (modes, changed) else { continue };
+                assert!((number * modes[end] as f64 / 1e-4 - 1.0).abs() < 1e-12, "{influence:?}");
+                let by_modes = with(&base, "None", &format!("({}, {})", modes[0], modes[1])).unwrap();
+                let forces: Vec<f64> = (0..16)
+                    .filter_map(|line| {
+                        force(by_modes.set("roughness.seed", &(5 + line).to_string()).unwrap())
+                    })
+                    .collect();
+                assert_eq!(changed.medians[0], median(&mut forces.clone()), "{waves} {path} {side}");
+            }
+            // As with modes.
+            let stretched = found.influences.iter().find(|one| one.axis.path == "length").unwrap();
+            let of_modes = with(&base, "None", &format!("({}, {})", modes[0], modes[1])).unwrap();
+            let of_modes =
+                Sensitivity::of(of_modes.scene(), (Simulation::default(), 1), &|| false, &mut |_| ())
+                    .unwrap();
+            let by_modes = of_modes.influences.iter().find(|one| one.axis.path == "length").unwrap();
+            assert_eq!(stretched, by_modes, "{waves}");
+            assert!((stretched.step(1) - Sensitivity::STEP).abs() < 1e-12);
+        }
     }
 
     /// Medians and ranges are those of separate runs of the same seeds.

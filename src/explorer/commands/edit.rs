@@ -166,7 +166,8 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(written) = app.written(parameter) else {
         return refuse(app, "the scene is still being computed".to_owned());
     };
-    match parameter.field.stepped(&written, steps, coarse) {
+    let length = app.edit.document.scene().length;
+    match parameter.field.stepped_on(length, &written, steps, coarse) {
         Some(next) => set_selected(app, &next),
         None => refuse(app, no_step),
     }

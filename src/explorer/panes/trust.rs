@@ -10,7 +10,7 @@ use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
 use asperity_data::{format_rounded, grouped, per_cent};
 use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
-use asperity_report::{CostReport, error_rows, theory_rows, without_jkr, work_precision};
+use asperity_report::{CostReport, error_rows, theory_rows, warning_texts, work_precision};
 use asperity_scene::Estimate;
 use asperity_scene::discretisation::{CostTable, Knob, Progress, measure};
 use asperity_study::Ensemble;
@@ -86,8 +86,9 @@ fn panel(app: &App, size: Size) -> Panel {
     let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
     let mut foot = filled(sentence(app, table), "  ", size.width.into());
     foot.extend(rows(app, size.width));
-    let warning = app.current().and_then(|computed| without_jkr(&computed.outcome)).unwrap_or_default();
-    let head = wrapped(&Line::styled(warning, app.view.appearance.theme.style(Meaning::Error)), size.width);
+    let warnings = app.current().map_or_else(Vec::new, |computed| warning_texts(&computed.outcome.warnings));
+    let style = app.view.appearance.theme.style(Meaning::Error);
+    let head = wrapped(&Line::styled(warnings.join(" "), style), size.width);
     // Where there is no room for both, the words are more than the chart.
     let has_room =
         usize::from(size.height) >= foot.len() + head.len() + LEAST_CHART || foot.len() < LEAST_CHART;
@@ -112,7 +113,8 @@ fn rows(app: &App, width: u16) -> Vec<Line<'static>> {
         Some(reference) => budget.with_model(reference.budget.model),
         None => budget,
     });
-    let mut errors = budget.map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble));
+    let mut errors =
+        budget.map_or_else(Vec::new, |budget| error_rows(scene, outcome, estimate, &budget, ensemble));
     let first = errors.len().min(1);
     errors.rotate_right(first);
     let theories = theory_rows(scene, outcome, ensemble);

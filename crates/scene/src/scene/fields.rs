@@ -124,7 +124,7 @@ pub const FIELDS: &[Field] = &[
         .name("further files of the surface").default("[]")
         .meaning("further measurements of the same face"),
     row("roughness.as_line", SWITCH).of("Measured").name("profile as line").default("false")
-        .meaning("true: use the heights unchanged; false: generate random profiles with the measured spectrum"),
+        .meaning("true: use the heights unchanged, as an equivalent line, which a measured cut is not; false: generate random profiles with the measured spectrum"),
     row("roughness.opposite", FILE_NAME).of("Measured").name("measured surface of the opposite face")
         .default("None")
         .meaning("file of the opposite face, whose spectrum is added"),

@@ -19,7 +19,8 @@ impl Field {
     /// in RON. Negative `steps` lead to smaller values or earlier choices. Each step is a large one ([`Step`]) if `coarse` is
     /// true. An optional field also has the RON text `None` as a choice, which is returned as `Some("None")`.
     ///
-    /// Returns `None` at the end of the range, or if keys cannot change the field.
+    /// Returns `None` at the end of the range, or if keys cannot change the field. The steps of wavelengths depend on the length
+    /// of the profile, see [`Field::stepped_on`].
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if steps == 0 {
             return None;
@@ -43,13 +44,7 @@ impl Field {
                 let times = if coarse { steps.saturating_mul(4) } else { steps };
                 self.kept_whole(doubled(ron::from_str(value).ok()?, times))
             }
-            Step::Band if matches!(self.range, Range::Wavelengths(..)) => {
-                let (longest, shortest) = ron::from_str(value).ok()?;
-                let moved = self.preferred(if coarse { longest } else { shortest }, steps, coarse)?;
-                let (longest, shortest) = if coarse { (moved, shortest) } else { (longest, moved) };
-                (longest >= shortest && self.range.contains(moved))
-                    .then(|| format!("({}, {})", ron_float(longest), ron_float(shortest)))
-            }
+            Step::Band if matches!(self.range, Range::Wavelengths(..)) => None,
             Step::Band => {
                 let (first, last) = ron::from_str(value).ok()?;
                 let (first, last) =
@@ -61,6 +56,43 @@ impl Field {
             Step::Typed => None,
         };
         next.filter(|next| next != value && number(next).is_none_or(|next| number(value) != Some(next)))
+    }
+
+    /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has this length in m. After the step
+    /// a whole number of the changed wavelength fits on the length, and it is another number than before. The wavelength is
+    /// the one of these that is nearest to a preferred number.
+    ///
+    /// ```
+    /// let field = asperity_scene::fields::field("roughness.wavelengths", None).unwrap();
+    /// // Ten waves in place of five. A profile of 100 µm has no wave between 100 and 50 µm.
+    /// assert_eq!(field.stepped_on(1e-4, "(2e-5, 1e-6)", -1, true).as_deref(), Some("(1.0e-5, 1.0e-6)"));
+    /// assert_eq!(field.stepped_on(1e-4, "(5e-5, 1e-6)", 1, true).as_deref(), Some("(1.0e-4, 1.0e-6)"));
+    /// ```
+    pub fn stepped_on(&self, length: f64, value: &str, steps: i32, coarse: bool) -> Option<String> {
+        if !matches!(self.range, Range::Wavelengths(..)) {
+            return self.stepped(value, steps, coarse);
+        }
+        let (longest, shortest) = ron::from_str::<(f64, f64)>(value).ok()?;
+        let present = if coarse { longest } else { shortest };
+        let moved = self.whole_wave(length, present, steps, coarse)?;
+        let (longest, shortest) = if coarse { (moved, shortest) } else { (longest, moved) };
+        // Waves on the length, since a longest wavelength that is not whole may equal the shortest one.
+        let is_ordered = (length / longest).round() <= (length / shortest).round();
+        let (longest, shortest) = (longest.max(shortest), shortest.min(longest));
+        (is_ordered && self.range.contains(moved))
+            .then(|| format!("({}, {})", ron_float(longest), ron_float(shortest)))
+    }
+
+    /// Returns the wavelength of which a whole number fits on the length, near the preferred number `steps` steps away.
+    /// Returns `None` if not even one wave fits.
+    fn whole_wave(&self, length: f64, wavelength: f64, steps: i32, coarse: bool) -> Option<f64> {
+        if steps == 0 {
+            return None;
+        }
+        let wanted = (length / self.preferred(wavelength, steps, coarse)?).round();
+        let present = (length / wavelength).round();
+        let waves = if steps > 0 { wanted.min(present - 1.0) } else { wanted.max(present + 1.0) };
+        (waves >= 1.0).then(|| length / waves)
     }
 
     /// Returns the preferred number `steps` steps away, or the first one outside the range of the field.
@@ -180,9 +212,6 @@ mod tests {
             "roughness.modes|(1, 512)|1|(1, 1024)",
             "roughness.modes|(1, 512)|1c|(2, 512)",
             "roughness.modes|(4, 4)|-1|",
-            "roughness.wavelengths|(1.0e-4, 2.0e-7)|1|(1.0e-4, 2.24e-7)",
-            "roughness.wavelengths|(1.0e-4, 2.0e-7)|-1c|(5.0e-5, 2.0e-7)",
-            "roughness.wavelengths|(2.0e-7, 2.0e-7)|1|",
             "form|None|1|Paraboloid(radius: 1.0e-3)",
             "form|Punch(radius: 0.3)|1|None",
             "numerics.solver|Exact|1|Stepwise(step: 1.0e-9)",
@@ -192,5 +221,46 @@ mod tests {
             let (number, coarse) = (steps.trim_end_matches('c').parse().unwrap(), steps.ends_with('c'));
             assert_eq!(stepped(path, value, number, coarse).unwrap_or_default(), next, "{row}");
         }
+    }
+
+    /// Each step changes the number of waves on the length, and reaches the next preferred wavelength where it is whole.
+    #[test]
+    fn wavelengths_step_by_whole_waves() {
+        for row in [
+            "100|(1.0e-4, 2.0e-7)|1|(1.0e-4, 2.242152466367713e-7)",
+            "100|(1.0e-4, 2.0e-7)|-1c|(5.0e-5, 2.0e-7)",
+            // One wave: there is no longer one.
+            "100|(1.0e-4, 2.0e-7)|1c|",
+            "100|(8.0e-5, 2.0e-7)|1c|",
+            // Two waves, and the next preferred wavelengths have as many.
+            "100|(5.0e-5, 5.0e-5)|-1|(5.0e-5, 3.3333333333333335e-5)",
+            "100|(1.0e-4, 5.0e-5)|1|(1.0e-4, 1.0e-4)",
+            "100|(5.0e-5, 5.0e-5)|1|",
+            "100|(5.0e-5, 5.0e-5)|-1c|",
+            "320|(8.0e-5, 1.0e-6)|1c|(1.0666666666666667e-4, 1.0e-6)",
+            "320|(8.0e-5, 1.0e-6)|-1c|(5.333333333333333e-5, 1.0e-6)",
+            "320|(8.0e-5, 1.0e-6)|0|",
+        ] {
+            let [length, value, steps, next] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
+            let (number, coarse) = (steps.trim_end_matches('c').parse().unwrap(), steps.ends_with('c'));
+            let length = 1e-6 * length.parse::<f64>().unwrap();
+            let stepped =
+                field("roughness.wavelengths", None).unwrap().stepped_on(length, value, number, coarse);
+            assert_eq!(stepped.unwrap_or_default(), next, "{row}");
+        }
+        assert_eq!(stepped("roughness.wavelengths", "(1.0e-4, 2.0e-7)", 1, false), None);
+        // Every step is another contact, and steps in one direction end at one wave.
+        let (mut value, mut counts) = ("(1.0e-4, 3.0e-7)".to_owned(), Vec::new());
+        while let Some(next) =
+            field("roughness.wavelengths", None).unwrap().stepped_on(1e-4, &value, 1, false)
+        {
+            let shortest: f64 = ron::from_str::<(f64, f64)>(&next).unwrap().1;
+            counts.push((1e-4 / shortest).round());
+            assert!((1e-4 / shortest - counts[counts.len() - 1]).abs() < 1e-6, "{next}");
+            value = next;
+        }
+        assert!(counts.windows(2).all(|pair| pair[1] < pair[0]) && counts.last() == Some(&1.0), "{counts:?}");
     }
 }

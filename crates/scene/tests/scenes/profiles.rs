@@ -138,6 +138,48 @@ fn a_profile_with_a_measured_spectrum_is_that_of_a_scene() {
 }
 
 #[test]
+fn the_order_of_the_calls_of_a_builder_does_not_matter() {
+    type Call = fn(ProfileBuilder) -> ProfileBuilder;
+    let calls: [Call; 5] = [
+        |builder| builder.seed(9),
+        |builder| builder.self_affine(0.6),
+        |builder| builder.rms_height(5e-8),
+        |builder| builder.modes(2, 40),
+        |builder| builder.sphere(1e-3),
+    ];
+    let built = |order: [usize; 5]| {
+        let begun = ProfileBuilder::new(LENGTH, 512);
+        order.into_iter().fold(begun, |builder, index| calls[index](builder)).build().unwrap()
+    };
+    let expected = built([4, 1, 2, 3, 0]);
+    assert!(built([4, 1, 2, 3, 1]) != expected, "the seed counts");
+    let mut orders = 0;
+    for code in 0..5_usize.pow(5) {
+        let order: [usize; 5] = std::array::from_fn(|place| code / 5_usize.pow(place as u32) % 5);
+        if (0..5).all(|call| order.contains(&call)) {
+            assert!(built(order) == expected, "{order:?}");
+            orders += 1;
+        }
+    }
+    assert_eq!(orders, 120);
+    let heights: Vec<f64> = phases(3, 1).take(256).map(|phase| 1e-8 * phase).collect();
+    let surface = Topography::from_profile(&heights, 1e-6).unwrap();
+    let line = EquivalentLine::from(&analyse(&[surface], &AnalysisOptions::default()).unwrap());
+    let begun = ProfileBuilder::new(LENGTH, 512);
+    let late = begun.clone().spectrum(line.clone()).seed(9).build().unwrap();
+    assert!(begun.clone().seed(9).spectrum(line.clone()).build().unwrap() == late);
+    assert!(begun.clone().spectrum(line.clone()).build().unwrap() != late);
+    for both in [begun.clone().rms_height(1e-7).spectrum(line.clone()), begun.spectrum(line).rms_height(1e-7)]
+    {
+        let refused = both.build().unwrap_err().to_string();
+        assert!(
+            refused.contains("a measured spectrum and a self-affine roughness: allowed: one of them"),
+            "{refused}"
+        );
+    }
+}
+
+#[test]
 fn wrong_values_of_a_profile_are_named_with_what_is_allowed() {
     let rough = |points: usize| ProfileBuilder::new(LENGTH, points).self_affine(0.7).rms_height(1e-7);
     let of = |refused: Result<_, Error>| refused.unwrap_err().to_string();

@@ -152,7 +152,7 @@ impl EquivalentLine {
 /// Roughness of a rigid profile that comes from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
-    /// The measured profile itself is the rigid profile.
+    /// The profile of the file is an equivalent line, and is the rigid profile unchanged.
     Profile(MeasuredProfile),
     /// The rigid profile is an equivalent line of the measured surfaces.
     Equivalent(EquivalentLine),

@@ -1,5 +1,5 @@
-//! Measured surfaces as roughness: the measured profile itself, or the equivalent line with the measured spectrum and random
-//! phases.
+//! Measured surfaces as roughness: the profile of a file as an equivalent line, or a random equivalent line with the measured
+//! spectrum.
 
 use super::spectrum::Amplitude;
 use crate::error::{Place, SurfaceError, refused};
@@ -18,8 +18,9 @@ pub(super) const TRANSFORM_BYTES: u64 = 96;
 /// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// If given, the measured profile itself is the rigid profile, after removal of this polynomial. Otherwise the rigid
-    /// profile is an equivalent line, a random profile with the measured spectrum.
+    /// If given, the profile of the file is an equivalent line already, and is the rigid profile after removal of this
+    /// polynomial. Otherwise the profile is a cut through a surface, and the rigid profile is an equivalent line of this
+    /// surface, a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
@@ -27,7 +28,7 @@ pub struct MeasuredOptions {
     pub spectrum: AnalysisOptions,
 }
 
-/// A measured profile: the heights of points at ascending positions.
+/// A profile of a file that is used unchanged as an equivalent line: the heights of points at ascending positions.
 ///
 /// The profile covers the distance from its first to its last point. If the points are equally spaced, a sampled profile may
 /// extend half a spacing beyond each end.

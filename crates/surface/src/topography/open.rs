@@ -83,14 +83,14 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
         return Err(refused(Place::File, "a file of one surface, without a name", allowed));
     }
     if !is_archive {
-        return Ok(vec![resolved(reading(bytes, options)?, options)?]);
+        return Ok(vec![reading(bytes, options)?.resolve_part(options)?]);
     }
     let mut archive = Archive::new(bytes)?;
     let [in_json, in_yaml] = container::INDICES;
     let indices = [x3p::INDEX, in_json, in_yaml];
     let index = archive.index(&indices)?.ok_or_else(|| foreign::archive(archive.names(), indices))?;
     if index == x3p::INDEX {
-        return Ok(vec![resolved(x3p::read(archive)?, options)?]);
+        return Ok(vec![x3p::read(archive)?.resolve_part(options)?]);
     }
     let content = archive.unpacked(index, container::LONGEST_INDEX)?;
     let measurements = container::measurements(index, &content, options.surface_name.as_deref())?;
@@ -108,7 +108,7 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
                 continue;
             }
         };
-        let mut surface = resolved(reading, &options).map_err(within)?;
+        let mut surface = reading.resolve_part(&options).map_err(within)?;
         surface.warnings.extend(measurement.tip_radius());
         surfaces.push(Topography {
             detrend: measurement.detrend(),
@@ -142,15 +142,6 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError>
     foreign::check(&content)?;
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
     reader.map_or_else(|| text::read(&content, options.channel), |(_, read)| read(&content, options))
-}
-
-/// Returns the surface in m, or the row or column of it that the options choose.
-fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, SurfaceError> {
-    let mut surface = reading.resolve(options)?;
-    if let Some(cut) = options.cut {
-        surface = surface.cut(cut)?;
-    }
-    if options.resample { surface.resampled() } else { Ok(surface) }
 }
 
 /// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is compressed by gzip.

@@ -176,6 +176,15 @@ impl Reading {
         surface.checked()
     }
 
+    /// Converts heights and positions to m, and returns the surface or the row or column of it that the options choose.
+    pub fn resolve_part(self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
+        let mut surface = self.resolve(options)?;
+        if let Some(cut) = options.cut {
+            surface = surface.cut(cut)?;
+        }
+        if options.resample { surface.resampled() } else { Ok(surface) }
+    }
+
     /// Leaves out empty rows and columns at the borders of a map, or missing points at the ends of a profile.
     fn crop(&mut self) -> Cropped {
         let (columns, rows) = (self.columns, self.heights.len() / self.columns);
@@ -264,18 +273,57 @@ impl Topography {
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn from_map(heights: &[f64], columns: usize, spacing: [f64; 2]) -> Result<Self, SurfaceError> {
-        if columns == 0 || !heights.len().is_multiple_of(columns) {
-            let fault = format!("{} heights in rows of {columns}", heights.len());
-            return Err(refused(Place::File, fault, "whole rows of at least one height"));
-        }
+        check_rows(heights, columns)?;
         if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
             let fault = format!("a height of {} m", heights[index]);
             return Err(refused(Place::Point(index + 1), fault, "finite heights"));
         }
+        Topography::from_map_with(heights, columns, spacing, &ReadOptions::default())
+    }
+
+    /// Creates a map as [`Topography::from_map`] does, with the corrections of [`ReadOptions`] that a file has: a row or a
+    /// column alone, levelled rows, replaced outliers and interpolated points. A height of NaN is a missing point.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Topography::from_map`], and an error for missing points that the options do not interpolate.
+    ///
+    /// ```
+    /// use asperity_surface::{ReadOptions, Topography};
+    ///
+    /// let heights = [0.0, f64::NAN, 2e-9, 3e-9];
+    /// let filled = ReadOptions { interpolate: true, ..ReadOptions::default() };
+    /// assert_eq!(Topography::from_map_with(&heights, 4, [1e-6; 2], &filled)?.heights[1], 1e-9);
+    /// assert!(Topography::from_map_with(&heights, 4, [1e-6; 2], &ReadOptions::default()).is_err());
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
+    pub fn from_map_with(
+        heights: &[f64],
+        columns: usize,
+        spacing: [f64; 2],
+        options: &ReadOptions,
+    ) -> Result<Self, SurfaceError> {
+        check_rows(heights, columns)?;
+        if let Some(index) = heights.iter().position(|height| height.is_infinite()) {
+            let fault = format!("a height of {} m", heights[index]);
+            return Err(refused(
+                Place::Point(index + 1),
+                fault,
+                "finite heights, or NaN for a missing point",
+            ));
+        }
         let heights = gathered(heights.len(), heights.iter().copied())?;
         let metres = [Some(Unit::METRE); 3];
-        Reading::even("array", heights, columns, Some(spacing), metres).resolve(&ReadOptions::default())
+        Reading::even("array", heights, columns, Some(spacing), metres).resolve_part(options)
     }
+}
+
+/// Returns an error for heights that are not whole rows of `columns` points.
+fn check_rows(heights: &[f64], columns: usize) -> Result<(), SurfaceError> {
+    if columns > 0 && heights.len().is_multiple_of(columns) {
+        return Ok(());
+    }
+    let fault = format!("{} heights in rows of {columns}", heights.len());
+    Err(refused(Place::File, fault, "whole rows of at least one height"))
 }
 
 /// Returns an error if a length (m) for which `counts` is true exceeds [`LARGEST`].

@@ -1,0 +1,170 @@
+//! The number at which a quantity reaches a target, between two numbers on either side of it.
+
+use super::coordinates::Coordinates;
+use super::scan::Tried;
+use asperity_scene::RunError;
+use std::mem::replace;
+
+/// Relative distance between the ends of the interval with the sought number at which the search for this number ends.
+pub const WITHIN: f64 = 1e-9;
+
+/// Share of the searched range at which the search ends in any case: a number at zero has no digits of its own.
+const LEAST: f64 = 1e-18;
+
+/// Target that a quantity passes, or on which it comes to rest from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Passage {
+    pub target: f64,
+    /// True if the quantity comes from above and then has exactly the target.
+    pub falls_onto: bool,
+}
+
+impl Passage {
+    /// Returns a number that is not negative on the side of the passage that belongs to the answer, and negative on the other
+    /// side. A number that the scene does not allow does not reach the target.
+    fn excess(self, value: f64) -> f64 {
+        let excess = value - self.target;
+        if self.falls_onto {
+            // Bisection, since the quantity is constant on the target.
+            return if excess <= 0.0 { 1.0 } else { -1.0 };
+        }
+        if excess.is_nan() { -1.0 - self.target.abs() } else { excess }
+    }
+}
+
+/// Point of a bracket: coordinate of a number, and the excess there.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    place: f64,
+    excess: f64,
+}
+
+/// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the quantity is smooth
+/// enough, otherwise bisection. Returns the end that belongs to the answer, where the quantity is at least the target.
+/// Allowed numbers that are whole are bisected until no further one lies between the ends.
+pub(super) fn passage(
+    coordinates: &Coordinates,
+    passage: Passage,
+    ends: [Tried; 2],
+    value: &mut dyn FnMut(f64) -> Result<f64, RunError>,
+) -> Result<f64, RunError> {
+    if coordinates.is_discrete() {
+        return between_whole(coordinates, passage, ends, value);
+    }
+    let point = |tried: Tried| Point {
+        place: coordinates.coordinate(tried.number),
+        excess: passage.excess(tried.value),
+    };
+    let (mut other, mut last) = (point(ends[0]), point(ends[1]));
+    let floor = LEAST * coordinates.length();
+    let mut share: f64 = 0.5;
+    loop {
+        let width = (other.place - last.place).abs();
+        let least = coordinates.distance(WITHIN, [last.place, other.place]).max(floor);
+        // Not closer to an end than the precision.
+        let margin = (0.5 * least / width).min(0.5);
+        let place = last.place + share.clamp(margin, 1.0 - margin) * (other.place - last.place);
+        if width <= least || place == last.place || place == other.place {
+            let end = if last.excess >= 0.0 { last } else { other };
+            let number = coordinates.number(end.place);
+            // The ends themselves have no rounding of the coordinates.
+            let known = ends.iter().find(|tried| coordinates.coordinate(tried.number) == end.place);
+            return Ok(known.map_or(number, |tried| tried.number));
+        }
+        let next = Point { place, excess: passage.excess(value(coordinates.number(place))?) };
+        let same_side = (next.excess >= 0.0) == (last.excess >= 0.0);
+        let before = if same_side { last } else { replace(&mut other, last) };
+        last = next;
+        share = interpolated(last, other, before);
+    }
+}
+
+/// Returns the share of the way from `last` to `other` at which an inverse quadratic interpolation has no excess, or a half
+/// where the three points do not suit one.
+fn interpolated(last: Point, other: Point, before: Point) -> f64 {
+    let place_share = (last.place - other.place) / (before.place - other.place);
+    let excess_share = (last.excess - other.excess) / (before.excess - other.excess);
+    let is_smooth =
+        excess_share * excess_share < place_share && (1.0 - excess_share).powi(2) < 1.0 - place_share;
+    if !is_smooth {
+        return 0.5;
+    }
+    let far = before.excess / (other.excess - before.excess);
+    let near = other.excess / (before.excess - other.excess);
+    let shift = (before.place - last.place) / (other.place - last.place);
+    let share = last.excess / (other.excess - last.excess) * far
+        + shift * last.excess / (before.excess - last.excess) * near;
+    if share.is_nan() { 0.5 } else { share }
+}
+
+/// Bisects whole numbers.
+fn between_whole(
+    coordinates: &Coordinates,
+    passage: Passage,
+    ends: [Tried; 2],
+    value: &mut dyn FnMut(f64) -> Result<f64, RunError>,
+) -> Result<f64, RunError> {
+    let [mut from, mut to] = ends.map(|tried| tried.number);
+    let to_is_inside = passage.excess(ends[1].value) >= 0.0;
+    while let Some(middle) = coordinates.middle([from, to]) {
+        let is_inside = passage.excess(value(middle)?) >= 0.0;
+        if is_inside == to_is_inside {
+            to = middle;
+        } else {
+            from = middle;
+        }
+    }
+    Ok(if to_is_inside { to } else { from })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coordinates::Allowed;
+    use asperity_data::AxisScale;
+
+    /// Searches where a function that rises reaches a target, and returns the number with the count of calls.
+    fn searched(
+        coordinates: &Coordinates,
+        ends: [f64; 2],
+        target: f64,
+        function: &dyn Fn(f64) -> f64,
+    ) -> (f64, usize) {
+        let mut calls = 0;
+        let mut value = |number| {
+            calls += 1;
+            Ok(function(number))
+        };
+        let tried = ends.map(|number| Tried { number, value: function(number) });
+        let number = passage(coordinates, Passage { target, falls_onto: false }, tried, &mut value).unwrap();
+        (number, calls)
+    }
+
+    /// Curves and steps over many decades, from zero and from above zero.
+    #[test]
+    fn numbers_have_the_stated_precision() {
+        let functions: [(&dyn Fn(f64) -> f64, f64); 6] = [
+            (&|number| 1.0 - (-number / 1e-6).exp(), 1e-6 * std::f64::consts::LN_2),
+            (&|number| number / (number + 1e-9), 1e-9),
+            (&|number| number.powf(0.1), 0.5_f64.powi(10)),
+            (&|number| if number < 3.3e-8 { 0.0 } else { 1.0 }, 3.3e-8),
+            (&|number| number.powi(9), 0.5_f64.powf(1.0 / 9.0)),
+            // Nearly straight up to the target, which lies far below the other end.
+            (&|number| (number / 2.7e-7).min(1.0) + number / 1e6, 1.35e-7),
+        ];
+        for (function, exact) in functions {
+            for from in [0.0, 1e-12] {
+                let ends = [from, 1.0];
+                for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
+                    let coordinates = Coordinates::on(scale, ends, Allowed::Any).unwrap();
+                    let (number, calls) = searched(&coordinates, ends, 0.5, function);
+                    assert!((number / exact - 1.0).abs() < 2.0 * WITHIN, "{number} {exact} {scale:?} {from}");
+                    assert!(function(number) >= 0.5 && calls < 70, "{number} {calls}");
+                }
+                let coordinates = Coordinates::on_both_sides(1e-5, ends);
+                let (number, _) = searched(&coordinates, ends, 0.5, function);
+                assert!((number / exact - 1.0).abs() < 4.0 * WITHIN, "{number} {exact}");
+            }
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Scan of a quantity over a range of numbers in which it may rise and fall.
+//!
+//! The quantity is first computed at numbers that are spread evenly. Intervals are then halved where the quantity may reach
+//! the target between two numbers: where the distance of the quantity from the target is no larger than its deviations from a
+//! straight line nearby, and where it turns close to the target.
+
+use super::coordinates::Coordinates;
+use asperity_scene::RunError;
+use std::cmp::Ordering;
+
+/// Number of intervals into which the range is divided first.
+pub(super) const INTERVALS: usize = 32;
+/// Largest number of numbers at which the quantity is computed in a scan.
+pub(super) const MOST_TRIED: usize = 192;
+/// Smallest share of the range, in coordinates, to which an interval is halved.
+const NARROWEST: f64 = 1.0 / 4096.0;
+/// Ratio of the distance from the target to the deviation from a straight line up to which an interval is halved.
+const SAFETY: f64 = 4.0;
+
+/// Share of all values of the quantity within which it turns close to the target, divided by [`SAFETY`].
+const CLOSE: f64 = 1.0 / 400.0;
+
+/// A number and the quantity there, which is NaN if the quantity has no value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tried {
+    pub number: f64,
+    pub value: f64,
+}
+
+/// Function that computes the quantity at several ascending numbers.
+pub(super) type Compute<'c> = dyn FnMut(&[f64]) -> Result<Vec<f64>, RunError> + 'c;
+
+/// Numbers of a range at which the quantity is known, in ascending order.
+#[derive(Clone, Debug)]
+pub(super) struct Scan {
+    coordinates: Coordinates,
+    target: f64,
+    pub tried: Vec<Tried>,
+    /// True if all allowed numbers are tried.
+    is_complete: bool,
+}
+
+/// Interval between neighbouring numbers of a scan that may hide a crossing.
+#[derive(Clone, Copy, Debug)]
+struct Suspect {
+    /// Number in the middle.
+    middle: f64,
+    /// True if the interval is above the first known crossing.
+    is_beyond: bool,
+    /// Deviation from a straight line divided by the distance from the target.
+    urgency: f64,
+}
+
+impl Scan {
+    /// Scans the range of the coordinates.
+    pub fn of(coordinates: Coordinates, target: f64, compute: &mut Compute<'_>) -> Result<Scan, RunError> {
+        let (numbers, is_complete) = coordinates.spread(INTERVALS, MOST_TRIED);
+        let mut scan = Scan { coordinates, target, tried: Vec::new(), is_complete };
+        scan.add(&numbers, compute)?;
+        scan.complete(compute)?;
+        while !scan.is_complete {
+            let numbers = scan.next_numbers();
+            if numbers.is_empty() {
+                break;
+            }
+            scan.add(&numbers, compute)?;
+        }
+        Ok(scan)
+    }
+
+    /// Computes the quantity at all allowed numbers between those without a value at the ends of the range, if these are few.
+    fn complete(&mut self, compute: &mut Compute<'_>) -> Result<(), RunError> {
+        let is_known = |tried: &Tried| !tried.value.is_nan();
+        let first = self.tried.iter().position(is_known).unwrap_or(0);
+        let last = self.tried.iter().rposition(is_known).unwrap_or(0);
+        let ends = [first.saturating_sub(1), (last + 1).min(self.tried.len() - 1)];
+        let between = self.coordinates.all_between(ends.map(|point| self.tried[point].number), MOST_TRIED);
+        let Some(mut numbers) = between.filter(|_| !self.is_complete) else { return Ok(()) };
+        numbers.retain(|number| self.tried.iter().all(|tried| tried.number != *number));
+        self.is_complete = true;
+        self.add(&numbers, compute)
+    }
+
+    fn add(&mut self, numbers: &[f64], compute: &mut Compute<'_>) -> Result<(), RunError> {
+        let values = compute(numbers)?;
+        let tried = numbers.iter().zip(values).map(|(&number, value)| Tried { number, value });
+        self.tried.extend(tried);
+        self.tried.sort_by(|one, other| one.number.total_cmp(&other.number));
+        Ok(())
+    }
+
+    /// Returns the numbers that are computed next, in ascending order.
+    fn next_numbers(&self) -> Vec<f64> {
+        let left = MOST_TRIED.saturating_sub(self.tried.len()).min(INTERVALS);
+        let mut suspects = self.suspects();
+        // The first crossing counts.
+        suspects.sort_by(|one, other| {
+            let by_urgency = other.urgency.total_cmp(&one.urgency);
+            one.is_beyond.cmp(&other.is_beyond).then(by_urgency)
+        });
+        let mut numbers: Vec<f64> = suspects.iter().take(left).map(|suspect| suspect.middle).collect();
+        numbers.sort_by(f64::total_cmp);
+        numbers
+    }
+
+    /// Returns the intervals that may hide a crossing and are wide enough to be halved.
+    fn suspects(&self) -> Vec<Suspect> {
+        let mut suspects = Vec::new();
+        let mut is_beyond = false;
+        for index in 0..self.tried.len().saturating_sub(1) {
+            let urgency = self.urgency(index);
+            let ends = [self.tried[index].number, self.tried[index + 1].number];
+            if urgency > 1.0 && self.width(index) > NARROWEST * self.coordinates.length() {
+                let middle = self.coordinates.middle(ends);
+                suspects.extend(middle.map(|middle| Suspect { middle, is_beyond, urgency }));
+            }
+            is_beyond |= self.is_crossed(index);
+        }
+        suspects
+    }
+
+    /// Returns true if a crossing may be missed: the quantity comes close to the target between two numbers.
+    pub fn may_miss(&self) -> bool {
+        let may_hide = |index: usize| {
+            let ends = [self.tried[index].number, self.tried[index + 1].number];
+            self.urgency(index) > 1.0 && self.coordinates.middle(ends).is_some()
+        };
+        !self.is_complete && (0..self.tried.len().saturating_sub(1)).any(may_hide)
+    }
+
+    /// Returns true if all allowed numbers are tried, so that nothing is missed.
+    pub fn is_complete(&self) -> bool {
+        self.is_complete
+    }
+
+    /// Returns true if the quantity passes the target between number `index` and the next one.
+    fn is_crossed(&self, index: usize) -> bool {
+        let sides = [side(self.tried[index], self.target), side(self.tried[index + 1], self.target)];
+        matches!(sides, [Some(one), Some(other)] if one != other)
+    }
+
+    /// Width of interval `index` in coordinates.
+    fn width(&self, index: usize) -> f64 {
+        let places = [index, index + 1].map(|point| self.coordinates.coordinate(self.tried[point].number));
+        places[1] - places[0]
+    }
+
+    /// Returns a number above 1 if interval `index` may hide a crossing.
+    fn urgency(&self, index: usize) -> f64 {
+        let [from, to] = [self.tried[index].value, self.tried[index + 1].value];
+        if from.is_nan() && to.is_nan() {
+            return 0.0;
+        }
+        let is_edge = from.is_nan() || to.is_nan();
+        if is_edge && self.width(index) > NARROWEST * self.coordinates.length() {
+            return f64::INFINITY;
+        }
+        let distances = [(from - self.target).abs(), (to - self.target).abs()];
+        // Beyond both ends of an interval without a crossing, between the ends of one that has a crossing.
+        let distance =
+            if self.is_crossed(index) { 0.5 * (to - from).abs() } else { distances[0].min(distances[1]) };
+        let mut deviation = self.deviation(index);
+        if self.turns(index) {
+            deviation = deviation.max(CLOSE * self.spread());
+        }
+        let deviation = SAFETY * deviation;
+        if deviation > 0.0 { deviation / distance } else { 0.0 }
+    }
+
+    /// Returns true if interval `index` has an end at which the quantity is closer to the target than at the numbers beside it,
+    /// and on the same side.
+    fn turns(&self, index: usize) -> bool {
+        let distance = |point: usize| (self.tried[point].value - self.target).abs();
+        let end = if distance(index) <= distance(index + 1) { index } else { index + 1 };
+        let beside = [end.checked_sub(1), Some(end + 1).filter(|point| *point < self.tried.len())];
+        beside.into_iter().flatten().all(|point| {
+            let same_side = side(self.tried[point], self.target) == side(self.tried[end], self.target);
+            same_side && distance(point) >= distance(end)
+        })
+    }
+
+    /// Returns the difference of the largest and the smallest value of the quantity.
+    fn spread(&self) -> f64 {
+        let values = || self.tried.iter().map(|tried| tried.value).filter(|value| !value.is_nan());
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns how far the quantity may deviate from a straight line in interval `index`: the median deviation at the eight
+    /// numbers nearest to it. A single jump of the quantity causes deviations at two numbers only.
+    fn deviation(&self, index: usize) -> f64 {
+        let width = self.width(index);
+        let first = index.saturating_sub(3);
+        let mut deviations: Vec<f64> =
+            (first..=index + 4).filter_map(|point| self.deviation_at(point, width)).collect();
+        deviations.sort_by(f64::total_cmp);
+        deviations.get(deviations.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Returns the deviation of the quantity at number `point` from a straight line through the neighbours, extrapolated to
+    /// an interval of this width if it is wider.
+    fn deviation_at(&self, point: usize, width: f64) -> Option<f64> {
+        let [before, here, after] =
+            [point.checked_sub(1)?, point, point + 1].map(|point| self.tried.get(point));
+        let [before, here, after] = [before?, here?, after?];
+        let widths = [self.width(point - 1), self.width(point)];
+        let share = widths[0] / (widths[0] + widths[1]);
+        let straight = before.value + share * (after.value - before.value);
+        let growth = (width * width / (4.0 * widths[0] * widths[1])).max(1.0);
+        Some((here.value - straight).abs() * growth).filter(|deviation| deviation.is_finite())
+    }
+}
+
+/// Returns on which side of the target the quantity is; `None` if it has no value.
+pub(super) fn side(tried: Tried, target: f64) -> Option<Ordering> {
+    tried.value.partial_cmp(&target)
+}

@@ -1,0 +1,241 @@
+//! The search for the answer to a question on one random profile.
+
+use super::axis::Axis;
+use super::bracket::{Passage, passage};
+use super::cells::Streak;
+use super::coordinates::Coordinates;
+use super::plan::Plan;
+use super::quantity::Quantity;
+use super::question::{Answer, Course, Question, at_touch};
+use super::recorder::{Recorded, with_recorder};
+use super::scan::{Scan, Tried, side};
+use super::stairs::{Stair, ratio_crossings, step_crossings};
+use asperity_scene::{RunError, Simulation};
+use std::cmp::Ordering;
+
+/// Relative difference up to which a value counts as the target. Energies are constant between two steps but for rounding.
+const ROUNDING: f64 = 1e-12;
+
+impl Question {
+    /// Answers the question on one profile. The second value is the reason why the scene could not be computed with one of
+    /// the numbers.
+    ///
+    /// # Errors
+    /// Returns an error if `stop` returned true or if the memory does not suffice.
+    pub(super) fn answer(
+        &self,
+        simulation: &mut Simulation,
+        line: u64,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<(Answer, Option<String>), RunError> {
+        let search = Search { question: self, simulation, line, stop, known: Vec::new(), refused: None };
+        search.answer()
+    }
+}
+
+/// Search on one random profile.
+struct Search<'s> {
+    question: &'s Question,
+    simulation: &'s mut Simulation,
+    line: u64,
+    stop: &'s dyn Fn() -> bool,
+    /// Numbers at which the quantity has been computed, in the order of the computation.
+    known: Vec<Tried>,
+    /// First reason why the scene could not be computed with one of the numbers.
+    refused: Option<String>,
+}
+
+impl Search<'_> {
+    fn answer(mut self) -> Result<(Answer, Option<String>), RunError> {
+        let question = self.question;
+        let mut answer = Answer {
+            seed: question.plan.scene.seed().map(|_| question.plan.seed_of(self.line)),
+            ..Answer::default()
+        };
+        // The check of the question found an allowed number.
+        if let Some(coordinates) = question.coordinates() {
+            match question.course() {
+                Course::OneWay => self.search_one_way(&coordinates, &mut answer)?,
+                Course::Ratio => self.search_ratio(&mut answer)?,
+                Course::Steps => self.search_steps(&coordinates, &mut answer)?,
+                Course::Unknown => self.scan(&coordinates, &mut answer)?,
+            }
+        }
+        self.known.sort_by(|one, other| one.number.total_cmp(&other.number));
+        let with_value: Vec<&Tried> = self.known.iter().filter(|tried| !tried.value.is_nan()).collect();
+        let is_reached = |tried: Option<&&Tried>| tried.is_some_and(|tried| tried.value >= question.target);
+        answer.reached = [is_reached(with_value.first()), is_reached(with_value.last())];
+        let least = with_value.iter().map(|tried| tried.value).reduce(f64::min);
+        let most = with_value.iter().map(|tried| tried.value).reduce(f64::max);
+        answer.reachable = least.zip(most);
+        answer.tried = self.known.len() as u64;
+        answer.crossings.dedup();
+        Ok((answer, self.refused))
+    }
+
+    /// Searches a quantity that never turns: two numbers bracket its only crossing.
+    fn search_one_way(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
+        let (numbers, _) = coordinates.spread(1, 1);
+        let records = self.compute(&numbers)?;
+        answer.is_proven = true;
+        let touch = |values: &Vec<f64>| values.get(1).is_some_and(|force| *force >= self.question.target);
+        let has_touch = at_touch(&self.question.axis, self.question.quantity).is_some();
+        answer.at_touch = has_touch && records.first().is_some_and(touch);
+        let tried: Vec<Tried> = self.known.clone();
+        let values: Vec<f64> = tried.iter().map(|tried| tried.value).collect();
+        if values.iter().any(|value| value.is_nan()) && !values.iter().all(|value| value.is_nan()) {
+            // A part of the range has no value: it is searched for this part.
+            return self.scan(coordinates, answer);
+        }
+        self.add_crossings(coordinates, &tried, answer)
+    }
+
+    /// Searches the ratio F_a/F_n from stair to stair of F_a.
+    fn search_ratio(&mut self, answer: &mut Answer) -> Result<(), RunError> {
+        let (from, to) = self.question.searched;
+        let target = self.question.target;
+        answer.is_proven = true;
+        if to <= 0.0 || target <= 0.0 {
+            // The ratio exists above 0 N only, and it is zero only where F_a is zero: up to its first step.
+            let stairs = self.climb(&[from.max(0.0), to])?;
+            let is_zero = stairs.first().is_some_and(|stair| stair.adhesion_force <= 0.0);
+            answer.crossings.extend((to > 0.0 && is_zero).then_some(from.max(0.0)));
+            return Ok(());
+        }
+        let found = ratio_crossings([from.max(0.0), to], target, &mut |numbers| self.climb(numbers))?;
+        answer.may_miss = found.may_miss;
+        for crossing in found.numbers {
+            let number = self.at_least_target(crossing)?;
+            answer.crossings.push(number);
+        }
+        Ok(())
+    }
+
+    /// Returns this preload, or the next smaller one at which the ratio F_a/F_n is at least the target in spite of rounding.
+    fn at_least_target(&mut self, preload: f64) -> Result<f64, RunError> {
+        for steps in 0..4 {
+            let lower = preload * (1.0 - f64::from(steps) * f64::EPSILON);
+            if self.value(lower)? >= self.question.target {
+                return Ok(lower);
+            }
+        }
+        Ok(preload)
+    }
+
+    /// Searches a quantity that is constant wherever F_a is.
+    fn search_steps(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
+        let target = self.question.target;
+        let (pairs, may_miss) = step_crossings(coordinates, target, &mut |numbers| self.climb(numbers))?;
+        answer.is_proven = true;
+        answer.may_miss = may_miss;
+        let first = self.known.first().filter(|first| first.value == target);
+        answer.crossings.extend(first.map(|first| first.number));
+        for pair in pairs {
+            self.add_crossings(coordinates, &pair, answer)?;
+        }
+        Ok(())
+    }
+
+    /// Scans a quantity that may rise and fall.
+    fn scan(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
+        let target = self.question.target;
+        let scan = Scan::of(*coordinates, target, &mut |numbers| {
+            Ok(self.compute(numbers)?.iter().map(|values| values[0]).collect())
+        })?;
+        answer.is_proven = scan.is_complete();
+        // The number of patches and the place of the smallest force jump without a warning.
+        let jumps = matches!(self.question.quantity, Quantity::Fragments | Quantity::PullOffIndentation);
+        answer.may_miss = scan.may_miss() || (jumps && !scan.is_complete());
+        // The first number may have the target itself.
+        let first = scan.tried.first().filter(|first| first.value == target);
+        answer.crossings.extend(first.map(|first| first.number));
+        self.add_crossings(coordinates, &scan.tried, answer)
+    }
+
+    /// Adds the numbers between which the quantity passes the target, or comes to rest on it. Between a number without a value
+    /// and one with a value other than the target, no crossing is known.
+    fn add_crossings(
+        &mut self,
+        coordinates: &Coordinates,
+        tried: &[Tried],
+        answer: &mut Answer,
+    ) -> Result<(), RunError> {
+        let target = self.question.target;
+        for pair in tried.windows(2) {
+            let ends = [pair[0], pair[1]];
+            let falls_onto = match ends.map(|tried| side(tried, target)) {
+                [Some(Ordering::Less), Some(Ordering::Equal | Ordering::Greater)]
+                | [Some(Ordering::Greater), Some(Ordering::Less)] => false,
+                [Some(Ordering::Greater) | None, Some(Ordering::Equal)] => true,
+                _ => continue,
+            };
+            let way = Passage { target, falls_onto };
+            let number = passage(coordinates, way, ends, &mut |number| self.value(number))?;
+            let number = self.first_on_target(coordinates, ends[0], number)?;
+            answer.crossings.push(number);
+        }
+        Ok(())
+    }
+
+    /// Returns `end`, or the first number of a plateau on the target that ends there. The quantity begins above the target at
+    /// `from`, or below.
+    fn first_on_target(&mut self, coordinates: &Coordinates, from: Tried, end: f64) -> Result<f64, RunError> {
+        let target = self.question.target;
+        let is_above = from.value > target;
+        if !is_above || from.number == end {
+            return Ok(end);
+        }
+        let end = Tried { number: end, value: self.value(end)? };
+        if end.value != target {
+            return Ok(end.number);
+        }
+        let way = Passage { target, falls_onto: true };
+        passage(coordinates, way, [from, end], &mut |number| self.value(number))
+    }
+
+    /// Computes the quantity at one number; NaN if it has no value there.
+    fn value(&mut self, number: f64) -> Result<f64, RunError> {
+        Ok(self.compute(&[number])?[0][0])
+    }
+
+    /// Computes stairs of the adhesion force at preloads. The adhesion force is 0 if the unloading never pulls.
+    fn climb(&mut self, preloads: &[f64]) -> Result<Vec<Stair>, RunError> {
+        let records = self.compute(preloads)?;
+        let stair = |(&preload, values): (&f64, &Vec<f64>)| {
+            let force = values.last().copied().unwrap_or_default();
+            Stair { preload, adhesion_force: force.max(0.0), value: values[0] }
+        };
+        Ok(preloads.iter().zip(&records).map(stair).collect())
+    }
+
+    /// Computes the recorded quantities at each of several numbers; NaN for those that have no value.
+    fn compute(&mut self, numbers: &[f64]) -> Result<Vec<Vec<f64>>, RunError> {
+        let question = self.question;
+        let axis = Axis { values: numbers.to_vec(), ..question.axis.clone() };
+        let plan = Plan { axes: vec![axis], ..question.plan.clone() };
+        // One loading serves all preloads.
+        let step = if question.is_of_preload() { plan.cells() } else { 1 };
+        let line = self.line;
+        let mut records: Vec<Recorded> = Vec::with_capacity(numbers.len());
+        with_recorder(&plan, self.simulation, self.stop, |recorder| {
+            for first in (0..plan.cells()).step_by(step as usize) {
+                records.extend(recorder.record_each(&Streak { cells: first..first + step, line })?);
+            }
+            Ok(())
+        })?;
+        let mut all = Vec::with_capacity(numbers.len());
+        for (&number, record) in numbers.iter().zip(records) {
+            let values = record.unwrap_or_else(|why| {
+                self.refused.get_or_insert(why);
+                vec![f64::NAN; plan.record.len()]
+            });
+            let mut values = values;
+            if (values[0] - question.target).abs() <= ROUNDING * question.target.abs() {
+                values[0] = question.target;
+            }
+            self.known.push(Tried { number, value: values[0] });
+            all.push(values);
+        }
+        Ok(all)
+    }
+}
