@@ -53,6 +53,8 @@ _FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "Punch", "Table")
 _ROUGHNESS = ("SelfAffine", "Measured")
 #: Arguments of all functions of scenes that are those of `load`.
 _CONTACT = ("modulus", "work", "closing_work", "stages")
+#: Options of `asperity fit` that are arguments of `fit`, or that belong to files that the command writes.
+_NOT_READING = ("set", "free", "profiles", "jobs", "scene", "format", "output", "force")
 _PRELOADS = "the smallest and the largest force in N; count gives their number, and log=True equal ratios"
 
 
@@ -235,13 +237,14 @@ def self_affine(
         modes=first_and_last,
         wavelengths=longest_and_shortest,
         roll_off=number(roll_off, "roll_off"),
+        seed=1,
     )
 
 
 def measured(
     file: AnyPath,
     *,
-    further_files: Sequence[AnyPath] = (),
+    further_files: AnyPath | Sequence[AnyPath] = (),
     as_line: bool = False,
     spacing: Quantity | None = None,
     **reading: Unpack[Reading],
@@ -254,7 +257,8 @@ def measured(
     With `as_line=True` the heights of the file are used unchanged. They must be those of an equivalent line, which
     `asperity.Profile` explains. A measured profile is a cut through the surface and no equivalent line.
     """
-    names = [str(Path(path(name, "file")).absolute()) for name in (file, *further_files)]
+    others = [further_files] if isinstance(further_files, (str, os.PathLike)) else further_files
+    names = [str(Path(path(name, "file")).absolute()) for name in (file, *others)]
     return _measured(names, as_line, spacing, reading)
 
 
@@ -671,6 +675,9 @@ def fit(
     named = [name if between is None else f"{name}={ends(between, name)}" for name, between in _ranges(free)]
     if options is not None and not isinstance(options, Mapping):
         raise refused_type("options", options, "a dictionary such as {'noise': '2 nN'}")
+    for name in options or {}:
+        if str(name).replace("-", "_") in _NOT_READING:
+            raise refusal("options", name, "options of reading the curves; free, profiles, jobs and fields are arguments of fit")
     count = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     words = [f"--free={name}" for name in named] + in_words({"profiles": count, **(options or {})})
     call = _call(scene, fields, None, jobs, progress)
@@ -720,8 +727,11 @@ def _curve(index: int, curve: Any) -> tuple[str, Any]:
 
 
 def _list(values: Any, field: str) -> list[Any]:
+    allowed = "a file, two arrays, or a list of these" if field == "curves" else "names, or a dictionary of names and ranges"
     if isinstance(values, (bytes, Mapping)) or not hasattr(values, "__iter__"):
-        raise refused_type(field, values, "a file, two arrays, or a list of these")
+        raise refused_type(field, values, allowed)
+    if hasattr(values, "shape"):
+        raise refusal(field, f"a table or an array of the shape {values.shape}", allowed)
     return list(values)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import operator
 import os
 from collections.abc import Mapping, Sequence
@@ -60,7 +59,7 @@ def refused_type(field: str, value: object, allowed: str) -> FieldError:
 def in_scene(value: Any, field: str) -> str:
     """Returns a value in the notation of a scene file. A text stays unchanged, so it may have a unit. Errors name the field."""
     if isinstance(value, Text):
-        return json.dumps(value, ensure_ascii=False)
+        return quoted(value)
     if isinstance(value, str):
         return value
     if value is None or isinstance(value, Form):
@@ -68,7 +67,7 @@ def in_scene(value: Any, field: str) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, os.PathLike):
-        return json.dumps(path(value, field), ensure_ascii=False)
+        return quoted(path(value, field))
     if isinstance(value, Mapping):
         return "(" + ", ".join(f"{name}: {in_scene(entry, field)}" for name, entry in value.items()) + ")"
     if isinstance(value, tuple):
@@ -86,6 +85,19 @@ def in_scene(value: Any, field: str) -> str:
         return repr(float(value))
     except (TypeError, ValueError):
         raise refused_type(field, value, "a number, a text, a list, a tuple or a dictionary") from None
+
+
+def quoted(value: str) -> str:
+    """Returns a text in quotes, as a scene file has it."""
+    escaped = []
+    for sign in value:
+        if sign in ('"', "\\"):
+            escaped.append("\\" + sign)
+        elif ord(sign) < 32 or ord(sign) == 127:
+            escaped.append(f"\\u{{{ord(sign):x}}}")
+        else:
+            escaped.append(sign)
+    return '"' + "".join(escaped) + '"'
 
 
 def quantity(value: Quantity, unit: str, field: str) -> float:

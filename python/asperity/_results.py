@@ -174,18 +174,6 @@ class Found(Result):
     `value` is the median, `values` has the value on each profile, and `target` is the wanted value of the condition.
     """
 
-    @property
-    def value(self) -> float | None:
-        """Median of the found values in the SI unit of the field; None if fewer than half of the profiles have one."""
-        median: float | None = self.median
-        return median
-
-    @property
-    def target(self) -> float:
-        """Wanted value of the quantity in its SI unit."""
-        values = self.to_dict()
-        return float(values["target"] if "target" in values else values["value"])
-
     def __repr__(self) -> str:
         return f"<Found: {self.answer}>"
 

@@ -88,7 +88,7 @@ pub struct Call(Py<Scene>, pub Option<u64>, Option<usize>, Progress);
 pub struct Case<'a> {
     pub document: Document,
     /// Roughness in memory, of which the scene has no file.
-    in_memory: Option<Arc<MeasuredRoughness>>,
+    pub in_memory: Option<Arc<MeasuredRoughness>>,
     pub profiles: u64,
     pub jobs: usize,
     pub watch: &'a Watch,

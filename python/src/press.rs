@@ -31,6 +31,11 @@ pub fn press<'py>(
         let allowed = "a force whose indentation is not far larger than the heights of the map";
         return Err(Failure::field("force", &format_quantity(force, "N"), allowed).into());
     }
+    if found.residual > residual {
+        let allowed =
+            format!("at least {:.1e}, which rounding leaves for this map and this force", found.residual);
+        return Err(Failure::field("residual", &format!("{residual:e}"), &allowed).into());
+    }
     let numbers = [found.force, found.indentation, found.area, found.residual, found.convolutions as f64];
     Ok(([found.pressure, found.gap].map(|map| array(py, map)), numbers))
 }

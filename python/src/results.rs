@@ -10,6 +10,7 @@ use asperity::study::trust::MeasuredAdhesion;
 use asperity::study::{
     Axis, Ensemble, Found, Plan, Quantity, Question, Results, Spacing, Staircase, compute,
 };
+use asperity::surface::lines::MeasuredRoughness;
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport, RunReport,
     scene_provenance,
@@ -19,6 +20,7 @@ use pyo3::prelude::*;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A result in the formats of the program: JSON, a table as CSV or as an array of NumPy, text, and a figure.
 #[pyclass(frozen, module = "asperity._native")]
@@ -29,6 +31,11 @@ impl Report {
     pub fn new(write: impl Fn(Format) -> io::Result<Vec<u8>> + Send + Sync + 'static) -> Self {
         Report(Box::new(write))
     }
+}
+
+/// Returns the document that tables and figures state; `None` for a scene with a roughness in memory, which no text holds.
+fn named<'a>(document: &'a Document, in_memory: &Option<Arc<MeasuredRoughness>>) -> Option<&'a Document> {
+    in_memory.is_none().then_some(document)
 }
 
 /// A report as bytes; tables and figures state its scene.
@@ -82,7 +89,7 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
             let (title, scene, outcome) = (case.document.title(), case.document.scene(), &*outcome);
             let (estimate, ensemble) = (estimate.as_ref(), ensemble.as_ref());
             let report = RunReport { title, scene, outcome, choice: None, estimate, ensemble, deviation };
-            bytes(Some(&case.document), &report, format)
+            bytes(named(&case.document, &case.in_memory), &report, format)
         }))
     })
 }
@@ -92,7 +99,7 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
 pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
     call.computed(py, |case| {
         let ensemble = on_profiles(&case, &Ensemble::FURTHER)?;
-        Ok(Report::new(move |format| bytes(Some(&case.document), &ensemble, format)))
+        Ok(Report::new(move |format| bytes(named(&case.document, &case.in_memory), &ensemble, format)))
     })
 }
 
@@ -110,7 +117,7 @@ pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<
         let found = Found::of(question, (simulation, case.jobs), &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, found) = (case.document.title(), case.document.scene(), &found);
-            bytes(Some(&case.document), &FindReport { title, scene, found }, format)
+            bytes(named(&case.document, &case.in_memory), &FindReport { title, scene, found }, format)
         }))
     })
 }
@@ -132,7 +139,7 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
         Ok(Report::new(move |format| {
             let (title, results, staircase) = (case.document.title(), &results, Some(&staircase));
             let report = PreloadReport { title, choice: None, results, staircase, curves: false };
-            bytes(Some(&case.document), &report, format)
+            bytes(named(&case.document, &case.in_memory), &report, format)
         }))
     })
 }
@@ -147,7 +154,7 @@ pub fn reversals(py: Python<'_>, call: Call, range: Option<&str>, count: usize) 
         Ok(Report::new(move |format| {
             let (title, scene) = (case.document.title(), case.document.scene());
             let report = ReversalReport { title, scene, map: &map, preloads: None, staircase: None };
-            bytes(Some(&case.document), &report, format)
+            bytes(named(&case.document, &case.in_memory), &report, format)
         }))
     })
 }
@@ -170,7 +177,11 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
         let found = Reference::of(scene, options, simulation, &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
-            bytes(Some(&case.document), &ReferenceReport { title, scene, reference }, format)
+            bytes(
+                named(&case.document, &case.in_memory),
+                &ReferenceReport { title, scene, reference },
+                format,
+            )
         }))
     })
 }
@@ -223,6 +234,6 @@ pub fn study(py: Python<'_>, call: Call, axes: Vec<GivenAxis>, record: Vec<Strin
         let mut report = |done| case.watch.report(done, all);
         let control = Control::default().on_threads(case.jobs).stopped_by(&stop).reporting_to(&mut report);
         let results = compute(&plan, control)?;
-        Ok(Report::new(move |format| bytes(Some(&case.document), &results, format)))
+        Ok(Report::new(move |format| bytes(named(&case.document, &case.in_memory), &results, format)))
     })
 }

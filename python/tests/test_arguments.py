@@ -16,6 +16,7 @@ import asperity as asp
 
 RADIUS, MODULUS, WORK = 1e-4, 1e6, 0.05
 PULL_OFF = 1.5 * np.pi * WORK * RADIUS
+BOWL = -np.add.outer(np.linspace(-1, 1, 64) ** 2, np.linspace(-1, 1, 64) ** 2)
 RANDOM = np.random.default_rng(1)
 
 
@@ -103,7 +104,14 @@ class EquivalentLines(InFolder):
             found = [asp.ensemble(body, profiles=3, **contact).values() for body in bodies]
             for values in found[1:]:
                 np.testing.assert_array_equal(values, found[0])
-        self.assertIsNotNone(asp.run(bodies[0], profiles=2, **contact).regime)
+        outcome = asp.run(bodies[0], profiles=2, **contact)
+        self.assertIsNotNone(outcome.regime)
+        # No text holds a scene in memory, so tables and figures state none.
+        self.assertIn("<svg", outcome._repr_svg_())
+        outcome.save("run.csv")
+        heights = asp.Profile(np.r_[bodies[0].heights], bodies[0].spacing)
+        found = asp.preloads(heights, (0, "1 µN"), count=3, modulus=MODULUS, work=1e-3)
+        self.assertIn("<svg", found._repr_svg_())
         body = bodies[0]
         self.assertNotEqual(asp.scene(body, roughness__seed=9, modulus=1e6).text, asp.scene(body, modulus=1e6).text)
         self.refused(asp.run, body, roughness__detrend="Mean", field="roughness", says="another seed alone", **contact)
@@ -258,6 +266,11 @@ class Texts(InFolder):
         numbers = asp.measured("line.txt", unit="um", height_unit="nm", detrend="tilt", continue_to="500 nm")
         typed = asp.measured(Path("line.txt"), unit="um", height_unit="nm", detrend="Tilt", continue_to=5e-7)
         self.assertEqual(repr(numbers), repr(typed))
+        several = asp.measured("line.txt", unit="um", further_files=Path("line.txt"))
+        self.assertEqual(several.values["further_files"], [str(Path("line.txt").absolute())])
+        self.assertEqual(asp.measured('a"b\\c.txt').values["file"], str(Path('a"b\\c.txt').absolute()))
+        rough = asp.self_affine(0.7, rms_height="10 nm", modes=(4, 64))
+        self.assertIn("seed: 1", asp.scene("pressure-sensitive", roughness=rough).text)
         self.assertIn('unit: "um"', asp.scene(asp.profile("100 µm", 1024, roughness=numbers), modulus=1e6).text)
         for options, field in [({"unit": "apples"}, "unit"), ({"unit": 3}, "unit"), ({"spacing": "1 N"}, "spacing"), ({"as_line": 1}, "as_line"), ({"column": True}, "column"), ({"row": 1, "column": 1}, "row")]:
             with self.subTest(options):
@@ -397,10 +410,15 @@ class Words(InFolder):
             (asp.fit, [([1], [1]), "jkr-sphere", 5], {}, "free"),
             (asp.fit, [([1], [1]), "jkr-sphere", ["work"]], {"options": 5}, "options"),
             (asp.fit, [([1], [1]), "jkr-sphere", ["work"]], {"options": {"nosuch": 5}}, "options"),
+            (asp.fit, [([1], [1]), "jkr-sphere", ["work"]], {"options": {"set": "form.radius=1"}}, "options"),
+            (asp.fit, [([1], [1]), "jkr-sphere", ["work"]], {"options": {"scene": "a.ron"}}, "options"),
+            (asp.fit, [pd.DataFrame(np.zeros((5, 3))), "jkr-sphere", ["work"]], {}, "curves"),
+            (asp.measured, ["a\x1b.txt"], {}, "file"),
             (asp.fit, [([1], [1]), "jkr-sphere", ["work"]], {"options": {"noise": "x"}}, "noise"),
             (asp.fit, [([1], [1]), "jkr-sphere", ["work"]], {"options": {"negate": "x"}}, "negate"),
             (asp.press, [np.zeros((32, 32))], {"side": 1, "modulus": 1, "force": 1e40}, "force"),
             (asp.press, [np.zeros((32, 32))], {"side": "1 N", "modulus": 1, "force": 1}, "side"),
+            (asp.press, [BOWL], {"side": 1, "modulus": 1, "force": 1e17}, "residual"),
         ]:
             with self.subTest(field=field, arguments=arguments):
                 self.refused(function, *arguments, field=field, **named)
