@@ -119,7 +119,7 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
     let Sphere { scene: mut whole, contact_radius, pull_off } = sphere(random);
     let mut broken = whole.clone();
     match premise {
-        "contact_at_ends" => broken.length = contact_radius * random.between(0.3, 1.8),
+        "contact_at_ends" => broken.length = contact_radius * random.between(1.2, 1.8),
         "ends_in_contact" => {
             broken.loading[1] = Move::ToForce(-pull_off * (0.95 * random.share()));
         }
@@ -155,9 +155,12 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             use_heights_as_profile(&mut broken);
         }
         "cut_like_heights" => {
-            let radius = random.between(1e-5, 1e-2);
+            let radius = random.between(1e-4, 1e-2);
             let (scene, scan) = measured(random, folder, |x| -x * x / (2.0 * radius));
-            broken = Scene { length: 0.999_999_999_9 * scan, ..scene };
+            // The contact of the cut is a quarter of the scan wide.
+            let pressed = Move::ToIndentation((scan / 8.0).powi(2) / (2.0 * radius));
+            broken = Scene { length: 0.999_999_999_9 * scan, adhesion: None, ..scene };
+            broken.loading = vec![pressed, Move::ToSeparation];
             use_heights_as_profile(&mut broken);
             whole = Scene { form: Some(Form::Paraboloid { radius }), roughness: None, ..broken.clone() };
         }
@@ -194,10 +197,15 @@ fn rough_pair(premise: &str, random: &mut Random) -> [Scene; 2] {
             // Without adhesion the steep roughness has no Tabor number.
             (*rms_height, *rms_gradient) = (None, Some(random.between(1.01, 4.0)));
             broken.adhesion = None;
-            broken.loading = vec![Move::ToForce(1e-2), Move::ToSeparation];
             whole = broken.clone();
             if let Some(Roughness::SelfAffine { rms_gradient, .. }) = &mut whole.roughness {
                 *rms_gradient = Some(0.1);
+            }
+            for scene in [&mut whole, &mut broken] {
+                let checked = scene.clone().checked().unwrap();
+                let (_, _, governing) = Simulation::default().make_line(&checked).unwrap();
+                let height = governing.amplitude.unwrap().rms_height;
+                scene.loading = vec![Move::ToIndentation(3.0 * height), Move::ToSeparation];
             }
         }
     }
