@@ -544,6 +544,14 @@ impl Display for Warning {
     }
 }
 
+/// A warning is written as its text.
+#[cfg(feature = "files")]
+impl serde::Serialize for Warning {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
 /// Writes how many times a wave fits: `once`, `2.5 times`.
 fn times(waves: f64) -> String {
     if waves == 1.0 { "once".to_owned() } else { format!("{} times", format_rounded(waves, 2, "1")) }
