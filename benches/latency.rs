@@ -230,10 +230,9 @@ mod measure {
         }
     }
 
-    /// The value below which this share of the sorted values lies.
+    /// A quantile of times or sizes, of which there is at least one.
     fn quantile(sorted: &[f64], share: f64) -> f64 {
-        let place = (share * sorted.len() as f64).ceil() as usize;
-        sorted[place.clamp(1, sorted.len()) - 1]
+        asperity::data::quantile(sorted, share).unwrap_or_else(|| panic!("nothing was measured"))
     }
 
     fn sorted(values: &[f64]) -> Vec<f64> {

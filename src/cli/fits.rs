@@ -1,15 +1,17 @@
 //! `asperity fit` for several curves: files and folders, on all cores, into a table that is continued where it ended.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, command};
+use super::output::{Origin, OutputArguments, command_without};
 use super::progress::ProgressLine;
 use super::scene::{Overrides, threads};
-use asperity_data::{Control, check_writable, grouped, on_threads, path_name, read_regular_text, write_new};
+use asperity_data::{
+    Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text, write_new,
+};
 use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
 use asperity_report::{CurveRow, FitsReport, Format, Report, scene_provenance, write};
 use asperity_scene::Document;
 use asperity_scene::library::open_argument;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs::{File, OpenOptions, read_dir};
 use std::io;
 use std::io::Write;
@@ -17,6 +19,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Svg, Format::Png, Format::Pdf];
+/// Beginnings of the first line of a table and of the line with its command.
+const PROGRAM: &str = "# asperity ";
+const COMMAND: &str = "# command: ";
 /// Limit of the size of a table that is continued, bytes.
 const LARGEST_TABLE: usize = 1 << 28;
 
@@ -96,7 +101,9 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let files = files_of(curves.paths, output.file())?;
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
-    let provenance = scene_provenance(&command(), document.scene(), &document.resolve(""), output.folder());
+    // The number of threads changes no row.
+    let command = command_without(&["--jobs"]);
+    let provenance = scene_provenance(&command, document.scene(), &document.resolve(""), output.folder());
     let is_free = |one: &Parameter| curves.free.iter().any(|free| free.parameter == *one);
     let batch = Batch {
         free: Parameter::ALL.into_iter().filter(is_free).collect(),
@@ -107,21 +114,41 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     };
     let rows = batch.rows(&files, table)?;
     let report = batch.report(&rows);
+    let failure = report.failure().map(CliError::message);
+    if let Some(failure) = failure.filter(|_| format.is_picture()) {
+        return Err(failure);
+    }
     match table {
         Some(path) => write_new(path, true, |out| write(out, &report, format, &batch.provenance))?,
         None => {
             output.write(stdout, &report, format, Origin::Scene(&batch.document, batch.document.scene()))?
         }
     }
-    match rows.iter().filter(|row| !row.error.is_empty()).count() {
-        0 => Ok(()),
-        count => {
-            stdout.flush()?;
-            let [count, all] = [count, rows.len()].map(|count| grouped(count as u64));
-            let text = "curves were not read or not fitted; their rows have the reason";
-            Err(CliError::message(format!("{count} of {all} {text}")))
+    stdout.flush()?;
+    if let Some(failure) = report.failure() {
+        return Err(CliError::message(failure));
+    }
+    let failures = report.failures().count();
+    if failures > 0 {
+        let [failures, all] = [failures, rows.len()].map(|count| grouped(count as u64));
+        // The results are written even if standard error is closed.
+        let _ = writeln!(
+            io::stderr(),
+            "{failures} of {all} curves were not read or not fitted; their rows have the reason"
+        );
+    }
+    Ok(())
+}
+
+/// Returns an error for a file that is named twice, because a table has one row for each file.
+fn check_names(names: &[String]) -> Result<(), CliError> {
+    let mut seen = HashSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            return Err(CliError::named(printable(name), "named twice; allowed: each curve once"));
         }
     }
+    Ok(())
 }
 
 impl Batch<'_> {
@@ -132,6 +159,7 @@ impl Batch<'_> {
     /// The row of each file, in their order. Rows that the table has are kept, and further ones are added to it at once.
     fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
         let names: Vec<String> = files.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+        check_names(&names)?;
         let rows = table.map(|path| self.kept(path)).transpose()?.unwrap_or_default();
         let todo: Vec<usize> = (0..files.len()).filter(|index| !rows.contains_key(&names[*index])).collect();
         let unwritable = |error: io::Error| {
@@ -184,9 +212,7 @@ impl Batch<'_> {
         let text = read_regular_text(path, LARGEST_TABLE)
             .map_err(|error| CliError::named(path_name(path), error))?;
         let Some(rows) = text.strip_prefix(&self.text_of(&[])) else {
-            let refused = "this is not the table of this command, scene and version; allowed: another file, or --force to begin \
-                           anew";
-            return Err(CliError::named(path_name(path), refused));
+            return Err(CliError::named(path_name(path), refusal(&text, &self.text_of(&[]))));
         };
         // A row that a killed process left without its end is computed again.
         let whole = rows.rsplit_once('\n').map_or("", |(whole, _)| whole);
@@ -204,6 +230,29 @@ impl Batch<'_> {
         let opened = OpenOptions::new().append(true).open(path);
         opened.map_err(|error| CliError::named(path_name(path), format!("cannot be written: {error}")))
     }
+}
+
+/// Says why a file is not continued. `expected` is the beginning of a table that would be.
+fn refusal(text: &str, expected: &str) -> String {
+    if !text.starts_with(PROGRAM) {
+        return "this is not a table of fits; allowed: another file, or --force, which overwrites this file"
+            .to_owned();
+    }
+    let differing = text.lines().zip(expected.lines()).find(|(found, expected)| found != expected);
+    let what = match differing.map_or("", |(_, expected)| expected) {
+        line if line.starts_with(PROGRAM) => "version",
+        line if line.starts_with(COMMAND) => "command",
+        _ => "scene",
+    };
+    let lines = text.lines().filter(|line| !line.starts_with('#')).count();
+    let rows = match lines.saturating_sub(1) {
+        1 => "1 finished row".to_owned(),
+        count => format!("{} finished rows", grouped(count as u64)),
+    };
+    format!(
+        "this is the table of another {what}, with {rows}; allowed: the {what} of the table, which continues it, another file, \
+         or --force, which discards its rows"
+    )
 }
 
 fn last_line(text: &str) -> &str {

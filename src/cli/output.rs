@@ -238,12 +238,25 @@ impl AnswerFormat {
 
 /// The command of this process, for a POSIX shell, without the options for format and destination.
 pub(super) fn command() -> String {
+    command_without(&[])
+}
+
+/// The command of this process without the options for format and destination, and without further options that take a
+/// value.
+pub(super) fn command_without(options: &[&str]) -> String {
     let mut words = vec!["asperity".to_owned()];
     let typed = TYPED.get().into_iter().flatten();
     let mut typed = typed.skip(1).map(|word| word.to_string_lossy());
     while let Some(word) = typed.next() {
+        let is_further = |option: &&str| {
+            word.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
+        };
         if ["-o", "--output", "--format"].contains(&&*word) {
             typed.next();
+        } else if let Some(option) = options.iter().copied().find(is_further) {
+            if word == option {
+                typed.next();
+            }
         } else if word != "--force"
             && !["-o", "--output=", "--format="].iter().any(|one| word.starts_with(one))
         {

@@ -42,8 +42,8 @@ pub use json::write_json;
 pub use memory::{OutOfMemory, check_room, emptied, gathered, push, reserve, resized};
 pub use npy::SIGNATURE;
 pub use numerics::{
-    CompensatedSum, between, gauss_nodes_on_quarter_circle, mean, median, quantile, root_mean_square, slope,
-    standard_deviation, student_quantile,
+    CompensatedSum, between, gauss_nodes_on_quarter_circle, mean, median, quantile, quartiles,
+    root_mean_square, slope, standard_deviation, student_quantile,
 };
 #[cfg(feature = "files")]
 pub use object::{Object, ObjectEntry, Optional};

@@ -69,16 +69,38 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
 }
 
 /// Returns a quantile of ascending values, with linear interpolation between neighbouring values. A `share` of 0 gives the
-/// first value, 0.5 the median, 1 the last value. The slice must not be empty.
+/// first value, 0.5 the median, 1 the last value. Returns `None` without values, and for a share outside of 0 to 1.
 ///
 /// ```
-/// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), 5.0);
+/// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), Some(5.0));
+/// assert_eq!(asperity_data::quantile(&[], 0.25), None);
 /// ```
-pub fn quantile(ascending: &[f64], share: f64) -> f64 {
-    let last = ascending.len() - 1;
+pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
+    if !(0.0..=1.0).contains(&share) {
+        return None;
+    }
+    let last = ascending.len().checked_sub(1)?;
     let place = share * last as f64;
-    let low = place as usize;
-    between(ascending[low], ascending[(low + 1).min(last)], place - low as f64)
+    let lower = place as usize;
+    let fraction = place - lower as f64;
+    // A neighbour of no weight may be infinite.
+    if fraction == 0.0 {
+        return Some(ascending[lower]);
+    }
+    Some(between(ascending[lower], ascending[lower + 1], fraction))
+}
+
+/// Returns the lower quartile, the median and the upper quartile of ascending values, each as their
+/// [quantile](quantile()); `None` without values.
+///
+/// ```
+/// assert_eq!(asperity_data::quartiles(&[1.0, 2.0, 3.0, 4.0, 5.0]), Some([2.0, 3.0, 4.0]));
+/// ```
+pub fn quartiles(ascending: &[f64]) -> Option<[f64; 3]> {
+    let lower = quantile(ascending, 0.25)?;
+    let median = quantile(ascending, 0.5)?;
+    let upper = quantile(ascending, 0.75)?;
+    Some([lower, median, upper])
 }
 
 /// Returns the linear interpolation between `from` at a `share` of 0 and `to` at a `share` of 1.
@@ -188,6 +210,47 @@ mod tests {
         }
     }
 
+    proptest! {
+        /// A quantile is the value at which the polygon through the points (k/(n − 1), value k) has the abscissa `share`.
+        /// The median is the quantile 0.5, and a sample without values has neither.
+        #[test]
+        fn quantiles_lie_on_the_polygon_of_the_values(
+            mut values in prop::collection::vec(-1e3..1e3_f64, 0..40),
+            share in 0.0..=1.0_f64,
+        ) {
+            values.sort_by(f64::total_cmp);
+            let found = quantile(&values, share);
+            prop_assert_eq!(found.is_none(), values.is_empty());
+            prop_assert_eq!(quartiles(&values).is_none(), values.is_empty());
+            let middle = median(&mut values.clone());
+            prop_assert_eq!(middle.is_none(), values.is_empty());
+            if let (Some(found), Some(middle)) = (found, middle) {
+                // Sum of the rises of all intervals, each up to the share that it covers.
+                let intervals = values.len() as f64 - 1.0;
+                let mut expected = values[0];
+                for (number, pair) in values.windows(2).enumerate() {
+                    let covered = (share * intervals - number as f64).clamp(0.0, 1.0);
+                    expected += covered * (pair[1] - pair[0]);
+                }
+                prop_assert!((found - expected).abs() < 1e-9, "{} {}", found, expected);
+                let [_, half, _] = quartiles(&values).unwrap();
+                prop_assert!((half - middle).abs() < 1e-12 * (1.0 + middle.abs()), "{} {}", half, middle);
+            }
+        }
+    }
+
+    #[test]
+    fn quantiles_of_nothing_and_beyond_the_sample_are_none() {
+        for share in [0.0, 0.5, 1.0] {
+            assert_eq!((quantile(&[], share), quantile(&[7.0], share)), (None, Some(7.0)));
+        }
+        for share in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
+            assert_eq!(quantile(&[1.0, 2.0], share), None, "{share}");
+        }
+        assert_eq!(quartiles(&[]), None);
+        assert_eq!(quantile(&[1.0, 2.0, f64::INFINITY], 0.5), Some(2.0));
+    }
+
     #[test]
     fn samples_have_moments_and_quantiles() {
         let values = [4.0, 1.0, 2.0, 3.0, 10.0];
@@ -203,7 +266,7 @@ mod tests {
         }
         assert_eq!(
             [0.0, 0.25, 0.5, 1.0].map(|share| quantile(&[1.0, 2.0, 4.0], share)),
-            [1.0, 1.5, 2.0, 4.0]
+            [1.0, 1.5, 2.0, 4.0].map(Some)
         );
         assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
         assert_eq!(slope(&[(1.0, 1.0), (1.0, 3.0)]), None);

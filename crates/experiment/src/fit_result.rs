@@ -103,6 +103,9 @@ fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, 
 }
 
 impl FitResult {
+    /// Largest [`Self::misfit`] with which the model describes the curve.
+    pub const MOST_MISFIT: f64 = MISFIT;
+
     /// Returns true if [`Self::misfit`] is at most 1.5: the model then describes the curve.
     pub fn describes(&self) -> bool {
         self.misfit <= MISFIT

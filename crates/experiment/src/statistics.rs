@@ -1,7 +1,7 @@
 //! Statistics of samples and residuals.
 
 use crate::baseline::dot;
-use asperity_data::{mean, standard_deviation};
+use asperity_data::{mean, quantile, standard_deviation};
 
 /// Smallest number of independent ranges that a curve is assumed to have.
 const RANGES: usize = 20;
@@ -63,11 +63,29 @@ pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     }
 }
 
-/// Returns the standard deviation of values, and their 2.5 % and 97.5 % quantiles.
-pub(crate) fn spread(mut values: Vec<f64>) -> (f64, (f64, f64)) {
+/// Spread of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spread {
+    pub standard_deviation: f64,
+    /// Quantiles of 2.5 and 97.5 %.
+    pub interval: (f64, f64),
+}
+
+impl Spread {
+    /// The spread of a single value.
+    pub(crate) fn at(value: f64) -> Self {
+        Spread { standard_deviation: 0.0, interval: (value, value) }
+    }
+}
+
+/// Returns the spread of values; `None` for fewer than two values.
+pub(crate) fn spread(mut values: Vec<f64>) -> Option<Spread> {
+    if values.len() < 2 {
+        return None;
+    }
     values.sort_by(f64::total_cmp);
-    let quantile = |share: f64| values[((share * values.len() as f64) as usize).min(values.len() - 1)];
-    (standard_deviation(&values, mean(&values)), (quantile(0.025), quantile(0.975)))
+    let interval = quantile(&values, 0.025).zip(quantile(&values, 0.975))?;
+    Some(Spread { standard_deviation: standard_deviation(&values, mean(&values)), interval })
 }
 
 /// Returns the correlation of two coordinates over samples; 0 if one of them does not vary.
@@ -142,9 +160,10 @@ mod tests {
     #[test]
     fn samples_have_deviation_quantiles_and_correlation() {
         let values: Vec<f64> = (0..=200).rev().map(f64::from).collect();
-        let (deviation, interval) = spread(values.clone());
-        assert!(is_close(deviation, (201.0_f64 * 202.0 / 12.0).sqrt()), "{deviation}");
-        assert_eq!(interval, (5.0, 195.0));
+        let found = spread(values.clone()).unwrap();
+        assert!(is_close(found.standard_deviation, (201.0_f64 * 202.0 / 12.0).sqrt()), "{found:?}");
+        assert_eq!(found.interval, (5.0, 195.0));
+        assert_eq!((spread(Vec::new()), spread(vec![1.0])), (None, None));
         let mut samples: Vec<Vec<f64>> =
             values.iter().map(|value| vec![*value, 3.0 - 2.0 * value, 5.0]).collect();
         assert!(is_close(correlation(&samples, [0, 1]), -1.0));

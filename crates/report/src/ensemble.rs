@@ -91,6 +91,7 @@ pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
                 "median": median,
                 "quartiles": [lower, upper],
                 "range": all.range,
+                "median_interval": all.median_interval,
                 "mean": all.mean,
                 "standard_deviation": all.spread.map(|spread| spread.standard_deviation),
                 "confidence_interval": all.confidence_interval(),

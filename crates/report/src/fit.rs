@@ -41,15 +41,15 @@ impl Report for FitReport<'_> {
         let FitReport { title, curve, fit } = *self;
         let mut sheet = Sheet::default();
         if let Some(reason) = &fit.reason {
-            let times = format_quantity(fit.residual_over_noise, "1");
             let intervals = if fit.has_other_profile() {
                 "are the whole ranges of the search, since each profile gives other values"
             } else {
                 "are by the scatter over parts of the curve"
             };
             sheet.paragraph(&format!(
-                "The model does not describe the curve: the residual is {times} times the noise. {reason} The intervals \
-                 {intervals}."
+                "The model does not describe the curve: the misfit is {}, above {}. {reason} The intervals {intervals}.",
+                format_rounded(fit.misfit, 3, "1"),
+                FitResult::MOST_MISFIT,
             ));
         }
         sheet.heading(&format!("Curve {title}"));
@@ -75,6 +75,12 @@ impl Report for FitReport<'_> {
             format_quantity(fit.residual_over_noise, "1"),
             format_args!("{} %", format_rounded(100.0 * fit.beyond_five_sigma, 2, "1")),
             grouped(fit.evaluations as u64)
+        ));
+        sheet.paragraph(&format!(
+            "Misfit {}: residual in contact over the noise, in which points near jumps and outliers count less. Up to {} the \
+             model describes the curve.",
+            format_rounded(fit.misfit, 3, "1"),
+            FitResult::MOST_MISFIT,
         ));
         if let Some(work) = fit.work_at_most {
             let work = format_rounded(work, 2, "J/m²");

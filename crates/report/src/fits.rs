@@ -5,7 +5,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{AxisScale, Control, Kind, Table};
 use asperity_data::{
-    format_quantity, format_range, format_within, grouped, object, one_unit, printable, quantile,
+    format_quantity, format_range, format_within, grouped, object, one_unit, printable, quartiles,
 };
 use asperity_experiment::{Fit, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
@@ -14,6 +14,8 @@ use std::fmt::Display;
 
 /// Smallest and largest number of bars of a histogram.
 const BARS: (usize, usize) = (5, 40);
+/// Largest number of curves that a sentence names.
+const MOST_NAMES: usize = 4;
 
 /// One measured curve of many, with the result of its fit or with the reason why it was not fitted.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,8 +25,8 @@ pub struct CurveRow {
     /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if the curve was not fitted.
     pub parameters: Vec<[f64; 3]>,
     /// Pull-off force in N, work of adhesion in J/m² of a smooth sphere with this pull-off force, rms residual divided by the
-    /// noise of the force, and this noise in N; `None` for an unknown number.
-    pub facts: [Option<f64>; 4],
+    /// noise of the force, [misfit](asperity_experiment::FitResult::misfit), and this noise in N; `None` for an unknown number.
+    pub facts: [Option<f64>; 5],
     /// Number of points of the curve that are used; `None` if the curve was not fitted.
     pub points: Option<u64>,
     /// True if the model describes the curve, with a [misfit](asperity_experiment::FitResult::misfit) of at most 1.5; `None` if
@@ -37,7 +39,7 @@ pub struct CurveRow {
 }
 
 /// Names of the columns after the parameters.
-const FACTS: [&str; 4] = ["pull_off_force", "pull_off_work", "residual_over_noise", "noise"];
+const FACTS: [&str; 5] = ["pull_off_force", "pull_off_work", "residual_over_noise", "misfit", "noise"];
 
 impl CurveRow {
     /// Runs `fit` on a curve and makes its row. If the curve was not read or the fit fails, [`Self::error`] has the reason.
@@ -67,7 +69,7 @@ impl CurveRow {
         CurveRow {
             file: title.to_owned(),
             parameters: values.collect(),
-            facts: [force, work, Some(fit.residual_over_noise), Some(curve.noise)],
+            facts: [force, work, Some(fit.residual_over_noise), Some(fit.misfit), Some(curve.noise)],
             points: Some(curve.points as u64),
             described: Some(fit.describes()),
             reason: fit.reason.map_or_else(String::new, |reason| reason.to_string()),
@@ -138,6 +140,46 @@ struct Distribution {
 }
 
 impl FitsReport<'_> {
+    /// Returns the rows of the curves that were not read or not fitted. [`CurveRow::error`] of each has the reason.
+    pub fn failures(&self) -> impl Iterator<Item = &CurveRow> {
+        self.rows.iter().filter(|row| !row.error.is_empty())
+    }
+
+    /// Returns an error message if no curve was fitted: each file with its reason. Returns `None` if at least one curve was
+    /// fitted, whether the model describes it or not.
+    pub fn failure(&self) -> Option<String> {
+        let reasons: Vec<String> =
+            self.failures().map(|row| format!("{}: {}", row.file, row.error)).collect();
+        if reasons.len() < self.rows.len() {
+            return None;
+        }
+        let (named, others) = reasons.split_at(reasons.len().min(MOST_NAMES));
+        let mut message = named.join("; ");
+        if !others.is_empty() {
+            message += &format!("; and {} others", grouped(others.len() as u64));
+        }
+        Some(format!("no curve was fitted: {message}"))
+    }
+
+    /// Returns a sentence for each reason why the model does not describe a curve, with the files of these curves.
+    fn reasons(&self) -> Vec<String> {
+        let mut found: Vec<(&str, Vec<&str>)> = Vec::new();
+        for row in self.rows.iter().filter(|row| row.described == Some(false)) {
+            match found.iter_mut().find(|(reason, _)| *reason == row.reason) {
+                Some((_, files)) => files.push(&row.file),
+                None => found.push((&row.reason, vec![&row.file])),
+            }
+        }
+        let sentence = |(reason, files): (&str, Vec<&str>)| {
+            let curves = match files.len() {
+                0..=MOST_NAMES => files.join(", "),
+                count => format!("{} curves", grouped(count as u64)),
+            };
+            format!("The model does not describe {curves}. {reason}").trim_end().to_owned()
+        };
+        found.into_iter().map(sentence).collect()
+    }
+
     /// Returns the values of the first free parameter, from curves that are described or from the others.
     fn values(&self, is_described: bool) -> Vec<f64> {
         let of = self.rows.iter().filter(|row| row.described == Some(is_described));
@@ -146,8 +188,7 @@ impl FitsReport<'_> {
 
     fn distribution(mut values: Vec<f64>) -> Option<Distribution> {
         values.sort_by(f64::total_cmp);
-        let quartiles = [0.25, 0.5, 0.75].map(|share| quantile(&values, share));
-        (!values.is_empty()).then_some(Distribution { quartiles, count: values.len() })
+        Some(Distribution { quartiles: quartiles(&values)?, count: values.len() })
     }
 
     /// Returns sentences on the first parameter over the described curves and over all curves, and on curves without a fit.
@@ -171,7 +212,7 @@ impl FitsReport<'_> {
         text.extend(
             all.filter(|_| has_others).map(|found| sentence(found, "curves in all, described or not")),
         );
-        let without = self.rows.iter().filter(|row| !row.error.is_empty()).count();
+        let without = self.failures().count();
         if without > 0 {
             text.push(format!(
                 "Not read or not fitted: {} of {} curves.",
@@ -213,15 +254,12 @@ impl Report for FitsReport<'_> {
             [row.file.clone(), text(0), interval, state.to_owned()]
         }));
         sheet.table(&rows);
-        let failed = self.rows.iter().filter(|row| !row.error.is_empty());
-        for (index, row) in failed.enumerate() {
-            let text = format!("{}: {}", row.file, row.error);
-            if index == 0 { sheet.heading(&text) } else { sheet.paragraph(&text) }
-        }
-        let summary = self.summary();
-        if let Some((first, others)) = summary.split_first() {
-            sheet.heading(first);
-            others.iter().for_each(|sentence| sheet.paragraph(sentence));
+        let failures = self.failures().map(|row| format!("{}: {}", row.file, row.error)).collect();
+        for part in [failures, self.reasons(), self.summary()] {
+            if let Some((first, others)) = part.split_first() {
+                sheet.heading(first);
+                others.iter().for_each(|sentence| sheet.paragraph(sentence));
+            }
         }
         Some(sheet.into_text())
     }
@@ -263,11 +301,13 @@ impl Report for FitsReport<'_> {
         let row = self.free.first()?.row();
         let (described, others) = (self.values(true), self.values(false));
         let all: Vec<f64> = described.iter().chain(&others).copied().collect();
-        let (low, high) = all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(*value), high.max(*value))
-        });
+        if all.is_empty() {
+            return None;
+        }
+        // Equal values are in the middle of a range around them.
+        let Span { low, high } = Span::around(all.iter().copied(), 0.0);
         let bars = ((all.len() as f64).sqrt().ceil() as usize).clamp(BARS.0, BARS.1);
-        let width = ((high - low) / bars as f64).max(f64::MIN_POSITIVE);
+        let width = (high - low) / bars as f64;
         let count = |values: &[f64], bar: usize| {
             let of = |value: &&f64| ((**value - low) / width).min(bars as f64 - 1.0) as usize == bar;
             values.iter().filter(of).count() as f64
@@ -318,12 +358,77 @@ mod tests {
         CurveRow {
             file: file.to_owned(),
             parameters: vec![[work, 0.9 * work, 1.1 * work], [2e6, 1e6, 3e6]],
-            facts: [Some(1e-6), None, Some(0.5), Some(1e-9)],
+            facts: [Some(1e-6), None, Some(0.5), Some(0.75), Some(1e-9)],
             points: Some(400),
             described: Some(described),
             reason: if described { String::new() } else { "The force, \"drifts\".".to_owned() },
             error: String::new(),
         }
+    }
+
+    /// The whole table in every format.
+    fn written(report: &FitsReport<'_>) -> [Option<Vec<u8>>; 6] {
+        use crate::report::Format::{Csv, Json, Pdf, Png, Svg, Text};
+        [Text, Json, Csv, Svg, Png, Pdf].map(|format| {
+            let mut bytes = Vec::new();
+            crate::report::write(&mut bytes, report, format, "").ok().map(|()| bytes)
+        })
+    }
+
+    /// Every mixture of curves that are described, not described and not fitted has all forms; without a fitted curve there
+    /// are no pictures, and the failure names the files.
+    #[test]
+    fn tables_have_all_forms_for_every_mixture_of_curves() {
+        let document = open("jkr-sphere").unwrap();
+        for number in 0..64 {
+            let counts = [number % 4, number / 4 % 4, number / 16];
+            let described =
+                (0..counts[0]).map(|index| row(&format!("d{index}"), 0.05 + 0.01 * f64::from(index), true));
+            let others = (0..counts[1]).map(|index| row(&format!("n{index}"), 0.2, false));
+            let failed = (0..counts[2]).map(|index| CurveRow {
+                file: format!("f{index}"),
+                error: format!("reason {index}"),
+                ..CurveRow::default()
+            });
+            let rows: Vec<CurveRow> = described.chain(others).chain(failed).collect();
+            let free = [Parameter::Work, Parameter::Modulus];
+            let report = FitsReport { scene: document.scene(), free: &free, rows: &rows };
+            let [text, json, csv, pictures @ ..] = written(&report);
+            let fitted = counts[0] + counts[1];
+            assert!(pictures.iter().all(|picture| picture.is_some() == (fitted > 0)), "{counts:?}");
+            let text = String::from_utf8(text.unwrap()).unwrap();
+            let json: serde_json::Value = serde_json::from_slice(&json.unwrap()).unwrap();
+            assert_eq!(csv.unwrap().split(|byte| *byte == b'\n').count(), rows.len() + 2);
+            assert_eq!(json["curves"].as_array().unwrap().len(), rows.len());
+            for (name, count) in [("described", counts[0]), ("all", fitted)] {
+                let found = json[name]["curves"].as_i64().unwrap_or_default();
+                assert_eq!((found, json[name].is_null()), (count.into(), count == 0), "{counts:?}");
+            }
+            let [median, only] = [json["all"]["median"].as_f64(), json["described"]["median"].as_f64()];
+            assert_eq!(median.is_some(), fitted > 0);
+            let expected = (counts[0] > 0).then_some(0.05 + 0.005 * f64::from(counts[0] - 1));
+            assert_eq!(only.is_some(), expected.is_some());
+            assert!((only.unwrap_or(0.0) - expected.unwrap_or(0.0)).abs() < 1e-12, "{only:?} {expected:?}");
+            assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+            assert!(rows.iter().all(|row| text.contains(&row.file) && text.contains(&row.error)), "{text}");
+            assert_eq!(text.contains("drifts"), counts[1] > 0, "{text}");
+            assert_eq!(report.failures().count(), counts[2] as usize);
+            let failure = report.failure().unwrap_or_default();
+            assert_eq!(failure.is_empty(), fitted > 0, "{counts:?} {failure}");
+            let is_named = |row: &CurveRow| failure.contains(&format!("{}: {}", row.file, row.error));
+            assert!(fitted > 0 || rows.iter().all(is_named), "{failure}");
+        }
+    }
+
+    #[test]
+    fn a_message_names_a_few_of_many_files() {
+        let rows: Vec<CurveRow> = (0..40)
+            .map(|index| CurveRow { file: format!("{index}.csv"), error: "no".into(), ..CurveRow::default() })
+            .collect();
+        let document = open("jkr-sphere").unwrap();
+        let report = FitsReport { scene: document.scene(), free: &[Parameter::Work], rows: &rows };
+        let expected = "no curve was fitted: 0.csv: no; 1.csv: no; 2.csv: no; 3.csv: no; and 36 others";
+        assert_eq!(report.failure().as_deref(), Some(expected));
     }
 
     /// A row comes back from its line of the table; torn lines do not.

@@ -10,8 +10,8 @@ use asperity_study::{Results, Staircase, Statistics};
 use std::ops::Range;
 
 const MOST_ROWS: usize = 32;
-/// Heading of a column with confidence intervals of the mean.
-pub(crate) const MEAN_INTERVAL: &str = "95 % interval of the mean";
+/// Heading of a column with confidence intervals of the median.
+const MEDIAN_INTERVAL: &str = "95 % interval of the median";
 
 /// Report on the adhesion force as a function of the preload, for one or more random profiles.
 #[derive(Clone, Copy, Debug)]
@@ -61,14 +61,15 @@ impl Report for PreloadReport<'_> {
         let springs = grouped(plan.scene.numerics.points);
         sheet.heading(&format!("Adhesion against preload, {profiles} of {springs} springs"));
         if self.is_mean() {
-            let header = ["preload F_n", "median F_a", "quartiles", "range", "mean", MEAN_INTERVAL];
+            let header = ["preload F_n", "median F_a", "quartiles", "range", "mean", MEDIAN_INTERVAL];
             let range = |ends| format_range(ends, 2, "N");
             let spread = self.results.spread_of_adhesion();
             let rows = thinned(spread.iter(), MOST_ROWS).map(|(preload, all)| {
                 let [lower, median, upper] = all.quartiles;
                 let [median, mean] = [median, all.mean].map(|force| format_rounded(force, 2, "N"));
-                let [quartiles, ends, confidence] = [(lower, upper), all.range, all.ends()].map(range);
-                [format_quantity(*preload, "N"), median, quartiles, ends, mean, confidence]
+                let [quartiles, ends] = [(lower, upper), all.range].map(range);
+                let of_median = all.median_interval.map_or_else(|| "-".to_owned(), range);
+                [format_quantity(*preload, "N"), median, quartiles, ends, mean, of_median]
             });
             sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
             if let Some(warning) = warning(&spread) {

@@ -10,6 +10,7 @@ use super::place::governing;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
+use asperity_data::quantile;
 use asperity_scene::RoughnessParameter;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -191,10 +192,9 @@ fn crossing(curve: &Curve, level: f64) -> Crossing {
     // An interval that reaches beyond the study is unknown.
     let resampled: Option<Vec<f64>> =
         if side.is_eq() && count >= 2 { (0..RESAMPLES).map(|_| resample()).collect() } else { None };
-    let interval = resampled.map(|mut values| {
+    let interval = resampled.and_then(|mut values| {
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| values[(share * (RESAMPLES - 1) as f64).round() as usize];
-        (at(0.025), at(0.975))
+        quantile(&values, 0.025).zip(quantile(&values, 0.975))
     });
     Crossing { value, side, interval }
 }

@@ -2,16 +2,10 @@
 
 use super::ensemble::Ensemble;
 use super::quantity::Quantity;
+use super::statistics::median_interval;
 use asperity_data::{Warning, quantile};
 use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
-use std::ops::Range;
-
-/// Smallest number of profiles whose median has an interval.
-const FEWEST: usize = 4;
-/// Half the width of the interval of a median in quantiles, times the root of the number of profiles. It is the normal
-/// approximation of the binomial distribution for 95 of 100 cases.
-const HALF: f64 = 0.98;
 
 /// Errors of the adhesion force of a scene, one for each source of errors. They are relative: the error `grid` is divided by
 /// the adhesion force on the scene's own profile, and `sample` and `surface` by the median over random profiles. In about 5 of
@@ -47,9 +41,9 @@ impl Budget {
         let force = outcome.figures.adhesion_force.filter(|force| *force > 0.0)?;
         let finite = |share: f64| Some(share).filter(|share| share.is_finite());
         forces.sort_by(f64::total_cmp);
-        let median = if forces.is_empty() { force } else { quantile(&forces, 0.5) };
+        let median = quantile(&forces, 0.5).unwrap_or(force);
         let grid = estimate.and_then(|estimate| finite(estimate.of_adhesion_force(outcome)? / force));
-        let sample = median_interval(&forces).and_then(|ends| finite(0.5 * (ends.end - ends.start) / median));
+        let sample = median_interval(&forces).and_then(|(low, high)| finite(0.5 * (high - low) / median));
         let surface = deviation.and_then(|deviation| finite(2.0 * deviation / median));
         let known = [("grid", grid), ("sample", sample), ("surface", surface)];
         let known = known.into_iter().filter_map(|(name, share)| Some((name, share?)));
@@ -67,41 +61,11 @@ impl Budget {
     }
 }
 
-/// Returns an interval of ascending values that holds the median of any distribution in about 95 of 100 cases; `None` for
-/// few values.
-fn median_interval(ascending: &[f64]) -> Option<Range<f64>> {
-    let count = ascending.len();
-    let half = HALF / (count as f64).sqrt();
-    (count >= FEWEST).then(|| quantile(ascending, 0.5 - half)..quantile(ascending, 0.5 + half))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use asperity_scene::discretisation::{Evidence, Target};
     use asperity_scene::{Simulation, open, run};
-    use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
-
-    /// The interval holds the median of log-normal forces in about 95 of 100 samples.
-    #[test]
-    fn the_interval_of_a_median_holds_it() {
-        let mut random = ChaCha8Rng::seed_from_u64(7);
-        for count in [8, 16, 32, 128] {
-            let mut held = 0;
-            for _ in 0..4000 {
-                let normal = |random: &mut ChaCha8Rng| -> f64 {
-                    (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
-                };
-                let mut forces: Vec<f64> = (0..count).map(|_| (1.5 * normal(&mut random)).exp()).collect();
-                forces.sort_by(f64::total_cmp);
-                held += i32::from(median_interval(&forces).unwrap().contains(&1.0));
-            }
-            let share = f64::from(held) / 4000.0;
-            assert!((0.92..0.97).contains(&share), "{count}: {share}");
-        }
-        assert_eq!(median_interval(&[1.0; 3]), None);
-    }
 
     #[test]
     fn the_largest_source_is_named() {

@@ -7,7 +7,7 @@ use super::error::StudyError;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::question::{Answer, Question};
-use asperity_data::{Control, between, format_quantity, format_range};
+use asperity_data::{Control, format_quantity, format_range, quantile};
 use asperity_scene::{Document, Simulation};
 
 /// Largest relative change of a quantity over the searched range with which the number counts as without influence. The
@@ -156,12 +156,8 @@ impl Found {
     /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. A profile without a
     /// value counts as beyond the searched range. `None` if the quantile lies beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
-        let places = self.ascending();
-        let place = share * places.len().checked_sub(1)? as f64;
-        let [low, high] = [place.floor(), place.ceil()].map(|index| places[index as usize]);
-        // No interpolation towards a number beyond the range.
-        let value = if low == high { low } else { between(low, high, place.fract()) };
-        Some(value).filter(|value| value.is_finite())
+        // Interpolation towards a number beyond the range, which is infinite, gives no finite value.
+        quantile(&self.ascending(), share).filter(|value| value.is_finite())
     }
 
     /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile has a value.

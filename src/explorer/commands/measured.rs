@@ -9,7 +9,7 @@ use crate::explorer::parameters::Setting;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::reading::{OPTIONS, ReadingOption};
 use crate::explorer::studies::Study;
-use asperity_data::{Control, format_quantity, one_unit};
+use asperity_data::{Control, format_rounded, one_unit};
 use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Parameter};
 use std::sync::Arc;
 
@@ -146,10 +146,8 @@ fn sentence(fit: &FitResult) -> String {
     match fit.reason {
         None => format!("fit: {found}; u undoes"),
         Some(reason) => {
-            let times = format_quantity(fit.residual_over_noise, "1");
-            format!(
-                "the scene does not describe the curve, residual {times} × noise; {found}; {reason} u undoes"
-            )
+            let misfit = format_rounded(fit.misfit, 3, "1");
+            format!("the scene does not describe the curve, misfit {misfit}; {found}; {reason} u undoes")
         }
     }
 }

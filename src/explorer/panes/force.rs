@@ -9,7 +9,7 @@ use crate::explorer::panel::{Body, Panel, meaning};
 use crate::explorer::text::counted;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, Mark};
-use asperity_data::{AxisScale, format_rounded, grouped};
+use asperity_data::{AxisScale, format_rounded, grouped, quantile};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
 use asperity_scene::Governing;
@@ -219,8 +219,7 @@ const IN_RANGE: f64 = 0.98;
 fn half_range(mut residuals: Vec<f64>) -> f64 {
     residuals.iter_mut().for_each(|residual| *residual = residual.abs());
     residuals.sort_by(f64::total_cmp);
-    let last = (IN_RANGE * residuals.len() as f64) as usize;
-    let most = residuals.get(last).or(residuals.last()).copied().unwrap_or(0.0);
+    let most = quantile(&residuals, IN_RANGE).unwrap_or(0.0);
     let steps = (0..12).flat_map(|power| [5.0, 10.0, 20.0].map(|step| step * 10_f64.powi(power)));
     steps.into_iter().find(|step| *step >= most).unwrap_or(most)
 }

@@ -179,12 +179,12 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         facts.push((format!("F_max {}{error}", force(largest)), Meaning::Title));
     }
     if let Some(measured) = &app.edit.measured {
-        let times = |fit: &FitResult| format!("{} × noise", format_quantity(fit.residual_over_noise, "1"));
-        let residual = match measured::failure(&app.studies) {
+        let misfit = |fit: &FitResult| format!("misfit {}", format_rounded(fit.misfit, 3, "1"));
+        let state = match measured::failure(&app.studies) {
             Some(why) => why.to_owned(),
-            None => measured::fitted(&app.studies).map_or_else(|| "…".to_owned(), times),
+            None => measured::fitted(&app.studies).map_or_else(|| "misfit …".to_owned(), misfit),
         };
-        facts.push((format!("{}: residual {residual}", measured.name), Meaning::Title));
+        facts.push((format!("{}: {state}", measured.name), Meaning::Title));
     }
     facts.extend(regime);
     if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {

@@ -10,6 +10,8 @@ const FEWEST: usize = 20;
 const FEWEST_FREE: usize = 5;
 /// Mean force at the end of the retraction, in standard deviations of its noise, above which the body is still in contact.
 const LOST: f64 = 5.0;
+/// Smallest noise divided by the largest force. Computed curves are not more accurate.
+const LEAST_NOISE: f64 = 1e-4;
 /// Share of the largest force by which a force without contact may differ from zero because of drift.
 const NEAR_ZERO: f64 = 0.03;
 
@@ -46,7 +48,9 @@ impl Branches {
         let free = curve.free / 2;
         let before: Vec<f64> = approach[..free.min(approach.len())].iter().map(|point| point.1).collect();
         let zero = mean(&before);
-        let noise = standard_deviation(&before, zero);
+        let points = approach.iter().chain(&retraction);
+        let largest = points.map(|point| (point.1 - zero).abs()).fold(0.0, f64::max);
+        let noise = standard_deviation(&before, zero).max(LEAST_NOISE * largest);
         let zero = if curve.is_estimated[0] { zero } else { 0.0 };
         [&mut approach, &mut retraction].into_iter().flatten().for_each(|point| point.1 -= zero);
         let branches = Branches { approach, retraction, noise, free };

@@ -3,7 +3,7 @@
 use super::computed::Place;
 use super::learn::{Described, Learned};
 use super::measured::Measured;
-use super::posterior::{Grid, Posterior};
+use super::posterior::{Likelihood, Posterior};
 use super::result::CurveOfEnsemble;
 use super::scatter::{Scatter, distance};
 use super::summary::{LOOP_AREA, PULL_OFF, Summaries, WAY_TO_HALF};
@@ -25,7 +25,7 @@ pub(crate) struct Compared {
     /// Predicted ln γ and ln E* of each random profile at each node.
     pub learned: Vec<Vec<[f64; 2]>>,
     pub scatter: Scatter,
-    grid: Grid,
+    likelihood: Likelihood,
     /// Predicted ln γ and ln E* of each measured curve.
     of_curves: Vec<[f64; 2]>,
 }
@@ -52,12 +52,12 @@ impl Compared {
         let learned: Vec<Vec<[f64; 2]>> =
             curves.chunks(places.len()).map(|line| line.iter().map(of_line).collect()).collect();
         let scatter = Scatter::of(table, |line, node| learned[line][node]);
-        let grid = Grid::new(table, &scatter, known);
+        let likelihood = Likelihood::new(table, &scatter, known);
         let of_curve = |(index, curve): (usize, &Summaries)| {
             alone(polynomials.of_curve(&measured.described(*curve, index)), has_one_modulus)
         };
         let of_curves = measured.summaries.iter().enumerate().map(of_curve).collect();
-        Compared { polynomials, has_one_modulus, learned, scatter, grid, of_curves }
+        Compared { polynomials, has_one_modulus, learned, scatter, likelihood, of_curves }
     }
 
     /// Predicts ln γ and ln E* of another computed curve of a random profile.
@@ -67,9 +67,9 @@ impl Compared {
     }
 
     /// Returns the probability of the parameters given all measured curves.
-    pub fn posterior(&self, measured: &Measured) -> Posterior<'_> {
+    pub fn posterior(&self, measured: &Measured) -> Posterior {
         let of = |index: usize| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>());
-        self.grid.posterior([of(0), of(1)], measured.summaries.len() as f64)
+        self.likelihood.posterior([of(0), of(1)], measured.summaries.len() as f64)
     }
 
     /// Returns the standard deviation of the measured curves divided by the standard deviation of the random profiles.
@@ -93,7 +93,7 @@ impl Compared {
         let inverse = moments.inverse().0;
         let row = |(index, (name, _)): (usize, &(String, MeasuredCurve))| {
             let (of, at) = (measured.summaries[index], self.of_curves[index]);
-            let posterior = self.grid.posterior(at, 1.0);
+            let posterior = self.likelihood.posterior(at, 1.0);
             let away = distance(moments.mean, inverse, at) / (1.0 + 1.0 / self.learned.len() as f64);
             CurveOfEnsemble {
                 name: name.clone(),

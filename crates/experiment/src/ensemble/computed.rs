@@ -19,11 +19,16 @@ const NOTABLE: f64 = 1.0;
 const LONGEST: usize = 8;
 /// First seed of profiles and of noise, far from the seeds that people write in scenes.
 const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
+/// Difference of the first seeds of two scenes whose seeds differ by 1. No table has as many profiles.
+const SEEDS_OF_SCENE: u64 = 1 << 32;
+/// Smallest force at a turning point, divided by the preload.
+const LEAST_TURN: f64 = 0.5;
 
 /// How a curve was measured.
 pub(crate) struct Protocol {
-    /// Force at the turning point, N.
+    /// Measured force at the turning point, and the standard deviation of its error, N.
     pub preload: f64,
+    pub preload_error: f64,
     pub noise: f64,
     /// Displacements relative to the turning point, m.
     pub approach: Vec<f64>,
@@ -37,6 +42,7 @@ impl Protocol {
         let places = |branch: &[Point]| branch.iter().map(|point| point.0).collect();
         Protocol {
             preload,
+            preload_error: branches.preload_error(),
             noise: branches.noise,
             approach: places(&branches.approach),
             retraction: places(&branches.retraction),
@@ -83,11 +89,12 @@ impl Specimen<'_> {
         ranges: &[f64],
         moduli: &[f64],
     ) -> Result<Vec<Summaries>, ExperimentError> {
-        let scene = self.scene.with_seed(FIRST_SEED.wrapping_add(line));
+        let seed = seed_of(self.scene, line);
+        let scene = self.scene.with_seed(seed);
         let (bare, _) = simulation.contact(&scene)?;
         let modulus = Modulus::effective(bare.effective_modulus())?;
         let protocol = &self.protocols[line as usize % self.protocols.len()];
-        let mut noise = Noise::new(FIRST_SEED.wrapping_add(line), protocol);
+        let mut noise = Noise::new(seed, protocol);
         let mut all = Vec::with_capacity(ranges.len() * moduli.len());
         for range in ranges {
             let work = range.exp() * bare.effective_modulus();
@@ -110,6 +117,12 @@ impl Specimen<'_> {
     }
 }
 
+/// Returns the seed of a random profile of the table. Another seed of the scene gives other profiles.
+pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
+    let of_scene = scene.seed().unwrap_or_default().wrapping_mul(SEEDS_OF_SCENE);
+    FIRST_SEED.wrapping_add(of_scene).wrapping_add(line)
+}
+
 /// One computed curve. Forces and the stiffness of the instrument are in units of `scale`.
 struct Loop<'a> {
     stiffness: f64,
@@ -118,10 +131,12 @@ struct Loop<'a> {
 }
 
 impl Loop<'_> {
-    /// Presses the body, which is on its approach, to the preload, where it stays.
+    /// Presses the body, which is on its approach, to the preload, where it stays. The measured preload has an error by the
+    /// noise, and so the force at which the body turns differs from it.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
-        body.move_to(Move::ToForce(protocol.preload / self.scale))?;
+        let turning_force = (protocol.preload + noise.of_preload).max(LEAST_TURN * protocol.preload);
+        body.move_to(Move::ToForce(turning_force / self.scale))?;
         let (approach, turn) = (body.leg(), body.point().indentation);
         let retraction = approach.turn(turn)?;
         let sampling = Sampling {
@@ -135,7 +150,7 @@ impl Loop<'_> {
         let force = |curve: &DisplacementCurve, place: f64| {
             curve.at(top + place).map_or_else(
                 // At the turning point itself, by rounding.
-                || if place > -1e-9 * top.abs() { protocol.preload } else { 0.0 },
+                || if place > -1e-9 * top.abs() { turning_force } else { 0.0 },
                 |point| self.scale * point.force,
             )
         };
@@ -166,12 +181,16 @@ struct Noise {
     deviation: f64,
     values: Vec<f64>,
     zero: f64,
+    /// Error of the measured preload, N.
+    of_preload: f64,
 }
 
 impl Noise {
     fn new(seed: u64, protocol: &Protocol) -> Self {
-        let generator = ChaCha8Rng::seed_from_u64(seed);
-        let mut noise = Noise { generator, deviation: protocol.noise, values: Vec::new(), zero: 0.0 };
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let of_preload = protocol.preload_error * normal_pair(&mut generator)[0];
+        let mut noise =
+            Noise { generator, deviation: protocol.noise, values: Vec::new(), zero: 0.0, of_preload };
         let free = protocol.free.max(1);
         noise.zero = (0..free).map(|index| noise.at(index)).sum::<f64>() / free as f64;
         noise
@@ -179,11 +198,16 @@ impl Noise {
 
     fn at(&mut self, index: usize) -> f64 {
         while self.values.len() <= index {
-            let [one, other]: [f64; 2] = [self.generator.random(), self.generator.random()];
-            let size = self.deviation * (-2.0 * (1.0 - one).ln()).sqrt();
-            let (sine, cosine) = (std::f64::consts::TAU * other).sin_cos();
-            self.values.extend([size * cosine, size * sine]);
+            self.values.extend(normal_pair(&mut self.generator).map(|value| self.deviation * value));
         }
         self.values[index] - self.zero
     }
+}
+
+/// Returns two independent values with the standard normal distribution (Box and Muller).
+fn normal_pair(generator: &mut ChaCha8Rng) -> [f64; 2] {
+    let [one, other]: [f64; 2] = [generator.random(), generator.random()];
+    let size = (-2.0 * (1.0 - one).ln()).sqrt();
+    let (sine, cosine) = (std::f64::consts::TAU * other).sin_cos();
+    [size * cosine, size * sine]
 }

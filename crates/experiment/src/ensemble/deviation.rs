@@ -5,6 +5,7 @@ use super::result::SummaryDeviation;
 use super::scatter::Scatter;
 use super::summary::{NAMES, SUMMARIES, Summaries};
 use super::table::Table;
+use asperity_data::quantile;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -120,7 +121,7 @@ pub(crate) fn deviations(
         })
         .collect();
     largest.sort_by(f64::total_cmp);
-    let threshold = largest[((DESCRIBED * DRAWS as f64) as usize).min(DRAWS - 1)];
+    let threshold = quantile(&largest, DESCRIBED).unwrap_or(f64::INFINITY);
     let of = |index: usize| {
         let (expected, error, _) = rows[index];
         let logarithm = mean.summaries[index] - expected;

@@ -273,7 +273,7 @@ mod tests {
     #[test]
     fn the_work_of_adhesion_is_found_and_a_foreign_place_named() {
         let (scene, all) = curves(12, Some(5));
-        let fit = found(&all, &scene, OPTIONS).unwrap();
+        let fit = found(&all, &scene, EnsembleOptions { lines: 64, ..OPTIONS }).unwrap();
         let foreign: Vec<&str> =
             fit.curves.iter().filter(|curve| curve.foreign).map(|curve| curve.name.as_str()).collect();
         assert_eq!(foreign, ["place 5"]);

@@ -25,4 +25,6 @@ pub(crate) mod table;
 #[cfg(test)]
 mod coverage;
 #[cfg(test)]
+mod other_bodies;
+#[cfg(test)]
 mod specimens;

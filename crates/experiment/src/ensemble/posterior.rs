@@ -1,12 +1,22 @@
 //! The probability of the parameters from the mean prediction over the measured curves.
 
 use super::computed::Place;
-use super::scatter::{Moments, Scatter, distance};
+use super::scatter::{Scatter, distance};
 use super::table::{End, Table};
 
-/// Steps of the fine grid in ln(γ/E*) and ln E*, and in ln(γ/E*) alone.
-const STEPS: [f64; 2] = [0.01, 0.0125];
-const STEP_ALONE: f64 = 0.002;
+/// Number of cells of a grid along each axis.
+const CELLS: usize = 96;
+/// Largest probability at one value of an axis. A normal distribution has it if the step is a fifth of its standard deviation.
+const MOST_AT_VALUE: f64 = 0.08;
+/// Probability at one value of an axis below which this value is beyond the distribution.
+const NEGLIGIBLE: f64 = 1e-7;
+/// Number of values that a finer grid keeps beyond the values with a probability. On a coarse grid the largest probability of
+/// a narrow ridge may be some values away from its summit.
+const MARGIN: usize = 8;
+/// Largest number of grids, each of which is finer or wider than the one before.
+const MOST_GRIDS: usize = 60;
+/// Smallest step of a grid, which rounding allows.
+const LEAST_STEP: f64 = 1e-12;
 /// Share of the probability within `EDGE` of an end of the table, above which the table is too short.
 const MOST_AT_END: f64 = 2e-3;
 const EDGE: f64 = 0.1;
@@ -34,10 +44,6 @@ impl IntervalEstimate {
         IntervalEstimate { value, low: value, high: value }
     }
 
-    fn map(self, of: impl Fn(f64) -> f64) -> Self {
-        IntervalEstimate { value: of(self.value), low: of(self.low), high: of(self.high) }
-    }
-
     /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural logarithm.
     pub(crate) fn widened(self, half_width: f64) -> Self {
         let factor = |end: f64| (end / self.value).ln().hypot(half_width).exp();
@@ -49,119 +55,236 @@ impl IntervalEstimate {
     }
 }
 
-/// Moments of the table at the places of a fine grid.
-pub(crate) struct Grid {
-    places: Vec<(Place, Moments, [f64; 3], f64)>,
-    ends: [f64; 4],
+/// What the probability of the parameters is computed from.
+pub(crate) struct Likelihood {
+    scatter: Scatter,
+    /// First and last ln(γ/E*) of the table, and first and last ln E*. A known ln E* is both.
+    ranges: [f64; 2],
+    moduli: [f64; 2],
     /// Number of random profiles of the table.
     lines: f64,
 }
 
-/// Probability of each place of a grid.
-pub(crate) struct Posterior<'g> {
-    grid: &'g Grid,
-    weights: Vec<f64>,
+/// Mean prediction over measured curves.
+struct Observed {
+    prediction: [f64; 2],
+    /// Variance of the difference between this mean and the mean of the table, in units of the variance of one profile.
+    variance: f64,
 }
 
-impl Grid {
-    /// Makes a grid over the table, or along a known ln E*.
+/// Interval of values of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Extent {
+    low: f64,
+    high: f64,
+}
+
+/// Probability of the parameters on a grid over ln γ and ln E*.
+pub(crate) struct Posterior {
+    /// Evenly spaced values of ln γ and of ln E*.
+    axes: [Vec<f64>; 2],
+    /// Probability of each pair of values, all values of ln E* of one ln γ together.
+    weights: Vec<f64>,
+    ranges: [f64; 2],
+    moduli: [f64; 2],
+}
+
+impl Likelihood {
+    /// Prepares the comparison with a table, or with the part of it that has a known ln E*.
     pub fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
         let ends = |axis: &[f64]| [axis[0], axis[axis.len() - 1]];
-        let ([low, high], [soft, hard]) = (ends(&table.ranges), ends(&table.moduli));
-        let along = |low: f64, high: f64, step: f64| {
-            let count = ((high - low) / step).ceil().max(1.0) as usize;
-            (0..=count).map(move |index| low + (high - low) * index as f64 / count as f64)
-        };
-        let at = |range: f64, modulus: f64| {
-            let place = Place { range, modulus };
-            let moments = scatter.at(place);
-            let (inverse, determinant) = moments.inverse();
-            (place, moments, inverse, determinant)
-        };
-        let places = match known {
-            Some(modulus) => along(low, high, STEP_ALONE).map(|range| at(range, modulus)).collect(),
-            None => along(low, high, STEPS[0])
-                .flat_map(|range| along(soft, hard, STEPS[1]).map(move |modulus| at(range, modulus)))
-                .collect(),
-        };
-        Grid { places, ends: [low, high, soft, hard], lines: table.lines.len() as f64 }
+        Likelihood {
+            scatter: scatter.clone(),
+            ranges: ends(&table.ranges),
+            moduli: known.map_or_else(|| ends(&table.moduli), |modulus| [modulus; 2]),
+            lines: table.lines.len() as f64,
+        }
     }
 
-    /// Returns the probability of the parameters if the mean prediction over `curves` curves is `at`. The prior is flat
-    /// over ln γ and ln E*. The error of the mean comes from the number of curves and from the number of random profiles. A
-    /// power in place of an exponential allows for the uncertain covariance of few profiles (Student's t-distribution).
-    pub fn posterior(&self, at: [f64; 2], curves: f64) -> Posterior<'_> {
-        let variance = 1.0 / curves + 1.0 / self.lines;
-        let logarithm = |(_, moments, inverse, determinant): &(Place, Moments, [f64; 3], f64)| {
-            let square = distance(moments.mean, *inverse, at) / variance;
-            -0.5 * determinant - 0.5 * self.lines * (square / (self.lines - 1.0)).ln_1p()
-        };
-        let mut weights: Vec<f64> = self.places.iter().map(logarithm).collect();
+    /// Returns the probability of the parameters if the mean prediction over `curves` curves is `prediction`. The prior is
+    /// flat over ln γ and ln E*. The error of the mean comes from the number of curves and from the number of random profiles.
+    ///
+    /// The grid begins with the whole table. It is cut to the values that have a probability, and widened where the
+    /// probability does not end, until no value of a parameter has much of the probability.
+    pub fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
+        let observed = Observed { prediction, variance: 1.0 / curves + 1.0 / self.lines };
+        let [low, high] = self.ranges;
+        let [soft, hard] = self.moduli;
+        let whole = [Extent { low: low + soft, high: high + hard }, Extent { low: soft, high: hard }];
+        let mut extents = whole;
+        let mut posterior = self.on_grid(&observed, extents);
+        for _ in 1..MOST_GRIDS {
+            let next = [0, 1].map(|axis| posterior.extent(axis, whole[axis]));
+            if next == extents {
+                break;
+            }
+            extents = next;
+            posterior = self.on_grid(&observed, extents);
+        }
+        posterior
+    }
+
+    /// Computes the probability on a grid over these values of ln γ and ln E*.
+    fn on_grid(&self, observed: &Observed, extents: [Extent; 2]) -> Posterior {
+        let axes = extents.map(Extent::values);
+        let mut weights = Vec::with_capacity(axes[0].len() * axes[1].len());
+        for work in &axes[0] {
+            for modulus in &axes[1] {
+                weights.push(self.logarithm(observed, Place { range: work - modulus, modulus: *modulus }));
+            }
+        }
         let largest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        weights.iter_mut().for_each(|weight| *weight = (*weight - largest).exp());
-        let sum: f64 = weights.iter().sum();
+        let mut sum = 0.0;
+        for weight in &mut weights {
+            *weight = (*weight - largest).exp();
+            sum += *weight;
+        }
         weights.iter_mut().for_each(|weight| *weight /= sum);
-        Posterior { grid: self, weights }
+        Posterior { axes, weights, ranges: self.ranges, moduli: self.moduli }
+    }
+
+    /// Returns the logarithm of the probability density, up to a constant. A power in place of an exponential allows for the
+    /// uncertain covariance of few profiles (Student's t-distribution).
+    fn logarithm(&self, observed: &Observed, place: Place) -> f64 {
+        let [low, high] = self.ranges;
+        let rounding = 1e-9;
+        if place.range < low - rounding || place.range > high + rounding {
+            return f64::NEG_INFINITY;
+        }
+        let moments = self.scatter.at(place);
+        let (inverse, determinant) = moments.inverse();
+        let square = distance(moments.mean, inverse, observed.prediction) / observed.variance;
+        -0.5 * determinant - 0.5 * self.lines * (square / (self.lines - 1.0)).ln_1p()
     }
 }
 
-impl Posterior<'_> {
+impl Extent {
+    fn width(self) -> f64 {
+        self.high - self.low
+    }
+
+    /// Evenly spaced values; one value if the width is 0.
+    fn values(self) -> Vec<f64> {
+        if self.width() == 0.0 {
+            return vec![self.low];
+        }
+        (0..=CELLS).map(|index| self.low + self.width() * index as f64 / CELLS as f64).collect()
+    }
+}
+
+impl Posterior {
+    /// Returns the probability of each value of ln γ for axis 0, and of ln E* for axis 1.
+    fn along(&self, axis: usize) -> Vec<f64> {
+        let moduli = self.axes[1].len();
+        let mut sums = vec![0.0; self.axes[axis].len()];
+        for (index, weight) in self.weights.iter().enumerate() {
+            let value = if axis == 0 { index / moduli } else { index % moduli };
+            sums[value] += weight;
+        }
+        sums
+    }
+
+    /// Returns the values of an axis that the next grid should have, within `whole`: the same values if this grid is fine and
+    /// wide enough.
+    fn extent(&self, axis: usize, whole: Extent) -> Extent {
+        let values = &self.axes[axis];
+        let last = values.len() - 1;
+        let present = Extent { low: values[0], high: values[last] };
+        if last == 0 {
+            return present;
+        }
+        let probabilities = self.along(axis);
+        let is_present = |probability: &f64| *probability > NEGLIGIBLE;
+        let first_present = probabilities.iter().position(is_present).unwrap_or(0);
+        let last_present = probabilities.iter().rposition(is_present).unwrap_or(last);
+        let grows_below = first_present == 0 && present.low > whole.low;
+        let grows_above = last_present == last && present.high < whole.high;
+        if grows_below || grows_above {
+            let low = if grows_below { present.low - present.width() } else { present.low };
+            let high = if grows_above { present.high + present.width() } else { present.high };
+            return Extent { low: low.max(whole.low), high: high.min(whole.high) };
+        }
+        let most = probabilities.iter().copied().fold(0.0, f64::max);
+        if most <= MOST_AT_VALUE || present.width() < LEAST_STEP * CELLS as f64 {
+            return present;
+        }
+        let first = first_present.saturating_sub(MARGIN);
+        Extent { low: values[first], high: values[(last_present + MARGIN).min(last)] }
+    }
+
     /// Returns the most probable place.
     pub fn best(&self) -> Place {
-        let most = self.weights.iter().zip(&self.grid.places).max_by(|one, other| one.0.total_cmp(other.0));
-        most.map_or(Place { range: 0.0, modulus: 0.0 }, |(_, (place, ..))| *place)
+        let weights = self.weights.iter().enumerate();
+        let most = weights.max_by(|one, other| one.1.total_cmp(other.1)).map_or(0, |(index, _)| index);
+        let moduli = self.axes[1].len();
+        let [work, modulus] = [self.axes[0][most / moduli], self.axes[1][most % moduli]];
+        Place { range: work - modulus, modulus }
     }
 
     /// Returns γ in J/m² for the parameter 0, and E* in Pa for the parameter 1.
     pub fn estimate(&self, parameter: usize) -> IntervalEstimate {
-        let places = self.weights.iter().zip(&self.grid.places);
-        let mut values: Vec<(f64, f64)> =
-            places.map(|(weight, (place, ..))| (place.parameters()[parameter], *weight)).collect();
-        values.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let [low, value, high] = QUANTILES.map(|share| {
-            let mut sum = 0.0;
-            let (mut before, mut reached) = (values[0].0, 0.0);
-            for (value, weight) in &values {
-                // The weight of a place lies to both sides of it.
-                let next = sum + 0.5 * weight;
-                if next >= share {
-                    let part = if next > reached { (share - reached) / (next - reached) } else { 1.0 };
-                    return before + part.clamp(0.0, 1.0) * (value - before);
-                }
-                (before, reached, sum) = (*value, next, sum + weight);
-            }
-            before
-        });
-        IntervalEstimate { value, low, high }.map(f64::exp)
+        let probabilities = self.along(parameter);
+        let [low, value, high] =
+            QUANTILES.map(|share| quantile(&self.axes[parameter], &probabilities, share).exp());
+        IntervalEstimate { value, low, high }
+    }
+
+    /// Returns the mean of a function of ln γ and ln E*.
+    fn mean(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
+        let moduli = self.axes[1].len();
+        let mut sum = 0.0;
+        for (index, weight) in self.weights.iter().enumerate() {
+            sum += weight * of(self.axes[0][index / moduli], self.axes[1][index % moduli]);
+        }
+        sum
     }
 
     /// Returns the correlation of ln γ and ln E*; 0 for a known E*.
     pub fn correlation(&self) -> f64 {
-        let all = || self.weights.iter().zip(self.grid.places.iter().map(|(place, ..)| place.parameters()));
-        let mean = [0, 1].map(|index| all().map(|(weight, of)| weight * of[index]).sum::<f64>());
-        let product = |one: usize, other: usize| {
-            all().map(|(weight, of)| weight * (of[one] - mean[one]) * (of[other] - mean[other])).sum::<f64>()
-        };
-        let both = product(0, 0) * product(1, 1);
-        if both > 1e-20 { product(0, 1) / both.sqrt() } else { 0.0 }
+        if self.axes[1].len() == 1 {
+            return 0.0;
+        }
+        let [work, modulus] = [self.mean(|work, _| work), self.mean(|_, modulus| modulus)];
+        let variances =
+            [self.mean(|other, _| (other - work).powi(2)), self.mean(|_, other| (other - modulus).powi(2))];
+        let covariance = self.mean(|one, other| (one - work) * (other - modulus));
+        let scale = (variances[0] * variances[1]).sqrt();
+        if scale > 0.0 { (covariance / scale).clamp(-1.0, 1.0) } else { 0.0 }
     }
 
     /// Returns the ends of the table beyond which the parameters may lie.
     pub fn beyond(&self) -> Vec<End> {
-        let [low, high, soft, hard] = self.grid.ends;
-        let is_near = |place: &Place, end: End| match end {
-            End::LowRange => place.range < low + EDGE,
-            End::HighRange => place.range > high - EDGE,
-            End::LowModulus => hard > soft && place.modulus < soft + EDGE,
-            End::HighModulus => hard > soft && place.modulus > hard - EDGE,
+        let ([low, high], [soft, hard]) = (self.ranges, self.moduli);
+        let is_near = |work: f64, modulus: f64, end: End| match end {
+            End::LowRange => work - modulus < low + EDGE,
+            End::HighRange => work - modulus > high - EDGE,
+            End::LowModulus => hard > soft && modulus < soft + EDGE,
+            End::HighModulus => hard > soft && modulus > hard - EDGE,
         };
-        let share = |end: End| {
-            let all = self.weights.iter().zip(&self.grid.places);
-            all.filter(|(_, (place, ..))| is_near(place, end)).map(|(weight, _)| weight).sum::<f64>()
-        };
-        let ends = [End::LowRange, End::HighRange, End::LowModulus, End::HighModulus];
-        ends.into_iter().filter(|end| share(*end) > MOST_AT_END).collect()
+        let mut ends = vec![End::LowRange, End::HighRange, End::LowModulus, End::HighModulus];
+        ends.retain(|end| {
+            self.mean(|work, modulus| if is_near(work, modulus, *end) { 1.0 } else { 0.0 }) > MOST_AT_END
+        });
+        ends
     }
+}
+
+/// Returns the value below which a parameter lies with the probability `share`. The density is linear between the values of
+/// the axis, at which it is in proportion to `probabilities`.
+fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
+    let cells = || probabilities.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+    let mut rest = share * cells().sum::<f64>();
+    for (index, cell) in cells().enumerate() {
+        if rest <= cell {
+            let [from, to] = [probabilities[index], probabilities[index + 1]];
+            // The positive root of from·x + (to − from)·x²/2 = rest.
+            let root = (from * from + 2.0 * (to - from) * rest).max(0.0).sqrt();
+            let part = if from + root > 0.0 { 2.0 * rest / (from + root) } else { 0.0 };
+            return values[index] + part.clamp(0.0, 1.0) * (values[index + 1] - values[index]);
+        }
+        rest -= cell;
+    }
+    values[values.len() - 1]
 }
 
 #[cfg(test)]
@@ -169,48 +292,102 @@ mod tests {
     use super::*;
     use crate::ensemble::summary::SUMMARIES;
 
-    /// Learned values that are the parameters themselves, with a scatter of `deviation` over the lines.
-    fn grid(deviation: f64, known: Option<f64>, lines: usize) -> Grid {
+    /// Learned values that are the parameters themselves, whose deviations over the profiles have this standard deviation and
+    /// this correlation of ln γ and ln E*.
+    fn likelihood(deviation: f64, correlation: f64, known: Option<f64>, lines: usize) -> Likelihood {
         let axis = |count: u8, step: f64| (0..count).map(|at| step * f64::from(at) - 1.5).collect();
         let moduli = known.map_or_else(|| axis(7, 0.5), |modulus| vec![modulus]);
         let mut table = Table { ranges: axis(16, 0.2), moduli, lines: Vec::new() };
         let places: Vec<Place> = table.places().collect();
         table.lines = vec![vec![[0.0; SUMMARIES]; places.len()]; lines];
-        // Two values of each line, uncorrelated and of this standard deviation.
+        // Two uncorrelated values of each profile, of this standard deviation.
         let size = deviation * ((lines - 1) as f64 / lines as f64).sqrt();
-        let sign = |on: bool| if on { size } else { -size };
+        let sign = |is_positive: bool| if is_positive { size } else { -size };
         let scatter = Scatter::of(&table, |line, node| {
             let [work, modulus] = places[node].parameters();
+            let [one, other] = [sign(line % 2 == 0), sign(line / 2 % 2 == 0)];
             if known.is_some() {
-                [work + sign(line % 2 == 0), 0.0]
-            } else {
-                [work + sign(line % 2 == 0), modulus + sign(line / 2 % 2 == 0)]
+                return [work + one, 0.0];
             }
+            [work + one, modulus + correlation * one + (1.0 - correlation * correlation).sqrt() * other]
         });
-        Grid::new(&table, &scatter, known)
+        Likelihood::new(&table, &scatter, known)
+    }
+
+    /// Asserts that an interval of a parameter is that of a normal distribution.
+    fn assert_normal(found: IntervalEstimate, mean: f64, error: f64) {
+        assert!(found.low < found.value && found.value < found.high, "{found:?}");
+        assert!((found.value.ln() - mean).abs() < 0.01 * error, "{found:?}: {mean} {error}");
+        for (end, sign) in [(found.low, -1.0), (found.high, 1.0)] {
+            let expected = mean + sign * 1.96 * error;
+            assert!((end.ln() - expected).abs() < 0.02 * error, "{found:?}: {mean} {error}");
+        }
+    }
+
+    /// For scatters from a ten-thousandth of a step of the table to a whole step, alone and with strong correlation, the
+    /// intervals are those of normal distributions.
+    #[test]
+    fn intervals_have_the_errors_of_curves_and_profiles() {
+        for deviation in [1e-5, 1e-4, 1e-3, 5e-3, 0.02, 0.1, 0.2] {
+            let error = deviation * (1.0_f64 / 8.0 + 1.0 / 1000.0).sqrt();
+            for place in [0.1, 0.100_37, -0.731] {
+                for correlation in [0.0, 0.9, 0.99, -0.95] {
+                    let both = likelihood(deviation, correlation, None, 1000);
+                    let posterior = both.posterior([place, 0.03], 8.0);
+                    assert_normal(posterior.estimate(0), place, error);
+                    assert_normal(posterior.estimate(1), 0.03, error);
+                    assert_eq!(posterior.beyond(), []);
+                    assert!(
+                        (posterior.correlation() - correlation).abs() < 0.01,
+                        "{deviation} {correlation}"
+                    );
+                    let best = posterior.best();
+                    let [work, modulus] = best.parameters();
+                    assert!((work - place).abs().max((modulus - 0.03).abs()) < 0.5 * error, "{best:?}");
+                }
+                let one = likelihood(deviation, 0.0, Some(0.3), 1000);
+                let posterior = one.posterior([place, 0.0], 8.0);
+                assert_normal(posterior.estimate(0), place, error);
+                assert_eq!(posterior.correlation(), 0.0);
+            }
+        }
     }
 
     #[test]
-    fn intervals_have_the_errors_of_curves_and_profiles() {
-        let error = 0.2 * (1.0_f64 / 8.0 + 1.0 / 400.0).sqrt();
-        for known in [None, Some(0.0)] {
-            let grid = grid(0.2, known, 400);
-            let posterior = grid.posterior([0.1, 0.0], 8.0);
-            let work = posterior.estimate(0);
-            assert!((work.value.ln() - 0.1).abs() < 1e-3, "{work:?}");
-            assert!((work.half_width() / (1.96 * error) - 1.0).abs() < 0.02, "{work:?} {error}");
-            assert_eq!(posterior.beyond(), []);
-            assert!(posterior.correlation().abs() < 0.01);
-            let best = posterior.best();
-            assert!((best.range - 0.1).abs() < 0.03 && best.modulus.abs() < 0.02, "{best:?}");
+    fn quantiles_are_those_of_a_density_that_is_linear_between_values() {
+        // The density x over 0 to 2 has the distribution x²/4, and the density 2 − x that of its mirror image.
+        for share in [0.0_f64, 0.01, 0.25, 0.3, 0.9, 1.0] {
+            let rising = quantile(&[0.0, 1.0, 2.0], &[0.0, 1.0, 2.0], share);
+            assert!((rising - 2.0 * share.sqrt()).abs() < 1e-12, "{share}: {rising}");
+            let falling = quantile(&[0.0, 1.0, 2.0], &[2.0, 1.0, 0.0], share);
+            assert!((falling - (2.0 - 2.0 * (1.0 - share).sqrt())).abs() < 1e-7, "{share}: {falling}");
+        }
+        assert_eq!(quantile(&[5.0], &[1.0], 0.5), 5.0);
+    }
+
+    /// A probability that the table cuts off, or that fills the whole table, has an interval within the table.
+    #[test]
+    fn intervals_end_with_the_table() {
+        for (deviation, work, modulus) in
+            [(30.0, 0.0, 0.0), (0.2, 4.0, 0.0), (0.01, -2.9, -1.6), (3.0, 0.0, -3.0)]
+        {
+            let posterior = likelihood(deviation, 0.5, None, 64).posterior([work, modulus], 2.0);
+            assert!(!posterior.beyond().is_empty());
+            for (parameter, [least, most]) in [[-3.0_f64, 3.0], [-1.5, 1.5]].into_iter().enumerate() {
+                let IntervalEstimate { value, low, high } = posterior.estimate(parameter);
+                assert!(
+                    least <= low.ln() && low < value && value < high && high.ln() <= most,
+                    "{low} {value} {high}"
+                );
+            }
         }
     }
 
     #[test]
     fn ends_of_the_table_are_named_and_errors_add_in_quadrature() {
-        let grid = grid(0.2, None, 64);
-        assert_eq!(grid.posterior([1.4, -0.1], 8.0).beyond(), [End::HighRange]);
-        assert_eq!(grid.posterior([0.0, -1.4], 8.0).beyond(), [End::HighRange, End::LowModulus]);
+        let likelihood = likelihood(0.2, 0.0, None, 64);
+        assert_eq!(likelihood.posterior([1.4, -0.1], 8.0).beyond(), [End::HighRange]);
+        assert_eq!(likelihood.posterior([0.0, -1.4], 8.0).beyond(), [End::HighRange, End::LowModulus]);
         let widened =
             IntervalEstimate { value: 1.0, low: (-0.3_f64).exp(), high: 0.4_f64.exp() }.widened(0.3);
         assert!(

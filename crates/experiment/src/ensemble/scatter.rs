@@ -42,6 +42,7 @@ pub(crate) fn distance(mean: [f64; 2], inverse: [f64; 3], at: [f64; 2]) -> f64 {
 }
 
 /// Mean and covariance over the random profiles at all nodes.
+#[derive(Clone)]
 pub(crate) struct Scatter {
     ranges: Vec<f64>,
     moduli: Vec<f64>,

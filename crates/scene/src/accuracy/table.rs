@@ -2,7 +2,7 @@
 
 use crate::scene::model::{Numerics, Solver};
 use asperity_contact::Edges;
-use asperity_data::{format_rounded, grouped, slope};
+use asperity_data::{format_rounded, grouped, median, slope};
 use serde::{Serialize, Serializer};
 use strum::IntoStaticStr;
 
@@ -54,11 +54,8 @@ pub struct Timing {
 impl Timing {
     /// Computes the shortest and the median time from the times of some runs in s. Returns `None` for an empty list.
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
-        seconds.sort_by(f64::total_cmp);
-        let runs = seconds.len();
-        let (minimum, upper) = (*seconds.first()?, *seconds.get(runs / 2)?);
-        let lower = seconds.get((runs - 1) / 2).copied().unwrap_or(upper);
-        Some(Timing { minimum, median: f64::midpoint(lower, upper), runs })
+        let minimum = seconds.iter().copied().reduce(f64::min)?;
+        Some(Timing { minimum, median: median(&mut seconds)?, runs: seconds.len() })
     }
 }
 
