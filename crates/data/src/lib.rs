@@ -61,7 +61,7 @@ pub use text::{
     round_to, rounded_up, shown, si_prefix, wrap,
 };
 #[cfg(feature = "files")]
-pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
+pub use write::{WriteError, check_writable, remove_abandoned, sync_folder, write_new, write_new_file};
 
 /// Reads tables of numbers in text files, as instruments and programs write them: lines, separators, numbers, and names of
 /// columns.
