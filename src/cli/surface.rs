@@ -2,6 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
+use super::progress::ProgressLine;
 use super::scene::{MOST_LINES, threads};
 use crate::explorer::recognition::no_surface;
 use asperity_contact::Move;
@@ -15,6 +16,7 @@ use asperity_surface::{EquivalentLine, Unit, analyse, read};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -218,7 +220,13 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let adhesion = scene.filter(|_| is_asked).map(|scene| {
         let scene = scene.checked()?;
         let unasked = (scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS).then_some(LINES);
-        let solve = |lines: u32| MeasuredAdhesion::of_line(&scene, &line, lines, threads(None));
+        let progress = Mutex::new(Counted::default());
+        let solve = |lines: u32| {
+            let report = |computed: u64| count_profiles(&progress, computed, lines);
+            let solved = MeasuredAdhesion::of_line(&scene, &line, lines, threads(None), &report);
+            progress.lock().unwrap_or_else(PoisonError::into_inner).line.clear();
+            solved
+        };
         let solved = arguments.lines.or(unasked).map(solve).transpose();
         let solved = solved.map_err(|error| CliError::named(path_name(&arguments.files[0]), error))?;
         Ok::<_, CliError>((scene, solved))
@@ -227,6 +235,22 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let files: Vec<PathBuf> = arguments.files.iter().chain(&arguments.opposite).cloned().collect();
     let report = SurfaceReport { faces, line, modulus, work: arguments.work, adhesion };
     arguments.output.write(stdout, &report, format, Origin::Files(&files))
+}
+
+/// Number of computed profiles on the terminal.
+#[derive(Default)]
+struct Counted {
+    line: ProgressLine,
+    computed: u64,
+}
+
+/// Shows the number of computed profiles, which several threads report.
+fn count_profiles(progress: &Mutex<Counted>, computed: u64, lines: u32) {
+    let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+    if computed > progress.computed {
+        progress.computed = computed;
+        progress.line.show(&format!("{computed} of {lines} random profiles"), None);
+    }
 }
 
 fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {
