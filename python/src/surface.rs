@@ -58,7 +58,7 @@ impl Surface {
                 None => read_faces(&task)?,
                 Some((heights, columns, spacing)) => faces_of_map(&task, heights, columns, spacing)?,
             };
-            let report = task.report(faces, true).map_err(|error| error.to_string())?;
+            let report = task.report(faces, true, &|_, _| ()).map_err(|error| error.to_string())?;
             Ok(Surface { task, report: Arc::new(report), is_array: heights.is_some() })
         })
     }

@@ -3,7 +3,7 @@
 use super::error::CliError;
 use super::scene::{Overrides, compute, open_scene};
 use crate::explorer::autosave;
-use crate::explorer::autosave::Kept;
+use crate::explorer::autosave::Newest;
 use crate::explorer::commands::table::bindings;
 use crate::explorer::config::{Config, default_path};
 use crate::explorer::ghost::Ghost;
@@ -104,9 +104,16 @@ pub(super) fn explore(
     out: &mut dyn Write,
 ) -> Result<(), CliError> {
     let unsaved = autosave::folder();
-    let restored = arguments.restore.then(|| restored(unsaved.as_deref())).transpose()?;
-    let first = restored.as_ref().and_then(|kept| kept.documents.first().cloned());
-    let options = Options { restored, unsaved, ..arguments.look.options()? };
+    let mut options = arguments.look.options()?;
+    if arguments.restore {
+        let Newest { kept, unreadable } = restored(unsaved.as_deref())?;
+        options.restored = kept;
+        let skipped = unreadable.into_iter().map(|why| format!("{why}; older unsaved changes are open"));
+        let warnings: Vec<String> = options.warning.into_iter().chain(skipped).collect();
+        options.warning = (!warnings.is_empty()).then(|| warnings.join(" · "));
+    }
+    options.unsaved = unsaved;
+    let first = options.restored.as_ref().and_then(|kept| kept.documents.first().cloned());
     let opening = first.map_or_else(
         || opening(arguments, &options.config.scene, commands),
         |document| Ok(document.into()),
@@ -147,11 +154,17 @@ fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), C
     Ok(())
 }
 
-/// The newest unsaved changes of an ended session; an error if there are none.
-fn restored(folder: Option<&Path>) -> Result<Kept, CliError> {
-    let none = || "no unsaved changes are kept; asperity opens a scene".to_owned();
-    let newest = folder.map_or(Ok(None), autosave::newest);
-    newest.and_then(|newest| newest.ok_or_else(none)).map_err(|why| CliError::named("--restore", why))
+/// The newest unsaved changes of an ended session that can be read; an error if there are none.
+fn restored(folder: Option<&Path>) -> Result<Newest, CliError> {
+    let newest = folder.map(autosave::newest).unwrap_or_default();
+    if newest.kept.is_some() {
+        return Ok(newest);
+    }
+    let why = match &newest.unreadable[..] {
+        [] => "no unsaved changes are kept; asperity opens a scene".to_owned(),
+        unreadable => format!("no unsaved changes can be read: {}", unreadable.join("; ")),
+    };
+    Err(CliError::named("--restore", why))
 }
 
 fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Result<Opening, CliError> {

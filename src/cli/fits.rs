@@ -167,7 +167,9 @@ impl Batch<'_> {
         };
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
         let count = grouped(files.len() as u64);
-        let progress = Mutex::new(Progress { rows, table, line: ProgressLine::default() });
+        let mut line = ProgressLine::default();
+        line.show(&format!("{} of {count} curves", grouped(rows.len() as u64)), None);
+        let progress = Mutex::new(Progress { rows, table, line });
         let worker = || {
             |number: u64| {
                 let index = todo[number as usize];

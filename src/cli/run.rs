@@ -16,7 +16,7 @@ use asperity_report::{
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
 use asperity_scene::{CheckedScene, Document, Scene, Simulation, estimate};
 use asperity_study::trust::MeasuredAdhesion;
-use asperity_study::{Axis, Ensemble, Results, Staircase};
+use asperity_study::{Axis, Ensemble, Results, Staircase, StudyError};
 use clap::{Args, ValueEnum};
 use std::io;
 use std::io::Write;
@@ -192,10 +192,28 @@ impl RunArguments {
             .then(|| Staircase::find(scene, preloads, &mut simulation, &|| false, &mut |_| ()))
             .transpose()
             .map_err(|error| CliError::named(document.name(), error))?;
-        let (lines, jobs) = (self.profiles.lines.map_or(1, u64::from), self.profiles.threads());
-        let (record, folder) = (&Results::OF_PRELOADS, document.resolve(""));
-        let results = Results::of_scene(scene, &folder, record, lines, Some(preloads), jobs);
+        let results = self.adhesion_on_profiles(chosen, preloads);
         Ok((results.map_err(|error| CliError::named(document.name(), error))?, staircase))
+    }
+
+    /// Adhesion force against preload on one or several random profiles, which are counted on the terminal.
+    fn adhesion_on_profiles(&self, chosen: &Chosen<'_>, preloads: &Axis) -> Result<Results, StudyError> {
+        let count = self.profiles.lines.map_or(1, u64::from);
+        let mut results = Results::begin(&chosen.scene, &Results::OF_PRELOADS, count, Some(preloads))?;
+        let simulation = if count == 1 {
+            simulation_of(chosen.document)
+        } else {
+            Simulation::new(chosen.document.resolve(""))
+        };
+        let mut progress = ProgressLine::default();
+        let mut computed = 0;
+        let mut report = |_: &Results| {
+            computed += 1;
+            progress.show(&format!("{computed} of {count} random profiles"), None);
+        };
+        let solved = results.extend((simulation, self.profiles.threads()), &|| false, &mut report);
+        progress.clear();
+        solved.map(|()| results)
     }
 }
 

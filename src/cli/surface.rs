@@ -2,6 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
+use super::progress::ProgressLine;
 use super::scene::{MOST_LINES, threads};
 use crate::explorer::recognition::no_surface;
 use asperity_contact::Move;
@@ -15,6 +16,7 @@ use asperity_surface::{EquivalentLine, Unit, analyse, read};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -237,7 +239,8 @@ impl SurfaceTask {
     }
 
     /// Makes the report of analysed faces. If `computes_adhesion` is true and a work of adhesion is given, the adhesion of the
-    /// equivalent line is computed on random profiles.
+    /// equivalent line is computed on random profiles. `progress` receives the number of computed profiles and the number of
+    /// all profiles, from several threads.
     ///
     /// # Errors
     /// Returns an error for a value that a scene does not allow, and if a profile cannot be computed.
@@ -245,6 +248,7 @@ impl SurfaceTask {
         &self,
         faces: Vec<MeasuredFace>,
         computes_adhesion: bool,
+        progress: &(dyn Fn(u64, u32) + Sync),
     ) -> Result<SurfaceReport, CliError> {
         let line =
             EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
@@ -256,10 +260,14 @@ impl SurfaceTask {
         let scene = self.scene(modulus, &report.faces, &report.line).checked()?;
         let is_quick = scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
         let profiles = self.profiles.or(is_quick.then_some(LINES));
-        let solve = |count: u32| MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs);
-        let solved = profiles.map(solve).transpose();
-        let solved =
-            solved.map_err(|error| CliError::named(path_name(Path::new(&self.measured.file)), error))?;
+        let mut solved = None;
+        if let Some(count) = profiles {
+            let report_profile = |computed: u64| progress(computed, count);
+            let adhesion =
+                MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs, &report_profile);
+            let file = Path::new(&self.measured.file);
+            solved = Some(adhesion.map_err(|error| CliError::named(path_name(file), error))?);
+        }
         report.adhesion = Some((scene, solved));
         Ok(report)
     }
@@ -273,13 +281,34 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     }
     let task = arguments.task()?;
     // Adhesion is computed for text and JSON alone, since it takes seconds.
-    let report = task.report(task.faces()?, matches!(format, Format::Text | Format::Json))?;
+    let computes_adhesion = matches!(format, Format::Text | Format::Json);
+    let progress = Mutex::new(Counted::default());
+    let count = |computed: u64, profiles: u32| count_profiles(&progress, computed, profiles);
+    let report = task.report(task.faces()?, computes_adhesion, &count);
+    progress.lock().unwrap_or_else(PoisonError::into_inner).line.clear();
+    let report = report?;
     if let (Some(file), Some(modulus)) = (&arguments.scene, task.modulus) {
         let scene = task.scene(modulus, &report.faces, &report.line);
         write_scene(file, scene, arguments.output.force)?;
     }
     let files: Vec<PathBuf> = arguments.files.iter().chain(&arguments.opposite).cloned().collect();
     arguments.output.write(stdout, &report, format, Origin::Files(&files))
+}
+
+/// Number of computed profiles on the terminal.
+#[derive(Default)]
+struct Counted {
+    line: ProgressLine,
+    computed: u64,
+}
+
+/// Shows the number of computed profiles, which several threads report.
+fn count_profiles(progress: &Mutex<Counted>, computed: u64, profiles: u32) {
+    let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+    if computed > progress.computed {
+        progress.computed = computed;
+        progress.line.show(&format!("{computed} of {profiles} random profiles"), None);
+    }
 }
 
 fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {

@@ -1,7 +1,7 @@
 //! Copies of unsaved changes, in case the process or its connection ends first: one file for each session, locked while the
 //! session runs. Files of the user are not touched.
 
-use asperity_data::{into_text, open_regular, read_limited};
+use asperity_data::{into_text, open_regular, path_name, read_limited};
 use asperity_scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
@@ -47,31 +47,51 @@ pub struct Kept {
     pub documents: Vec<Document>,
 }
 
-/// Returns the newest unsaved changes of an ended session; `None` if there are none.
-///
-/// # Errors
-/// The newest file of an ended session cannot be read.
-pub fn newest(folder: &Path) -> Result<Option<Kept>, String> {
+/// What the folder has of ended sessions.
+#[derive(Default)]
+pub struct Newest {
+    /// The newest unsaved changes that can be read.
+    pub kept: Option<Kept>,
+    /// Newer files that cannot be read, each with the reason, the newest first. A power cut may have damaged them.
+    pub unreadable: Vec<String>,
+}
+
+/// Returns the newest unsaved changes of an ended session that can be read, and the newer files that cannot.
+pub fn newest(folder: &Path) -> Newest {
     let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut files: Vec<PathBuf> =
         files.filter(|path| path.extension().is_some_and(|end| end == "ron")).collect();
     files.sort_by_key(|path| fs::metadata(path).and_then(|found| found.modified()).ok());
+    let mut newest = Newest::default();
     while let Some(path) = files.pop() {
-        let wrong = |why: String| format!("{}: {why}", path.display());
-        let lock = open_regular(&path).map_err(|error| wrong(error.to_string()))?;
-        // A session that runs, or that has taken the file at the same time.
-        if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
-            continue;
+        match open(path.clone()) {
+            Ok(Some(kept)) => {
+                newest.kept = Some(kept);
+                break;
+            }
+            Ok(None) => {}
+            Err(why) => newest.unreadable.push(format!("{}: {why}", path_name(&path))),
         }
-        let documents = read(&lock).map_err(wrong)?;
-        return Ok(Some(Kept { path, lock, documents }));
     }
-    Ok(None)
+    newest
+}
+
+/// Opens a file of an ended session; `None` for a session that runs, or that has taken the file at the same time.
+fn open(path: PathBuf) -> Result<Option<Kept>, String> {
+    let lock = open_regular(&path).map_err(|error| error.to_string())?;
+    if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
+        return Ok(None);
+    }
+    let documents = read(&lock)?;
+    if documents.is_empty() {
+        return Err("there is no scene in it".to_owned());
+    }
+    Ok(Some(Kept { path, lock, documents }))
 }
 
 /// Returns the message that offers the newest unsaved changes of an ended session.
 pub fn offer(folder: &Path) -> Option<String> {
-    let Kept { documents, .. } = newest(folder).ok()??;
+    let Kept { documents, .. } = newest(folder).kept?;
     let name = |document: &Document| Some(Path::new(document.name()).file_name()?.display().to_string());
     let names: Vec<String> = documents.iter().filter_map(name).collect();
     Some(format!("unsaved changes of {} are kept: asperity --restore opens them", names.join(", ")))
@@ -131,16 +151,16 @@ impl Autosave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::open;
+    use asperity_scene::open as open_scene;
 
     #[test]
     fn copies_are_read_back_as_they_were_once_their_session_has_ended() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path().join("state/unsaved");
-        let kept = || newest(&folder).unwrap();
+        let kept = || newest(&folder).kept;
         assert!(kept().is_none());
-        let changed = open("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
-        let other = open("rough-sphere").unwrap().set("length", "2.0e-4").unwrap();
+        let changed = open_scene("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
+        let other = open_scene("rough-sphere").unwrap().set("length", "2.0e-4").unwrap();
         let mut session = Autosave::new(&folder, None);
         session.keep(&[&changed]).unwrap();
         session.keep(&[&changed, &other]).unwrap();
@@ -157,19 +177,35 @@ mod tests {
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing is unsaved any more");
     }
 
-    /// A file that cannot be read is reported: a power cut may have damaged the newest one, and anything may be in the
-    /// folder.
+    /// A power cut may have damaged the newest file, and anything may be in the folder. What is older is found all the same.
     #[test]
-    fn a_file_that_cannot_be_read_is_stated() {
+    fn files_that_cannot_be_read_are_stated_and_hide_no_older_one() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
-        for (name, text) in [("a.ron", ""), ("b.ron", "("), ("c.ron", "[(name: \"a\")]"), ("d.ron", "[(name")]
-        {
+        let changed = open_scene("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
+        let mut session = Autosave::new(folder, None);
+        session.keep(&[&changed]).unwrap();
+        drop(session);
+        let wrong = [
+            ("a.ron", ""),
+            ("b.ron", "("),
+            ("c.ron", "[(name: \"a\")]"),
+            ("d.ron", "[(name"),
+            ("e.ron", "[]"),
+        ];
+        for (name, text) in wrong {
             fs::write(folder.join(name), text).unwrap();
-            assert!(newest(folder).err().unwrap().contains(name) && offer(folder).is_none());
+            let Newest { kept, unreadable } = newest(folder);
+            assert!(unreadable.len() == 1 && unreadable[0].contains(name), "{unreadable:?}");
+            assert_eq!(kept.expect("the older file").documents, std::slice::from_ref(&changed), "{name}");
+            assert!(offer(folder).is_some_and(|offer| offer.contains("pressure-sensitive")), "{name}");
             fs::remove_file(folder.join(name)).unwrap();
         }
         fs::create_dir(folder.join("folder.ron")).unwrap();
-        assert!(newest(folder).is_err());
+        for (name, text) in wrong {
+            fs::write(folder.join(name), text).unwrap();
+        }
+        let Newest { kept, unreadable } = newest(folder);
+        assert!(kept.is_some() && unreadable.len() == wrong.len() + 1, "{unreadable:?}");
     }
 }

@@ -224,7 +224,7 @@ impl Editor {
 
     /// Marks the scene as saved to a file, which becomes its own file.
     pub fn set_saved_as(&mut self, path: &Path) {
-        if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
+        if let Ok(document) = Document::parse(&self.document.text_for_own_file(), &path.to_string_lossy()) {
             self.scene = scene_of(&document);
             self.document = document;
         }

@@ -12,6 +12,8 @@ mod close_up;
 pub mod commands;
 mod completion;
 pub mod config;
+#[cfg(unix)]
+mod decoder;
 pub mod demo;
 pub mod editor;
 pub mod ghost;

@@ -48,7 +48,7 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
 fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
     let missing = || io::Error::other("the selected pane has nothing yet to export");
     match content {
-        Content::Scene => out.write_all(app.edit.document.text().as_bytes()),
+        Content::Scene => out.write_all(app.edit.document.text_for_own_file().as_bytes()),
         Content::Pane(Format::Text) => out.write_all(screen_text(&picture_of(app)).as_bytes()),
         Content::Pane(format) => {
             let drawn = |figure: Figure| (OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>);

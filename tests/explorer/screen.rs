@@ -28,6 +28,7 @@ mod stages;
 mod studies;
 mod study;
 mod target;
+mod tour;
 mod trust;
 mod typing;
 

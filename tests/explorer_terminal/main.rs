@@ -21,6 +21,7 @@ mod leaving;
 mod mouse;
 mod opening;
 mod panics;
+mod sequences;
 mod ssh;
 mod storm;
 mod study;

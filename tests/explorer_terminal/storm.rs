@@ -1,13 +1,18 @@
-//! Storms of keys, pastes, mouse and broken sequences: after each burst the explorer draws a window of another size.
+//! Storms of keys, pastes, mouse and broken sequences: after each burst the next key counts, and the explorer draws a
+//! window of another size.
 //!
 //! `STORM_SEEDS=0..200 cargo test --test explorer_terminal storm` runs other storms.
 
-use crate::driving::{ESCAPE, explorer, paused, quit, select};
+use crate::common::terminal::Terminal;
+use crate::driving::{ESCAPE, explorer, paused, place, quit, select};
 use portable_pty::ExitStatus;
 use std::time::{Duration, Instant};
 
 /// Bursts of a storm.
 const BURSTS: usize = 12;
+
+/// Columns by which the window grows after each burst.
+const WIDER: usize = 4;
 
 /// Longest time to a frame.
 const LIMIT: Duration = Duration::from_secs(5);
@@ -19,6 +24,13 @@ const KEYS: [&str; 24] = [
     "\x1b[C", "\x1b[D", "\x1b[5~", "\x1b[6~", "\x1b[H", "\x1b[3~", "\x1b[Z", "\x1bOP", "\x1b[15~", "\x1bx",
     " ",
 ];
+
+/// A pasted text without its end.
+const UNFINISHED_PASTE: &[u8] = b"\x1b[200~5 mN";
+
+/// Time after which the explorer waits no longer for the rest of a sequence, and of a paste.
+const GIVEN_UP: Duration = Duration::from_millis(150);
+const PASTE_GIVEN_UP: Duration = Duration::from_millis(1200);
 
 /// Random numbers of a seed.
 struct Random(u64);
@@ -54,12 +66,29 @@ impl Random {
                 };
                 (0..5).map(gesture).collect::<String>().into_bytes()
             }
-            // Without an end, as a broken line may pass it on.
-            3 => [&b"\x1b["[..], b"\x1b[1;", b"\x1bO", b"\xe6\xbc", b"\x1b[<0;3", b"\x1b[0;0R"]
-                [self.below(6)]
-            .into(),
+            3 => self.cut_sequence(),
             _ => (0..1 + self.below(30)).flat_map(|_| self.key()).collect(),
         }
+    }
+
+    /// The beginning of a sequence without its end, as a broken line may pass it on.
+    fn cut_sequence(&mut self) -> Vec<u8> {
+        const WHOLE: [&[u8]; 9] = [
+            b"\x1b[<0;30;12M",
+            b"\x1b[1;5C",
+            b"\x1bOA",
+            b"\x1b[M !!",
+            b"\x1b[?64;1;2c",
+            b"\x1b]11;rgb:ffff/ffff/ffff\x07",
+            b"\x1bP1+r636f=383\x1b\\",
+            b"\xe6\xbc\xa2",
+            UNFINISHED_PASTE,
+        ];
+        let whole = WHOLE[self.below(WHOLE.len())];
+        if whole == UNFINISHED_PASTE {
+            return whole.into();
+        }
+        whole[..1 + self.below(whole.len() - 1)].into()
     }
 
     fn key(&mut self) -> Vec<u8> {
@@ -74,24 +103,42 @@ impl Random {
     }
 }
 
+/// Presses the key that draws the whole screen, and asserts that it counts. Returns false if the storm has left.
+fn answers(terminal: &mut Terminal, seed: u64, burst: &[u8]) -> bool {
+    const REDRAW: &[u8] = b"\x0c";
+    const CLEARED: &[u8] = b"\x1b[2J";
+    let before = terminal.written().len();
+    terminal.send_if_open(REDRAW);
+    let until = Instant::now() + LIMIT;
+    while place(&terminal.written()[before..], CLEARED).is_none() {
+        if terminal.ended().is_some() {
+            return false;
+        }
+        let what = burst.escape_ascii();
+        assert!(Instant::now() < until, "seed {seed}, no key counts after {what}:\n{}", terminal.text());
+        terminal.is_silent_for(Duration::from_millis(10));
+    }
+    true
+}
+
 /// Sends a storm, which may also choose to leave. After each burst a window of another size is drawn.
 fn storm(seed: u64) {
     let mut random = Random(seed);
     let (program, _folder) = explorer();
     let mut terminal = program.start();
     terminal.wait_for("F_a ");
-    for width in 90..90 + BURSTS {
+    for width in (90..).step_by(WIDER).take(BURSTS) {
         let burst = random.burst();
         terminal.send_if_open(&burst);
-        let rest = Duration::from_millis(random.below(60) as u64);
-        terminal.is_silent_for(rest);
-        if terminal.ended().is_some() {
+        let is_paste = burst.starts_with(UNFINISHED_PASTE);
+        terminal.take_until(Instant::now() + if is_paste { PASTE_GIVEN_UP } else { GIVEN_UP });
+        if !answers(&mut terminal, seed, &burst) {
             return;
         }
         terminal.resize(width as u16, 30);
         let until = Instant::now() + LIMIT;
-        // Each window is wider than those before.
-        while !terminal.rows().iter().any(|row| row.chars().count() == width) {
+        // Each window is wider than those before. A row may end a little before the edge.
+        while !terminal.rows().iter().any(|row| row.chars().count() > width - WIDER) {
             if terminal.ended().is_some_and(ExitStatus::success) {
                 return;
             }

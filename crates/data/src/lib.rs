@@ -63,7 +63,7 @@ pub use text::{
 };
 pub use warning::Warning;
 #[cfg(feature = "files")]
-pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
+pub use write::{WriteError, check_writable, remove_abandoned, sync_folder, write_new, write_new_file};
 
 /// Reads tables of numbers in text files, as instruments and programs write them: lines, separators, numbers, and names of
 /// columns.

@@ -4,12 +4,20 @@ use crate::text::path_name;
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use std::{fs, io};
 use tempfile::TempPath;
 use thiserror::Error;
 
 /// Size in bytes of the buffer for output.
 const BUFFER: usize = 1 << 18;
+
+/// Names of temporary files begin and end with these texts.
+const PREFIX: &str = ".asperity-";
+const SUFFIX: &str = ".tmp";
+
+/// Age from which a temporary file that nobody holds locked is abandoned.
+const ABANDONED: Duration = Duration::from_secs(60);
 
 /// Reason why a file was not written.
 #[derive(Debug, Error)]
@@ -82,14 +90,33 @@ pub fn write_new_file(
         file.file.set_permissions(permissions).map_err(&failed)?;
     }
     file.file.sync_all().map_err(&failed)?;
-    let name = file.named(&place).map_err(&failed)?;
-    let named = if overwrite { name.persist(&place) } else { name.persist_noclobber(&place) };
-    named.map_err(|error| match error.error.kind() {
+    file.persist(&place, overwrite).map_err(|reason| match reason.kind() {
         io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
-        _ => failed(error.error),
+        _ => failed(reason),
     })?;
     // The name has to be durable as well.
     sync_folder(folder_of(&place)).map_err(failed)
+}
+
+/// Removes the temporary files that killed processes have left in a folder: those older than a minute that no process holds
+/// locked. Files that cannot be removed stay.
+pub fn remove_abandoned(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let is_temporary =
+            name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+        if is_temporary && is_abandoned(&entry.path()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Returns true if a temporary file belongs to no process any more. Its process locks it just after its creation.
+fn is_abandoned(path: &Path) -> bool {
+    let Ok(file) = crate::read::open_regular(path) else { return false };
+    let modified = file.metadata().and_then(|found| found.modified());
+    let is_old = modified.is_ok_and(|time| time.elapsed().is_ok_and(|age| age >= ABANDONED));
+    is_old && file.try_lock().is_ok()
 }
 
 /// A file that is being written. It is removed unless it gets a name.
@@ -100,12 +127,32 @@ struct Temporary {
 }
 
 impl Temporary {
-    /// Gives the file a temporary name in the folder of `path`.
-    fn named(self, path: &Path) -> io::Result<TempPath> {
-        match self.name {
-            Some(name) => Ok(name),
-            None => Ok(names().make_in(folder_of(path), |name| link(&self.file, name))?.into_temp_path()),
-        }
+    /// Gives the file its final name. An existing file is replaced only if `overwrite` is true.
+    fn persist(self, path: &Path, overwrite: bool) -> io::Result<()> {
+        let name = match self.name {
+            Some(name) => name,
+            None => {
+                // A new file gets its name at once: no moment leaves a temporary name behind.
+                match link(&self.file, path) {
+                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists && overwrite => {}
+                    linked => return linked,
+                }
+                let linked = names().make_in(folder_of(path), |name| link(&self.file, name));
+                linked.map_err(without_path)?.into_temp_path()
+            }
+        };
+        let named = if overwrite { name.persist(path) } else { name.persist_noclobber(path) };
+        // The file is open, and locked, until here.
+        named.map_err(|error| error.error)
+    }
+}
+
+/// An error of the package `tempfile` without the name of the temporary file, which it appends to its text.
+fn without_path(error: io::Error) -> io::Error {
+    let text = error.to_string();
+    match text.split_once(" at path ") {
+        Some((reason, _)) => io::Error::new(error.kind(), reason.to_owned()),
+        None => error,
     }
 }
 
@@ -113,6 +160,8 @@ impl Temporary {
 fn temporary(path: &Path) -> Result<Temporary, WriteError> {
     let folder = folder_of(path);
     if let Some(file) = unnamed(folder) {
+        // Locked as long as it may have a temporary name, see `is_abandoned`.
+        let _ = file.try_lock();
         return Ok(Temporary { file, name: None });
     }
     let mut file = names();
@@ -122,16 +171,18 @@ fn temporary(path: &Path) -> Result<Temporary, WriteError> {
         file.permissions(Permissions::from_mode(0o666));
     }
     let file = file.tempfile_in(folder).map_err(|reason| match folder.is_dir() {
-        true => WriteError::Failed { path: path.into(), reason },
+        true => WriteError::Failed { path: path.into(), reason: without_path(reason) },
         false => WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder))),
     })?;
     let (file, name) = file.into_parts();
+    #[cfg(unix)]
+    let _ = file.try_lock();
     Ok(Temporary { file, name: Some(name) })
 }
 
 fn names() -> tempfile::Builder<'static, 'static> {
     let mut names = tempfile::Builder::new();
-    names.prefix(".asperity-").suffix(".tmp");
+    names.prefix(PREFIX).suffix(SUFFIX);
     names
 }
 
@@ -277,6 +328,101 @@ mod tests {
         assert!(matches!(late, Err(WriteError::Exists(_))), "{late:?}");
         assert_eq!(fs::read(&path).unwrap(), b"theirs");
         assert_eq!(names_in(folder.path()), ["curve.csv"]);
+    }
+
+    /// A new file never has a temporary name, with which a kill could leave it.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_new_file_is_named_at_once() {
+        use std::sync::atomic::{AtomicBool, Ordering};
+        let folder = tempfile::tempdir().unwrap();
+        let is_done = AtomicBool::new(false);
+        let temporary_names = std::thread::scope(|scope| {
+            let watch = scope.spawn(|| {
+                let mut seen = 0;
+                while !is_done.load(Ordering::SeqCst) {
+                    seen += names_in(folder.path()).iter().filter(|name| name.ends_with(SUFFIX)).count();
+                }
+                seen
+            });
+            for number in 0..400 {
+                let path = folder.path().join(format!("{number}.csv"));
+                write_new(&path, number % 2 == 0, |out| out.write_all(b"one")).unwrap();
+                fs::remove_file(&path).unwrap();
+            }
+            is_done.store(true, Ordering::SeqCst);
+            watch.join().unwrap()
+        });
+        assert_eq!(temporary_names, 0);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn only_abandoned_temporary_files_are_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let old = std::time::SystemTime::now() - 2 * ABANDONED;
+        let make = |name: &str, time: Option<std::time::SystemTime>| {
+            let file = File::create(folder.path().join(name)).unwrap();
+            if let Some(time) = time {
+                file.set_modified(time).unwrap();
+            }
+            file
+        };
+        drop(make(".asperity-dead.tmp", Some(old)));
+        drop(make(".asperity-young.tmp", None));
+        drop(make(".asperity-future.tmp", Some(std::time::SystemTime::now() + ABANDONED)));
+        drop(make("asperity-other.tmp", Some(old)));
+        drop(make(".asperity-other.csv", Some(old)));
+        let alive = make(".asperity-alive.tmp", Some(old));
+        alive.lock().unwrap();
+        fs::create_dir(folder.path().join(".asperity-folder.tmp")).unwrap();
+        remove_abandoned(folder.path());
+        let mut left = names_in(folder.path());
+        left.sort();
+        let kept =
+            [".asperity-alive.tmp", ".asperity-folder.tmp", ".asperity-future.tmp", ".asperity-other.csv"];
+        assert_eq!(left, [&kept[..], &[".asperity-young.tmp", "asperity-other.tmp"]].concat());
+        drop(alive);
+        remove_abandoned(folder.path());
+        assert!(!folder.path().join(".asperity-alive.tmp").exists());
+        remove_abandoned(&folder.path().join("missing"));
+    }
+
+    /// A temporary file of a write that goes on is not taken for an abandoned one, however long the write takes.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_being_named_is_not_abandoned() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = temporary(&folder.path().join("curve.csv")).unwrap();
+        let name = folder.path().join(".asperity-named.tmp");
+        link(&file.file, &name).unwrap();
+        file.file.set_modified(std::time::SystemTime::now() - 2 * ABANDONED).unwrap();
+        assert!(!is_abandoned(&name));
+        drop(file);
+        assert!(is_abandoned(&name));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_refusal_names_the_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        fs::set_permissions(folder.path(), Permissions::from_mode(0o500)).unwrap();
+        let refused = check_writable(&folder.path().join("curve.csv"), false);
+        // The administrator may write everywhere.
+        if let Err(refused) = refused {
+            let message = refused.to_string();
+            assert!(
+                message.contains("curve.csv: cannot be written: ") && !message.contains(".tmp"),
+                "{message}"
+            );
+        }
+        let error = names().tempfile_in(folder.path().join("missing")).unwrap_err();
+        assert!(error.to_string().contains(PREFIX), "{error}");
+        let plain = without_path(error);
+        assert_eq!(plain.kind(), io::ErrorKind::NotFound);
+        assert!(!plain.to_string().contains(PREFIX), "{plain}");
+        fs::set_permissions(folder.path(), Permissions::from_mode(0o700)).unwrap();
     }
 
     #[test]

@@ -2,20 +2,15 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
+use asperity_scene::discretisation::{CostTable, Knob};
 use asperity_study::half_space::Reference;
 
 /// Returns the figure of relative errors over computing time, with a curve for each kind of setting, such as the number of
 /// springs. The error is the error of the adhesion force, or of the force curve if there is no adhesion force. If `reference`,
-/// the comparison with three dimensions, is given, the figure also has the error of the model.
+/// the comparison with three dimensions, is given, the figure also has the error of the model as a level.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
-    let floor = model.unwrap_or(0.0);
-    let ended = |(seconds, figure): (f64, ErrorFigure)| {
-        (seconds, ErrorFigure { error: figure.error.max(floor), ..figure })
-    };
-    let points =
-        |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).map(ended).collect::<Vec<_>>();
+    let points = |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).collect::<Vec<_>>();
     let series: Vec<_> = Knob::ALL.into_iter().map(|knob| (knob, points(knob))).collect();
     let series: Vec<_> = series.into_iter().filter(|(_, points)| !points.is_empty()).collect();
     let squares = reference.and_then(|reference| {
@@ -41,25 +36,24 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
     }
     if let Some((cells, at)) = squares {
         let name = format!("three dimensions, {cells} × {cells} cells");
-        let shape = Shape::signs(vec![at], Sign::of_series(series.len()));
+        let shape = Shape::signs(vec![at], Sign::Cross);
         layers.push(Layer::new(Label::plain(&name), Ink::Series(series.len()), shape));
     }
-    let lines =
-        series.iter().flat_map(|(_, points)| points).map(|(seconds, figure)| (*seconds, figure.error));
-    let all: Vec<(f64, f64)> = lines.chain(squares.map(|(_, at)| at)).collect();
+    if let Some(model) = model {
+        let name = "error of the model, which no springs reduce";
+        layers.insert(0, Layer::new(name.into(), Ink::Quiet, Shape::Level(model)));
+    }
+    let mut all: Vec<(f64, f64)> = Vec::new();
+    for (_, points) in &series {
+        all.extend(points.iter().map(|(seconds, figure)| (*seconds, figure.error)));
+    }
+    all.extend(squares.map(|(_, at)| at));
     let axis = |span: Span, name: &str, symbol: &str, unit: &str| {
         ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
     };
     let times = Span::decades(all.iter().map(|(seconds, _)| seconds.log10()));
-    let mut errors = Span::decades(all.iter().map(|(_, error)| error.log10()));
-    if let Some(model) = model {
-        // Below the curves. Without a decade of its own it is no band.
-        let low = errors.low.min(model.log10().floor() - 1.0);
-        errors.low = low;
-        let ends = [times.low, times.high].map(|time| (10.0_f64.powf(time), 10.0_f64.powf(low), model));
-        let name = "error of the model, which no springs reduce";
-        layers.insert(0, Layer::new(name.into(), Ink::Quiet, Shape::Band(ends.to_vec())));
-    }
+    let errors = all.iter().map(|(_, error)| *error).chain(model);
+    let errors = Span::decades(errors.map(f64::log10));
     let of_force = table.reference.adhesion_force.is_some();
     let (name, symbol) =
         if of_force { ("relative error of", "F_a") } else { ("relative error of the curve", "") };
@@ -70,7 +64,7 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::discretisation::{CostReference, Row, Timing};
+    use asperity_scene::discretisation::{CostReference, ErrorFigure, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {

@@ -13,6 +13,7 @@ use asperity_surface::EquivalentLine;
 use asperity_surface::lines::{MeasuredRoughness, read_faces};
 use serde::Serialize;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first order. Its longest
 /// waves are nearly unknown, and a whole step of their logarithms could be several powers of ten.
@@ -107,7 +108,7 @@ impl MeasuredAdhesion {
         }
         let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;
-        MeasuredAdhesion::of_line(scene, &line, count, jobs)
+        MeasuredAdhesion::of_line(scene, &line, count, jobs, &|_| ())
     }
 
     /// Largest number of springs of a scene that [`MeasuredAdhesion::quick_deviation`] computes.
@@ -121,7 +122,8 @@ impl MeasuredAdhesion {
         is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
     }
 
-    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does.
+    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `report`
+    /// is called with the number of computed profiles after each of them.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed.
@@ -130,11 +132,14 @@ impl MeasuredAdhesion {
         line: &EquivalentLine,
         count: u32,
         jobs: usize,
+        report: &(dyn Fn(u64) + Sync),
     ) -> Result<Self, StudyError> {
+        let computed = AtomicU64::new(0);
         let profiles = on_threads(u64::from(count), jobs, || {
             |number| {
                 let seed = scene.seed().unwrap_or(0).wrapping_add(number);
                 let solved = ProfileAdhesion::solve(scene, line, seed, &|| false);
+                report(computed.fetch_add(1, Ordering::Relaxed) + 1);
                 solved.map_err(|error| StudyError::Run { place: format!("seed {seed}: "), error })
             }
         })?;
@@ -202,8 +207,8 @@ mod tests {
     #[test]
     fn both_spreads_are_those_of_separate_runs() {
         let (scene, line) = scene_and_line("(work: 0.05)");
-        let found = MeasuredAdhesion::of_line(&scene, &line, 6, 1).unwrap();
-        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 6, 3).unwrap(), found);
+        let found = MeasuredAdhesion::of_line(&scene, &line, 6, 1, &|_| ()).unwrap();
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 6, 3, &|_| ()).unwrap(), found);
         let force = |line: EquivalentLine, seed: u64| {
             let scene = scene.with_seed(seed);
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
@@ -253,13 +258,13 @@ mod tests {
     #[test]
     fn a_given_kappa_is_that_of_the_fitted_spectrum() {
         let (scene, line) = scene_and_line("(kappa: 1.5)");
-        let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap();
+        let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap();
         let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
         let mut simulation = Simulation::default().with_measured(measured);
         let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let work = outcome.governing.work_of_adhesion.unwrap();
         let with_work = |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
         let scene = scene.with(with_work).unwrap();
-        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap(), by_kappa);
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap(), by_kappa);
     }
 }

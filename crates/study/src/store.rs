@@ -10,7 +10,8 @@ use super::plan_text::Changes;
 use super::recorder::Recorded;
 use super::shard::Shard;
 use asperity_data::{
-    WriteError, open_regular, path_name, printable, read_regular_text, sync_folder, write_new,
+    WriteError, open_regular, path_name, printable, read_regular_text, remove_abandoned, sync_folder,
+    write_new,
 };
 use asperity_scene::text::LONGEST_TEXT;
 use serde::{Deserialize, Serialize};
@@ -109,6 +110,7 @@ impl Folder {
         for folder in [path, &shards] {
             fs::create_dir_all(folder).map_err(StudyError::unwritable(folder))?;
         }
+        remove_abandoned(path);
         let file = path.join(PLAN_FILE);
         let text = plan.to_ron();
         if !file.exists() {

@@ -9,8 +9,8 @@ use super::results::{Merged, Results};
 use super::statistics::{CONFIDENCE, Statistics};
 use super::store::{Folder, lines};
 use asperity_data::{
-    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, sha256_of, write_json,
-    write_new_file,
+    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, remove_abandoned, sha256_of,
+    write_json, write_new_file,
 };
 use asperity_scene::Regime;
 use serde::Serialize;
@@ -43,6 +43,7 @@ impl Merged {
 /// written.
 pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
+    remove_abandoned(folder.path());
     let plan = results.plan();
     let path = |name| folder.path().join(name);
     write_new_file(&path(Merged::RESULTS), true, |out| results.table().write_csv(out, ""))?;

@@ -362,8 +362,10 @@ pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     match changed {
         Ok(document) => {
             let lost = app.edit.document.comments().saturating_sub(document.comments());
+            // The words of a built-in scene go with the values that they describe.
+            let are_own = !document.is_changed_built_in();
             adopt(app, document);
-            if lost > 0 {
+            if lost > 0 && are_own {
                 let (comments, them) = if lost == 1 { ("comment", "it") } else { ("comments", "them") };
                 app.set_done(format!("{lost} {comments} removed with the replaced value; u restores {them}"));
             }

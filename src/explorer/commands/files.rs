@@ -3,13 +3,12 @@
 use super::edit;
 use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
-use crate::explorer::editor::Editor;
 use crate::explorer::measured::Measured;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
 use asperity_report::{Format, check_extension};
+use asperity_scene::Document;
 use asperity_scene::text::{command_line, quoted};
-use asperity_scene::{Document, presets};
 use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {
@@ -63,11 +62,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
     match result {
         Ok(()) => {
             let how = if file.content == Content::Scene { "saved" } else { "exported" };
-            let mut done = format!("{how} to {path}");
-            if let Some(what) = foreign_text(&app.edit).filter(|_| file.content == Content::Scene) {
-                done += &format!("; it still has the {what} of the built-in scene");
-            }
-            app.set_done(done);
+            app.set_done(format!("{how} to {path}"));
             if file.content == Content::Scene {
                 app.edit.set_saved_as(&file.path);
             }
@@ -82,21 +77,6 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
                 if is_scene { Purpose::Save { then_quit: file.then_quit } } else { Purpose::Export };
             app.ask_again(purpose, &file.path.to_string_lossy(), &error);
         }
-    }
-}
-
-/// What a changed built-in scene still has of the text of the built-in one, in words; `None` for a text of its own.
-fn foreign_text(edit: &Editor) -> Option<&'static str> {
-    let (name, scene) = (edit.document.name(), edit.document.scene());
-    let preset = presets().iter().find(|preset| preset.name == name).filter(|_| edit.is_unsaved())?;
-    let built_in = Document::parse(preset.text, preset.name).ok()?;
-    let built_in = built_in.scene();
-    let is_same = |one: &str, other: &str| !one.is_empty() && one == other;
-    match (is_same(&scene.title, &built_in.title), is_same(&scene.notice, &built_in.notice)) {
-        (true, true) => Some("title and notice"),
-        (true, false) => Some("title"),
-        (false, true) => Some("notice"),
-        (false, false) => None,
     }
 }
 

@@ -122,12 +122,16 @@ fn pressing_force(app: &App) -> f64 {
     given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
 }
 
-/// Steps the selected value; for a stage without a number its kind, for an option of reading the next choice.
+/// Steps the selected value; for an option of reading the next choice. A stage without a number, such as a separation,
+/// stays, since another kind of stage is another loading.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else { return };
     match parameter.leg {
         None if matches!(parameter.setting, Setting::Reading(_)) => measured::step_option(app, steps, coarse),
-        Some(_) if parameter.field.unit.is_empty() => change_kind(app, steps > 0),
+        Some(_) if parameter.field.unit.is_empty() => {
+            let name = parameter.name();
+            edit::refuse(app, format!("{name} has no number; V changes its kind, Enter types another stage"));
+        }
         _ => edit::step_value(app, steps, coarse),
     }
 }

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// Plays a demo at a number of frames per second until it is over or a key is pressed.
 pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     demo.set_note("any key ends the demo");
-    window()?;
+    let mut size = window()?;
     let _guard = TerminalGuard::take(false)?;
     let (sender, inbox) = channel();
     input::read(move |event| sender.send(event).is_ok())?;
@@ -24,14 +24,17 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     let begun = Instant::now();
     let mut frames = 0;
     while demo.advance().is_some() {
-        window()?;
+        let present = window()?;
+        if present != size {
+            size = present;
+            demo.resize(size.width, size.height);
+        }
         terminal.draw(|area| view::draw(area, demo.app()))?;
         frames += 1;
         let due = begun + frame * frames;
         loop {
             match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
                 Ok(Some(Event::Key(key))) if key.kind == KeyEventKind::Press => return Ok(()),
-                Ok(Some(Event::Resize(columns, rows))) => demo.resize(columns, rows),
                 Ok(Some(_)) => {}
                 Err(RecvTimeoutError::Timeout) => break,
                 Ok(None) | Err(RecvTimeoutError::Disconnected) => return Ok(()),

@@ -42,14 +42,17 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
     Some(FitReport { title: name, curve, fit: fitted(&app.studies).filter(|_| app.is_current())? })
 }
 
-/// The curves of the kept scenes and of the present one, by their titles, or by what differs where the titles are the same.
+/// The curves of the kept scenes and of the present one, by their titles, or by what differs where it is the same scene
+/// or the titles are the same.
 fn compared(app: &App) -> Option<Figure> {
-    let present = app.edit.document.title();
-    let name = |ghost: &Ghost| match ghost.document.title() {
-        same if same == present => differences(app, ghost),
-        other => other.to_owned(),
-    };
-    let names: Vec<String> = app.ghosts.iter().map(name).chain([present.to_owned()]).collect();
+    let present = &app.edit.document;
+    let mut names: Vec<String> = Vec::new();
+    for ghost in &app.ghosts {
+        let kept = &ghost.document;
+        let is_same = kept.name() == present.name() || kept.title() == present.title();
+        names.push(if is_same { differences(app, ghost) } else { kept.title().to_owned() });
+    }
+    names.push(present.title().to_owned());
     let outcomes = app.ghosts.iter().map(|ghost| &*ghost.outcome).chain([&app.current()?.outcome]);
     Some(force_figure(&names.iter().map(String::as_str).zip(outcomes).collect::<Vec<_>>(), units(app)))
 }

@@ -3,7 +3,7 @@
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
-use crate::explorer::panel::Panel;
+use crate::explorer::panel::{Panel, entries};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
@@ -28,8 +28,8 @@ pub static ROW: PaneRow = PaneRow {
     studies: |_, computed| vec![study(computed)],
     help: &[(
         "Trust",
-        "key A: relative error of F_a over the computing time, for both rules of edges and for the stepwise solver; ◆ is \
-         the scene. Below it the errors of F_a by their sources, and what other theories say",
+        "key A: relative error of F_a over the computing time, for both rules of edges and for the stepwise solver. An \
+         error is the largest at half, once and twice the load; ◆ is the scene. Below it the errors of F_a by their sources, and what other theories say",
     )],
     ..PaneRow::EMPTY
 };
@@ -82,30 +82,70 @@ const LEAST_CHART: usize = 6;
 const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
-    let title = "Trust: relative error over time, log–log".to_owned();
-    let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
-    let mut foot = filled(sentence(app, table), "  ", size.width.into());
-    foot.extend(rows(app, size.width));
+    let theme = app.view.appearance.theme;
     let warnings = app.current().map_or_else(Vec::new, |computed| warning_texts(&computed.outcome.warnings));
-    let style = app.view.appearance.theme.style(Meaning::Error);
-    let head = wrapped(&Line::styled(warnings.join(" "), style), size.width);
-    // Where there is no room for both, the words are more than the chart.
-    let has_room =
-        usize::from(size.height) >= foot.len() + head.len() + LEAST_CHART || foot.len() < LEAST_CHART;
-    if !has_room {
-        return Panel { head, foot, ..Panel::of_text(title, "") };
-    }
-    let chart =
-        table.and_then(|table| Some((table, work_precision("", table, reference(app)).charts.pop()?)));
-    let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
-        return Panel { head, foot, ..Panel::of_text(title, &nothing_yet(app)) };
+    let head = wrapped(&Line::styled(warnings.join(" "), theme.style(Meaning::Error)), size.width);
+    let room = usize::from(size.height).saturating_sub(head.len());
+    let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
+    let cost = filled(sentence(app, table), "  ", size.width.into());
+    let words = Words { cost, ..words(app, size.width) };
+    let chart = table.and_then(|table| {
+        let chart = work_precision("", table, reference(app)).charts.pop()?;
+        (!chart.layers.is_empty()).then(|| with_scene(chart, app, table))
+    });
+    let Some(chart) = chart else {
+        let title = "Trust: errors of F_a".to_owned();
+        let nothing = nothing_yet(app);
+        let body = wrapped(&Line::raw(nothing.clone()), size.width).len();
+        let foot = words.within(room.saturating_sub(body), app);
+        return Panel { head, foot, ..Panel::of_text(title, &nothing) };
     };
-    Panel { head, foot, ..Panel::of_chart(title, with_scene(chart, app, table)) }
+    let legend = filled(entries(&chart, app.view.appearance), "  ", size.width.into());
+    let beside_chart = room.saturating_sub(LEAST_CHART + legend.len());
+    // In a small window other theories are left out before the chart, and the chart before the errors.
+    if beside_chart < words.cost.len() + words.errors.len() + 1 && beside_chart < words.count() {
+        let title = "Trust: errors of F_a; the chart needs more rows".to_owned();
+        return Panel { head, foot: words.within(room, app), ..Panel::of_text(title, "") };
+    }
+    let title = "Trust: relative error over time, log–log".to_owned();
+    Panel { head, foot: words.within(beside_chart, app), ..Panel::of_chart(title, chart) }
 }
 
-/// Errors of the adhesion force by their sources, the largest of them first, and the criteria of other theories.
-fn rows(app: &App, width: u16) -> Vec<Line<'static>> {
-    let Some(computed) = app.current() else { return Vec::new() };
+/// The words beside the chart, the most important first.
+#[derive(Default)]
+struct Words {
+    /// Error and time of the scene, and what smaller errors cost.
+    cost: Vec<Line<'static>>,
+    /// Errors of the adhesion force by their sources, the largest of them first.
+    errors: Vec<Line<'static>>,
+    /// Criteria of other theories.
+    theories: Vec<Line<'static>>,
+}
+
+impl Words {
+    fn count(&self) -> usize {
+        self.cost.len() + self.errors.len() + self.theories.len()
+    }
+
+    /// The words in at most this number of rows; the last one says what is left out.
+    fn within(self, rows: usize, app: &App) -> Vec<Line<'static>> {
+        let mut lines: Vec<Line<'static>> = [self.cost, self.errors, self.theories].concat();
+        if lines.len() > rows {
+            let shown = rows.saturating_sub(1);
+            let left_out = lines.len() - shown;
+            lines.truncate(shown);
+            let way = if app.view.zoomed { "" } else { "z or " };
+            let note = format!("… {left_out} more rows: {way}a larger window");
+            lines.push(Line::styled(note, app.view.appearance.theme.style(Meaning::Quiet)));
+            lines.truncate(rows);
+        }
+        lines
+    }
+}
+
+/// Errors of the adhesion force by their sources, and the criteria of other theories.
+fn words(app: &App, width: u16) -> Words {
+    let Some(computed) = app.current() else { return Words::default() };
     let (scene, outcome) = (&computed.scene, &computed.outcome);
     let (estimate, ensemble) = (app.studies.value::<Estimate>(), app.studies.value::<Ensemble>());
     let deviation = app.studies.value::<MeasuredAdhesion>().and_then(MeasuredAdhesion::fit_deviation);
@@ -129,7 +169,11 @@ fn rows(app: &App, width: u16) -> Vec<Line<'static>> {
         };
         words.into_iter().enumerate().map(line).collect::<Vec<_>>()
     };
-    errors.into_iter().chain(theories).flat_map(lines).collect()
+    Words {
+        cost: Vec::new(),
+        errors: errors.into_iter().flat_map(lines).collect(),
+        theories: theories.into_iter().flat_map(lines).collect(),
+    }
 }
 
 fn nothing_yet(app: &App) -> String {
@@ -162,7 +206,7 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     if let Some((seconds, error)) = table.between_rows(&app.edit.document.scene().numerics) {
         let points = vec![(seconds, error.max(lowest))];
         let shape = Shape::signs(points, Sign::Diamond);
-        chart.layers.push(Layer::unnamed(Ink::Cursor, shape));
+        chart.layers.push(Layer::new("this scene".into(), Ink::Cursor, shape));
     }
     chart
 }
@@ -181,7 +225,16 @@ fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
         let present = table.and_then(|table| table.between_rows(&app.edit.document.scene().numerics));
         let time = present.map_or_else(String::new, |(seconds, _)| format!(" in {}", time_of(seconds)));
         let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
-        parts.push(vec![sign, Text::raw(format!("{error}{time}"))]);
+        let over_loads = table.filter(|table| table.is_over_loads(app.edit.document.scene()));
+        match present.filter(|_| over_loads.is_some()) {
+            Some((_, largest)) => {
+                let largest = per_cent(largest);
+                parts.push(vec![sign, Text::raw(format!("{largest}{time}, at half to twice the load"))]);
+                let own = error.strip_prefix("error ").unwrap_or(&error);
+                parts.push(vec![Text::raw(format!("at this load: {own}"))]);
+            }
+            None => parts.push(vec![sign, Text::raw(format!("{error}{time}"))]),
+        }
     }
     let answers = table.into_iter().flat_map(|table| {
         TARGETS.map(|target| Some((target, answer(table, target, app.studies.is_done::<Costs>())?)))

@@ -25,7 +25,8 @@ use std::path::is_separator;
 /// Title lines: name of the scene, a sign for unsaved changes, and the notice, which may no longer hold for a changed scene.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let (scene, theme) = (app.edit.document.scene(), app.view.appearance.theme);
-    let name = if scene.title.is_empty() { app.edit.document.name() } else { &scene.title };
+    let has_title = !scene.title.is_empty() && !app.edit.document.is_changed_built_in();
+    let name = if has_title { &scene.title } else { app.edit.document.name() };
     let mut spans = vec![Span::styled(name.to_owned(), theme.style(Meaning::Title))];
     let saved = app.edit.saved.get(app.edit.document.name()).map(|saved| &saved.scene().notice);
     if app.edit.is_unsaved() {

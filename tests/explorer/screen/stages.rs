@@ -41,9 +41,8 @@ fn keys_edit_the_stages() {
         (1, "P Esc Shift+Up", "[ToZeroForce, ToForce(2.0e-5), ToSeparation]", 1),
         (1, "P Esc K J", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
         (1, "P Esc J", "[ToForce(2.0e-5), ToSeparation, ToZeroForce]", 3),
-        (1, "P Esc Left", "[ToForce(2.0e-5), ToTouch, ToSeparation]", 2),
         // Nothing is in contact after a separation: a second one is left out.
-        (1, "P Esc Right", "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]", 2),
+        (1, "P Esc V", "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]", 2),
         (1, "V V V V V", "[ToForce(2.0e-5), ToSeparation]", 1),
         (1, "V V V", "[ToTouch, ToSeparation]", 1),
         (1, "l", "[ToForce(2.24e-5), ToSeparation]", 1),
@@ -59,6 +58,25 @@ fn keys_edit_the_stages() {
         }
         assert_eq!(loading(&driver.app), two, "{keys}");
         assert!(driver.app.edit.past.is_empty(), "{keys}");
+    }
+}
+
+/// A step of an arrow must not make another loading of the scene.
+#[test]
+fn arrows_leave_a_stage_without_a_number_as_it_is() {
+    for key in ["l", "h", "L", "H", "Right", "Left"] {
+        for (loading_text, stage) in [
+            ("[ToForce(2.0e-5), ToSeparation]", 2),
+            ("[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
+            ("[ToTouch]", 1),
+        ] {
+            let mut driver = loaded(loading_text, stage);
+            driver.app.view.pane = Pane::Parameters;
+            driver.press(key);
+            assert_eq!(loading(&driver.app), loading_text, "{key}");
+            assert!(driver.app.edit.past.is_empty(), "{key}");
+            driver.states("has no number; V changes its kind");
+        }
     }
 }
 

@@ -147,6 +147,13 @@ pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> 
     scene.with(loaded).ok().filter(|other| other.loading != scene.loading)
 }
 
+/// Returns true if a scene has target forces or indentations that [`loaded`] multiplies.
+pub(super) fn has_loads(scene: &Scene) -> bool {
+    let is_load =
+        |leg: &Move| matches!(leg, Move::ToForce(target) | Move::ToIndentation(target) if *target > 0.0);
+    scene.loading.iter().any(is_load)
+}
+
 /// Returns the powers of two that the scene allows as its number of springs, ascending.
 pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));

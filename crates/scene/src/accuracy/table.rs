@@ -1,6 +1,7 @@
 //! Table of the errors and times of a scene from coarse to fine.
 
-use crate::scene::model::{Numerics, Solver};
+use crate::accuracy::solution::has_loads;
+use crate::scene::model::{Numerics, Scene, Solver};
 use asperity_contact::Edges;
 use asperity_data::{format_rounded, grouped, median, slope};
 use serde::{Serialize, Serializer};
@@ -144,6 +145,14 @@ impl CostTable {
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
+    }
+
+    /// Returns true if the error of the adhesion force in each row with springs is the largest at half, once and twice the
+    /// loads of `scene`, whose table this is. Returns false if it is the error at the loads of the scene alone: with an exact
+    /// formula of the adhesion force, which holds at any load, without an adhesion force, or without target forces and
+    /// indentations.
+    pub fn is_over_loads(&self, scene: &Scene) -> bool {
+        self.reference.adhesion_force.is_some() && !self.reference.closed_form && has_loads(scene)
     }
 
     /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns `None` unless both are

@@ -100,9 +100,17 @@ impl Document {
     /// RON. A number may have an SI prefix and a unit: `50 mJ/m²`. The RON text `None` removes an optional part. The values
     /// are checked once, after all changes.
     ///
+    /// The first change of a built-in scene on which its solution depends removes its notice and the comments beside the
+    /// changed values, and its title becomes its name with the word *changed*. Words of the user's own stay.
+    ///
     /// # Errors
     /// Returns an error for each pair that cannot be read, and for each invalid value.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
+        Ok(self.overridden(overrides)?.with_true_words())
+    }
+
+    /// This document with fields changed, with all its words.
+    fn overridden(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let (mut new, mut errors) = (self.clone(), Vec::new());
         for (path, value) in overrides {
             match with_typed(&new.text, path, value) {
@@ -121,10 +129,26 @@ impl Document {
         if let (Ok(scene), false) = (read, overrides.is_empty()) {
             new.scene = CheckedScene::of(scene, Some(&new.text), origin)?;
         }
-        if !new.is_changed() {
-            new.overrides.clear();
-        }
         Ok(new)
+    }
+
+    /// This document with the words that are true of its values.
+    fn with_true_words(mut self) -> Document {
+        if let Some(text) = self.text_with_true_words()
+            && let Ok(scene) = read(text.as_str(), |_| Origin::Scene)
+            && let Ok(scene) = scene.checked()
+        {
+            self.text = text;
+            self.scene = scene;
+        }
+        if !self.is_changed() {
+            self.overrides.clear();
+        }
+        self
+    }
+
+    pub(super) fn indexed_text(&self) -> &Text {
+        &self.text
     }
 
     /// Returns the loading stages, each with its index in the loading. [`Document::with_stages`] takes such a list.
@@ -139,8 +163,8 @@ impl Document {
     /// Returns the same errors as [`Document::set`].
     pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
         let elements: Vec<_> = stages.iter().map(|(place, stage)| (*place, in_ron(stage))).collect();
-        let mut new =
-            self.set("loading", &in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>()))?;
+        let loading = in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>());
+        let mut new = self.overridden(&[pair("loading", loading)])?;
         let is_same = |text: &Text| {
             check_length(text.as_str()).is_ok()
                 && read(text.as_str(), |_| Origin::Scene).is_ok_and(|scene| scene == *new.scene)
@@ -148,10 +172,7 @@ impl Document {
         if let Some(text) = self.text.arrange("loading", &elements).filter(is_same) {
             new.text = text;
         }
-        if !new.is_changed() {
-            new.overrides.clear();
-        }
-        Ok(new)
+        Ok(new.with_true_words())
     }
 
     /// Returns the present text, with all comments.
@@ -190,8 +211,12 @@ impl Document {
 
     /// Returns the title of the scene, or the name of its file without folders if the scene has no title.
     pub fn title(&self) -> &str {
-        let file = || Path::new(&self.name).file_name().and_then(OsStr::to_str);
-        if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
+        if self.scene.title.is_empty() { self.file_name() } else { &self.scene.title }
+    }
+
+    /// The name of the file without folders, or of the built-in scene.
+    pub(super) fn file_name(&self) -> &str {
+        Path::new(&self.name).file_name().and_then(OsStr::to_str).unwrap_or(&self.name)
     }
 
     /// Returns the changes since the text was opened, each as the path of a field and its new value.

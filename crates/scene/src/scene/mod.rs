@@ -18,6 +18,7 @@ pub(crate) mod changes;
 pub(crate) mod check;
 pub(crate) mod checked;
 pub(crate) mod command;
+pub(crate) mod description;
 pub(crate) mod document;
 pub(crate) mod edit;
 pub(crate) mod effects;

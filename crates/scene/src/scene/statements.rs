@@ -5,11 +5,17 @@ use super::fields::fields_inside;
 use super::model::Scene;
 use super::range::Range;
 use super::stages::loading_text;
+use super::text::index::is_within;
 use super::tree::Tree;
 use asperity_data::{exact_quantity, grouped};
 
 /// Paths of fields on which the solution does not depend.
 const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numerics.samples"];
+
+/// Returns true if the solution does not depend on the value at a path.
+pub(super) fn describes(path: &str) -> bool {
+    DESCRIPTIONS.iter().any(|description| is_within(path, description))
+}
 
 /// A field of a scene and its value as text.
 #[derive(Clone, Debug, PartialEq)]

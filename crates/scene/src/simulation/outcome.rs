@@ -127,7 +127,7 @@ pub enum RunError {
     Values(#[from] SceneErrors),
     /// There is not enough memory for the scene.
     #[error(
-        "not enough memory: this scene takes about {} MiB; fewer numerics.points and numerics.samples take less",
+        "not enough memory: this scene takes about {} MiB; fewer numerics.points, numerics.samples and loading stages take less",
         bytes.div_ceil(1 << 20)
     )]
     OutOfMemory {

@@ -76,6 +76,54 @@ impl Text {
         Text::new(source).ok()
     }
 
+    /// Returns the text without the entry at a path, and without its line if nothing else is on the line. Without such an
+    /// entry the text stays as it is.
+    pub(in crate::scene) fn without_entry(&self, path: &str) -> Text {
+        let Some(TextSpan { entry, comma, .. }) = self.span(path) else { return self.clone() };
+        let blanks = [' ', '\t'];
+        let before = self.source[..entry.start].trim_end_matches(blanks);
+        let end = comma.unwrap_or(entry.end);
+        let after = self.source[end..].trim_start_matches(blanks);
+        let mut removed = entry.start..self.source.len() - after.len();
+        let line_break = ["\r\n", "\n"].into_iter().find(|line_break| after.starts_with(line_break));
+        if let Some(line_break) = line_break
+            && (before.is_empty() || before.ends_with('\n'))
+        {
+            removed = before.len()..removed.end + line_break.len();
+        }
+        self.without(removed)
+    }
+
+    /// Returns the text without the comments after the entry at a path on the last line of the entry.
+    pub(in crate::scene) fn without_comments_beside(&self, path: &str) -> Text {
+        let mut text = self.clone();
+        while let Some(range) = text.comment_beside(path) {
+            let before = text.source[..range.start].trim_end_matches([' ', '\t']).len();
+            let shorter = text.without(before..range.end);
+            if shorter == text {
+                break;
+            }
+            text = shorter;
+        }
+        text
+    }
+
+    fn comment_beside(&self, path: &str) -> Option<Range<usize>> {
+        let end = self.span(path)?.value.end;
+        let is_beside = |comment: &&Range<usize>| {
+            comment.start >= end
+                && self.source[end..comment.start].chars().all(|c| matches!(c, ' ' | '\t' | ','))
+        };
+        self.comments.iter().find(is_beside).cloned()
+    }
+
+    /// Returns the text without a range of bytes; the same text if the rest could not be read.
+    fn without(&self, range: Range<usize>) -> Text {
+        let mut source = self.source.clone();
+        source.replace_range(range, "");
+        Text::new(source).unwrap_or_else(|_| self.clone())
+    }
+
     /// Returns the insertions that put an entry after another one in the same style: on its own line, after the comment on
     /// the line before, or on the same line.
     fn splices_after(&self, anchor: &TextSpan, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
@@ -124,6 +172,36 @@ fn indentation(text: &str, offset: usize) -> Option<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_entry_goes_with_its_line() {
+        for (text, shorter) in [
+            ("(a: 1, b: 2, c: 3)", "(a: 1, c: 3)"),
+            ("(a: 1, b: 2)", "(a: 1, )"),
+            ("(\n    a: 1,\n    b: 2, // two\n    c: 3,\n)", "(\n    a: 1,\n    // two\n    c: 3,\n)"),
+            ("(\r\n\ta: 1,\r\n\tb: \"x\ny\",\r\n)", "(\r\n\ta: 1,\r\n)"),
+            ("(\n    a: 1,\n    b: 2\n)", "(\n    a: 1,\n)"),
+            ("(a: 1)", "(a: 1)"),
+        ] {
+            assert_eq!(Text::new(text).unwrap().without_entry("b").as_str(), shorter, "{text}");
+        }
+    }
+
+    #[test]
+    fn comments_beside_an_entry_are_removed_alone() {
+        for (text, shorter) in [
+            (
+                "(\n    a: 1, // one\n    b: 2, // two\n    // three\n)",
+                "(\n    a: 1, // one\n    b: 2,\n    // three\n)",
+            ),
+            ("(a: 1, b: 2 /* x */, /* y */ c: 3)", "(a: 1, b: 2, c: 3)"),
+            ("(b: (2, /* in */ 3), c: 4) // end", "(b: (2, /* in */ 3), c: 4) // end"),
+            ("(b: 2) // end", "(b: 2) // end"),
+            ("(a: 1) // one", "(a: 1) // one"),
+        ] {
+            assert_eq!(Text::new(text).unwrap().without_comments_beside("b").as_str(), shorter, "{text}");
+        }
+    }
 
     #[test]
     fn elements_that_stay_keep_their_comments() {

@@ -1,0 +1,195 @@
+//! The words of a built-in scene: its title, its notice and the comments of its text.
+//!
+//! They describe the values of the scene, so a change of a value on which the solution depends removes the notice and the
+//! comment beside the value, and marks the title as that of a changed scene. The words come back with the values. The words
+//! of any other scene are those of its author, and stay.
+
+use std::sync::OnceLock;
+
+use super::document::Document;
+use super::errors::Origin;
+use super::library::presets;
+use super::model::Scene;
+use super::read::read;
+use super::statements::describes;
+use super::text::index::Text;
+use super::typed::with_typed;
+
+/// Returns true if a scene, as it was opened, is a built-in one. The text may be another, as that of a table of results.
+fn is_built_in(opened: &Scene) -> bool {
+    static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
+    let built_in = BUILT_IN.get_or_init(|| {
+        presets().iter().filter_map(|preset| read(preset.text, |_| Origin::Scene).ok()).collect()
+    });
+    built_in.contains(opened)
+}
+
+/// Returns true if two scenes have the same solution.
+fn have_same_solution(first: &Scene, second: &Scene) -> bool {
+    let mut first = first.clone();
+    let mut second = second.clone();
+    first.strip();
+    second.strip();
+    first == second
+}
+
+/// Title of a scene that was a built-in one before it was changed. `name` is the name of its file or the built-in name.
+fn title_of_changed(name: &str) -> String {
+    format!("{name}, changed")
+}
+
+impl Document {
+    /// Returns the text of this document with the words that are true of its values; `None` if the present text has them,
+    /// or if the words are those of another author.
+    pub(super) fn text_with_true_words(&self) -> Option<Text> {
+        let opened = read(self.opened(), |_| Origin::Scene).ok()?;
+        if !self.is_changed() || !is_built_in(&opened) {
+            return None;
+        }
+        if have_same_solution(&opened, self.scene()) {
+            self.opened_with_descriptions()
+        } else {
+            Some(self.without_false_words())
+        }
+    }
+
+    /// The text as it was opened, with the overrides on which the solution does not depend.
+    fn opened_with_descriptions(&self) -> Option<Text> {
+        let mut text = Text::new(self.opened()).ok()?;
+        for (path, value) in self.overrides() {
+            if describes(path) {
+                text = with_typed(&text, path, value).ok()?;
+            }
+        }
+        Some(text)
+    }
+
+    fn without_false_words(&self) -> Text {
+        let is_own = |path: &str| self.overrides().iter().any(|(own, _)| own == path);
+        let mut text = self.indexed_text().clone();
+        for (path, _) in self.overrides() {
+            let group = path.split('.').next().unwrap_or_default();
+            if !describes(path) {
+                text = text.without_comments_beside(group);
+            }
+        }
+        if !is_own("notice") {
+            text = text.without_entry("notice");
+        }
+        if !is_own("title") {
+            let title = format!("{:?}", title_of_changed(self.file_name()));
+            text = with_typed(&text, "title", &title).unwrap_or(text);
+        }
+        text
+    }
+
+    /// Returns true if the title says that this is a changed built-in scene.
+    pub fn is_changed_built_in(&self) -> bool {
+        self.is_changed() && self.scene().title == title_of_changed(self.file_name())
+    }
+
+    /// Returns the text for a file of the user's own. A changed built-in scene has no title there, and is known by the name
+    /// of the file.
+    pub fn text_for_own_file(&self) -> String {
+        let text = self.indexed_text();
+        let text = if self.is_changed_built_in() { text.without_entry("title") } else { text.clone() };
+        text.as_str().to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open::open;
+    use crate::scene::tree::to_ron;
+
+    fn pressure_sensitive() -> Document {
+        open("pressure-sensitive").unwrap()
+    }
+
+    #[test]
+    fn the_first_change_removes_the_words_that_it_makes_false() {
+        let before = pressure_sensitive();
+        let changed = before.set("adhesion.kappa", "3.0").unwrap();
+        assert_eq!(changed.title(), "pressure-sensitive, changed");
+        assert_eq!(changed.scene().notice, "");
+        assert!(!changed.text().contains("between the two other regimes"), "{}", changed.text());
+        // A comment of a value that is as before stays.
+        assert!(changed.text().contains("// soft rubber"), "{}", changed.text());
+        assert_eq!(Document::parse(changed.text(), "x").unwrap().scene(), changed.scene());
+        let softer = changed.set("material.youngs_modulus", "1.0e6").unwrap();
+        assert_eq!(softer.comments(), 0);
+        assert_eq!(softer.title(), "pressure-sensitive, changed");
+    }
+
+    #[test]
+    fn each_change_of_any_built_in_scene_leaves_no_words_of_it() {
+        for preset in presets() {
+            let before = open(preset.name).unwrap();
+            assert!(!before.scene().title.is_empty(), "{}", preset.name);
+            let twice = format!("{:e}", 2.0 * before.scene().length);
+            let stages = [(Some(0), before.scene().loading[0])];
+            for changed in [
+                before.set("length", &twice),
+                before.set("numerics.edges", "Grid"),
+                before.set("observe", "[Fragments]").unwrap().set("length", &twice),
+                before.with_stages(&[stages.clone(), stages].concat()),
+            ] {
+                let Ok(changed) = changed else { continue };
+                let title = format!("{}, changed", preset.name);
+                assert_eq!(changed.title(), title, "{}", changed.text());
+                assert_eq!(changed.scene().notice, "", "{}", changed.text());
+                assert_eq!(Document::parse(changed.text(), "x").unwrap().scene(), changed.scene());
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_solution_does_not_depend_on_changes_no_words() {
+        let before = pressure_sensitive();
+        let described = before.set_all(
+            &[("numerics.samples", "64"), ("observe", "[Fragments]")]
+                .map(|(path, value)| (path.to_owned(), value.to_owned())),
+        );
+        let described = described.unwrap();
+        assert_eq!(described.title(), before.title());
+        assert_eq!(described.scene().notice, before.scene().notice);
+        assert_eq!(described.comments(), before.comments());
+    }
+
+    #[test]
+    fn the_words_come_back_with_the_values() {
+        let before = pressure_sensitive();
+        let changed = before.set("adhesion.kappa", "3.0").unwrap();
+        assert_eq!(changed.set("adhesion.kappa", "6").unwrap(), before);
+        let observing = changed.set("observe", "[Fragments]").unwrap();
+        let back = observing.set("adhesion.kappa", "6.0").unwrap();
+        assert_eq!(back.text(), before.set("observe", "[Fragments]").unwrap().text());
+        assert_eq!(back.title(), before.title());
+    }
+
+    #[test]
+    fn words_of_the_user_stay() {
+        let before = pressure_sensitive();
+        let own = before.set("title", "\"My pad\"").unwrap().set("notice", "\"Mine.\"").unwrap();
+        let own = own.set("adhesion.kappa", "3.0").unwrap();
+        assert_eq!((own.title(), own.scene().notice.as_str()), ("My pad", "Mine."));
+        let file = "(version: 1, title: \"A\", notice: \"B\", material: (effective_modulus: 1.0e6), length: 1.0e-4 /* wide */)";
+        let file = Document::parse(file, "mine.ron").unwrap().set("length", "2.0e-4").unwrap();
+        assert_eq!((file.title(), file.scene().notice.as_str(), file.comments()), ("A", "B", 1));
+    }
+
+    #[test]
+    fn a_copy_of_a_built_in_scene_has_no_words_of_its_own() {
+        for text in [pressure_sensitive().text().to_owned(), to_ron(pressure_sensitive().scene())] {
+            let copy = Document::parse(&text, "folder/pad.ron").unwrap();
+            let changed = copy.set("length", "2.0e-4").unwrap();
+            assert_eq!((changed.title(), changed.scene().notice.as_str()), ("pad.ron, changed", ""));
+            let saved = Document::parse(&changed.text_for_own_file(), "folder/pad.ron").unwrap();
+            assert_eq!(saved.title(), "pad.ron");
+        }
+        let changed = pressure_sensitive().set("length", "2.0e-4").unwrap();
+        assert!(changed.is_changed_built_in() && !pressure_sensitive().is_changed_built_in());
+        assert!(!changed.text_for_own_file().contains("title"), "{}", changed.text_for_own_file());
+    }
+}

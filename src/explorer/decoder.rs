@@ -1,0 +1,550 @@
+//! Bytes of a terminal become keys, pastes and gestures of the mouse. What a terminal begins and does not finish, as on
+//! a broken line, is given up after a pause, so that it swallows no later key.
+
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use std::time::Duration;
+
+/// Longest pause within the sequence of a key. A slow line may separate the bytes of a sequence.
+const SEQUENCE_PAUSE: Duration = Duration::from_millis(80);
+
+/// Longest pause within a pasted text. The rest of a text that ends too early would be read as keys.
+const PASTE_PAUSE: Duration = Duration::from_secs(1);
+
+/// Most bytes that a sequence can have and still be known.
+const LONGEST_SEQUENCE: usize = 64;
+
+const ESCAPE: u8 = 0x1b;
+const INTERRUPT: u8 = 0x03;
+const SUSPEND: u8 = 0x1a;
+const BELL: u8 = 0x07;
+
+const PASTE_END: &[u8] = b"\x1b[201~";
+
+/// What has begun and is not finished.
+#[derive(Debug, Default)]
+enum Pending {
+    #[default]
+    Nothing,
+    /// The first bytes of a character in UTF-8.
+    Character { bytes: Vec<u8>, is_alt: bool },
+    /// ESC: the key, or the beginning of a sequence.
+    Escape,
+    /// ESC O: a key of the application mode.
+    Application,
+    /// ESC [ and the parameters so far.
+    Control(Vec<u8>),
+    /// ESC [ [: a function key of the Linux console.
+    Console,
+    /// ESC [ M: a gesture of the mouse in three bytes.
+    Gesture(Vec<u8>),
+    /// ESC ], ESC P or ESC _: an answer of the terminal, which ends with BEL or ESC \.
+    Answer,
+    /// ESC within an answer.
+    EscapeInAnswer,
+    /// The text after ESC [ 200 ~.
+    Paste(Vec<u8>),
+}
+
+/// Reads the bytes of a terminal.
+#[derive(Debug, Default)]
+pub struct Decoder {
+    pending: Pending,
+    events: Vec<Event>,
+}
+
+impl Decoder {
+    /// Reads bytes that arrived together, and returns the events that they complete.
+    pub fn read(&mut self, bytes: &[u8]) -> Vec<Event> {
+        if let Pending::Paste(_) = self.pending
+            && bytes.iter().all(|byte| *byte == INTERRUPT)
+        {
+            // A pasted text arrives in larger pieces: this is Ctrl+C.
+            self.end();
+        }
+        for byte in bytes {
+            self.read_byte(*byte);
+        }
+        std::mem::take(&mut self.events)
+    }
+
+    /// How long the rest of what has begun may take to arrive; `None` if nothing has begun.
+    pub fn pause(&self) -> Option<Duration> {
+        match self.pending {
+            Pending::Nothing => None,
+            Pending::Paste(_) => Some(PASTE_PAUSE),
+            _ => Some(SEQUENCE_PAUSE),
+        }
+    }
+
+    /// Gives up the rest of what has begun. ESC alone is the key, and a paste is its text so far.
+    pub fn give_up(&mut self) -> Vec<Event> {
+        self.end();
+        std::mem::take(&mut self.events)
+    }
+
+    fn end(&mut self) {
+        match std::mem::take(&mut self.pending) {
+            Pending::Escape => self.press(KeyCode::Esc, KeyModifiers::NONE),
+            Pending::Paste(text) => self.end_paste(&text),
+            _ => {}
+        }
+    }
+
+    /// Ends a paste without its end. A Ctrl+C in it was typed by the user, whom the paste did not let through.
+    fn end_paste(&mut self, text: &[u8]) {
+        let mut end = text.len();
+        for length in 1..PASTE_END.len() {
+            if text.ends_with(&PASTE_END[..length]) {
+                end = text.len() - length;
+            }
+        }
+        let is_interrupted = text.contains(&INTERRUPT);
+        let kept: Vec<u8> = text[..end].iter().copied().filter(|byte| *byte != INTERRUPT).collect();
+        self.paste(&kept);
+        if is_interrupted {
+            self.read_byte(INTERRUPT);
+        }
+    }
+
+    fn paste(&mut self, text: &[u8]) {
+        self.events.push(Event::Paste(String::from_utf8_lossy(text).into_owned()));
+    }
+
+    fn press(&mut self, code: KeyCode, modifiers: KeyModifiers) {
+        self.events.push(Event::Key(KeyEvent::new(code, modifiers)));
+    }
+
+    fn read_byte(&mut self, byte: u8) {
+        match std::mem::take(&mut self.pending) {
+            Pending::Nothing => self.begin(byte, false),
+            Pending::Character { bytes, is_alt } => self.continue_character(bytes, is_alt, byte),
+            Pending::Escape => self.continue_escape(byte),
+            Pending::Application => match application_key(byte) {
+                Some(code) => self.press(code, KeyModifiers::NONE),
+                None => self.begin_unless_text(byte),
+            },
+            Pending::Control(parameters) => self.continue_control(parameters, byte),
+            Pending::Console => match byte {
+                b'A'..=b'E' => self.press(KeyCode::F(1 + byte - b'A'), KeyModifiers::NONE),
+                _ => self.begin_unless_text(byte),
+            },
+            Pending::Gesture(bytes) => self.continue_gesture(bytes, byte),
+            Pending::Answer => match byte {
+                BELL => {}
+                ESCAPE => self.pending = Pending::EscapeInAnswer,
+                INTERRUPT | SUSPEND => self.begin(byte, false),
+                _ => self.pending = Pending::Answer,
+            },
+            Pending::EscapeInAnswer => {
+                if byte != b'\\' {
+                    self.continue_escape(byte);
+                }
+            }
+            Pending::Paste(mut text) => {
+                text.push(byte);
+                match text.strip_suffix(PASTE_END) {
+                    Some(whole) => self.paste(whole),
+                    None => self.pending = Pending::Paste(text),
+                }
+            }
+        }
+    }
+
+    /// The first byte of a key.
+    fn begin(&mut self, byte: u8, is_alt: bool) {
+        let alt = if is_alt { KeyModifiers::ALT } else { KeyModifiers::NONE };
+        let control = alt | KeyModifiers::CONTROL;
+        match byte {
+            ESCAPE => self.pending = Pending::Escape,
+            b'\r' => self.press(KeyCode::Enter, alt),
+            b'\t' => self.press(KeyCode::Tab, alt),
+            0x7f => self.press(KeyCode::Backspace, alt),
+            0 => self.press(KeyCode::Char(' '), control),
+            0x01..=0x1a => self.press(KeyCode::Char(char::from(byte - 1 + b'a')), control),
+            0x1c..=0x1f => self.press(KeyCode::Char(char::from(byte - 0x1c + b'4')), control),
+            0x20..=0x7e => self.press_character(char::from(byte), is_alt),
+            0xc2..=0xf4 => self.pending = Pending::Character { bytes: vec![byte], is_alt },
+            // No character begins with these bytes.
+            0x80..=0xc1 | 0xf5..=0xff => {}
+        }
+    }
+
+    /// The byte that ends a broken sequence: text is part of it, a control character or ESC is not.
+    fn begin_unless_text(&mut self, byte: u8) {
+        if byte < b' ' {
+            self.begin(byte, false);
+        }
+    }
+
+    fn press_character(&mut self, character: char, is_alt: bool) {
+        let mut modifiers = KeyModifiers::NONE;
+        modifiers.set(KeyModifiers::ALT, is_alt);
+        modifiers.set(KeyModifiers::SHIFT, character.is_uppercase());
+        self.press(KeyCode::Char(character), modifiers);
+    }
+
+    fn continue_character(&mut self, mut bytes: Vec<u8>, is_alt: bool, byte: u8) {
+        if !(0x80..=0xbf).contains(&byte) {
+            return self.begin(byte, false);
+        }
+        bytes.push(byte);
+        match std::str::from_utf8(&bytes) {
+            Ok(text) => {
+                for character in text.chars() {
+                    self.press_character(character, is_alt);
+                }
+            }
+            // More bytes may complete it.
+            Err(error) if error.error_len().is_none() => {
+                self.pending = Pending::Character { bytes, is_alt };
+            }
+            Err(_) => {}
+        }
+    }
+
+    fn continue_escape(&mut self, byte: u8) {
+        match byte {
+            b'[' => self.pending = Pending::Control(Vec::new()),
+            b'O' => self.pending = Pending::Application,
+            b']' | b'P' | b'_' => self.pending = Pending::Answer,
+            ESCAPE | INTERRUPT | SUSPEND => {
+                self.press(KeyCode::Esc, KeyModifiers::NONE);
+                self.begin(byte, false);
+            }
+            _ => self.begin(byte, true),
+        }
+    }
+
+    fn continue_control(&mut self, mut parameters: Vec<u8>, byte: u8) {
+        match byte {
+            b'[' if parameters.is_empty() => self.pending = Pending::Console,
+            b'M' if parameters.is_empty() => self.pending = Pending::Gesture(Vec::new()),
+            b'~' if parameters == b"200" => self.pending = Pending::Paste(Vec::new()),
+            0x20..=0x3f => {
+                if parameters.len() < LONGEST_SEQUENCE {
+                    parameters.push(byte);
+                }
+                self.pending = Pending::Control(parameters);
+            }
+            0x40..=0x7e => {
+                let parameters = String::from_utf8_lossy(&parameters);
+                self.events.extend(control_event(&parameters, byte));
+            }
+            _ => self.begin(byte, false),
+        }
+    }
+
+    fn continue_gesture(&mut self, mut bytes: Vec<u8>, byte: u8) {
+        // Each of the three bytes is a number plus 32.
+        let Some(number) = byte.checked_sub(b' ') else { return self.begin(byte, false) };
+        bytes.push(number);
+        match bytes[..] {
+            [button, column, row] => {
+                self.events.extend(mouse_event(button, column.into(), row.into(), false));
+            }
+            _ => self.pending = Pending::Gesture(bytes),
+        }
+    }
+}
+
+/// The key after ESC O.
+fn application_key(byte: u8) -> Option<KeyCode> {
+    match byte {
+        b'P'..=b'S' => Some(KeyCode::F(1 + byte - b'P')),
+        _ => moving_key(byte),
+    }
+}
+
+/// The key of a letter after ESC O or ESC [.
+fn moving_key(letter: u8) -> Option<KeyCode> {
+    match letter {
+        b'A' => Some(KeyCode::Up),
+        b'B' => Some(KeyCode::Down),
+        b'C' => Some(KeyCode::Right),
+        b'D' => Some(KeyCode::Left),
+        b'H' => Some(KeyCode::Home),
+        b'F' => Some(KeyCode::End),
+        _ => None,
+    }
+}
+
+/// The key of a number before ~.
+fn numbered_key(number: u8) -> Option<KeyCode> {
+    match number {
+        1 | 7 => Some(KeyCode::Home),
+        2 => Some(KeyCode::Insert),
+        3 => Some(KeyCode::Delete),
+        4 | 8 => Some(KeyCode::End),
+        5 => Some(KeyCode::PageUp),
+        6 => Some(KeyCode::PageDown),
+        11..=15 => Some(KeyCode::F(number - 10)),
+        17..=21 => Some(KeyCode::F(number - 11)),
+        23..=26 => Some(KeyCode::F(number - 12)),
+        28..=29 => Some(KeyCode::F(number - 15)),
+        31..=34 => Some(KeyCode::F(number - 17)),
+        _ => None,
+    }
+}
+
+/// The event of a sequence ESC [ with these parameters and last byte; `None` for an answer of the terminal and for what
+/// the explorer does not use.
+fn control_event(parameters: &str, last: u8) -> Option<Event> {
+    if let Some(gesture) = parameters.strip_prefix('<') {
+        return if matches!(last, b'M' | b'm') { sgr_mouse_event(gesture, last == b'm') } else { None };
+    }
+    let mut numbers = parameters.split(';');
+    let first = numbers.next().unwrap_or_default();
+    let (mask, kind) = match numbers.next() {
+        Some(state) => state.split_once(':').unwrap_or((state, "1")),
+        None => ("1", "1"),
+    };
+    const RELEASED: &str = "3";
+    if kind == RELEASED {
+        return None;
+    }
+    let modifiers = modifiers_of(mask.parse().ok()?);
+    let code = match last {
+        b'~' => numbered_key(first.parse().ok()?)?,
+        b'u' => coded_key(first.split(':').next()?.parse().ok()?)?,
+        b'Z' => return Some(Event::Key(KeyEvent::new(KeyCode::BackTab, modifiers | KeyModifiers::SHIFT))),
+        // ESC [ … R is an answer: the position of the cursor.
+        b'P' | b'Q' | b'S' if matches!(first, "" | "1") => application_key(last)?,
+        _ if matches!(first, "" | "1") => moving_key(last)?,
+        _ => return None,
+    };
+    Some(Event::Key(KeyEvent::new(code, modifiers)))
+}
+
+/// Modifiers of a key: one more than the sum of their bits.
+fn modifiers_of(mask: u8) -> KeyModifiers {
+    let bits = mask.saturating_sub(1);
+    let mut modifiers = KeyModifiers::NONE;
+    modifiers.set(KeyModifiers::SHIFT, bits & 1 != 0);
+    modifiers.set(KeyModifiers::ALT, bits & 2 != 0);
+    modifiers.set(KeyModifiers::CONTROL, bits & 4 != 0);
+    modifiers.set(KeyModifiers::SUPER, bits & 8 != 0);
+    modifiers.set(KeyModifiers::HYPER, bits & 16 != 0);
+    modifiers.set(KeyModifiers::META, bits & 32 != 0);
+    modifiers
+}
+
+/// The key of a character code before u.
+fn coded_key(code: u32) -> Option<KeyCode> {
+    match char::from_u32(code)? {
+        '\x1b' => Some(KeyCode::Esc),
+        '\r' => Some(KeyCode::Enter),
+        '\t' => Some(KeyCode::Tab),
+        '\x7f' => Some(KeyCode::Backspace),
+        character => Some(KeyCode::Char(character)),
+    }
+}
+
+/// The gesture of `button;column;row`.
+fn sgr_mouse_event(parameters: &str, is_release: bool) -> Option<Event> {
+    let mut numbers = parameters.split(';');
+    let button = numbers.next()?.parse().ok()?;
+    let column = numbers.next()?.parse().ok()?;
+    let row = numbers.next()?.parse().ok()?;
+    mouse_event(button, column, row, is_release)
+}
+
+/// The gestures that the explorer uses; column and row are counted from one.
+fn mouse_event(button: u8, column: u16, row: u16, is_release: bool) -> Option<Event> {
+    const MODIFIERS: u8 = 4 + 8 + 16;
+    let kind = match (button & !MODIFIERS, is_release) {
+        (0, false) => MouseEventKind::Down(MouseButton::Left),
+        (0, true) => MouseEventKind::Up(MouseButton::Left),
+        (32, false) => MouseEventKind::Drag(MouseButton::Left),
+        (64, false) => MouseEventKind::ScrollUp,
+        (65, false) => MouseEventKind::ScrollDown,
+        _ => return None,
+    };
+    let (column, row) = (column.checked_sub(1)?, row.checked_sub(1)?);
+    Some(Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn key(code: KeyCode, modifiers: KeyModifiers) -> Event {
+        Event::Key(KeyEvent::new(code, modifiers))
+    }
+
+    fn plain(code: KeyCode) -> Event {
+        key(code, KeyModifiers::NONE)
+    }
+
+    fn letter(character: char) -> Event {
+        plain(KeyCode::Char(character))
+    }
+
+    fn interrupt() -> Event {
+        key(KeyCode::Char('c'), KeyModifiers::CONTROL)
+    }
+
+    fn mouse(kind: MouseEventKind, column: u16, row: u16) -> Event {
+        Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE })
+    }
+
+    /// Sequences of terminals and the event of each.
+    fn sequences() -> Vec<(&'static [u8], Event)> {
+        let shift = KeyModifiers::SHIFT;
+        let alt = KeyModifiers::ALT;
+        let control = KeyModifiers::CONTROL;
+        vec![
+            (b"j", letter('j')),
+            (b"J", key(KeyCode::Char('J'), shift)),
+            ("µ".as_bytes(), letter('µ')),
+            ("漢".as_bytes(), letter('漢')),
+            (b"\r", plain(KeyCode::Enter)),
+            (b"\n", key(KeyCode::Char('j'), control)),
+            (b"\t", plain(KeyCode::Tab)),
+            (b"\x7f", plain(KeyCode::Backspace)),
+            (b"\x08", key(KeyCode::Char('h'), control)),
+            (b"\x03", interrupt()),
+            (b"\x1a", key(KeyCode::Char('z'), control)),
+            (b"\x1c", key(KeyCode::Char('4'), control)),
+            (b"\0", key(KeyCode::Char(' '), control)),
+            (b"\x1bx", key(KeyCode::Char('x'), alt)),
+            ("\x1bµ".as_bytes(), key(KeyCode::Char('µ'), alt)),
+            (b"\x1b\x7f", key(KeyCode::Backspace, alt)),
+            (b"\x1b[A", plain(KeyCode::Up)),
+            (b"\x1b[B", plain(KeyCode::Down)),
+            (b"\x1bOC", plain(KeyCode::Right)),
+            (b"\x1b[1;2D", key(KeyCode::Left, shift)),
+            (b"\x1b[1;5:2C", key(KeyCode::Right, control)),
+            (b"\x1b[H", plain(KeyCode::Home)),
+            (b"\x1bOF", plain(KeyCode::End)),
+            (b"\x1b[Z", key(KeyCode::BackTab, shift)),
+            (b"\x1b[3~", plain(KeyCode::Delete)),
+            (b"\x1b[5~", plain(KeyCode::PageUp)),
+            (b"\x1b[6;5~", key(KeyCode::PageDown, control)),
+            (b"\x1bOP", plain(KeyCode::F(1))),
+            (b"\x1b[[B", plain(KeyCode::F(2))),
+            (b"\x1b[15~", plain(KeyCode::F(5))),
+            (b"\x1b[24~", plain(KeyCode::F(12))),
+            (b"\x1b[1;2P", key(KeyCode::F(1), shift)),
+            (b"\x1b[97;5u", key(KeyCode::Char('a'), control)),
+            (b"\x1b[<0;30;7M", mouse(MouseEventKind::Down(MouseButton::Left), 29, 6)),
+            (b"\x1b[<0;30;7m", mouse(MouseEventKind::Up(MouseButton::Left), 29, 6)),
+            (b"\x1b[<36;1;300M", mouse(MouseEventKind::Drag(MouseButton::Left), 0, 299)),
+            (b"\x1b[<64;2;3M", mouse(MouseEventKind::ScrollUp, 1, 2)),
+            (b"\x1b[M\x61\x22\x23", mouse(MouseEventKind::ScrollDown, 1, 2)),
+            (b"\x1b[200~1\r\n \x1b[A\x03 mN\x1b[201~", Event::Paste("1\r\n \x1b[A\x03 mN".to_owned())),
+        ]
+    }
+
+    #[test]
+    fn each_sequence_is_one_event_however_it_arrives() {
+        for (bytes, event) in sequences() {
+            for split in 0..bytes.len() {
+                let mut decoder = Decoder::default();
+                let mut events = decoder.read(&bytes[..split]);
+                events.extend(decoder.read(&bytes[split..]));
+                assert_eq!(events, std::slice::from_ref(&event), "{} at {split}", bytes.escape_ascii());
+                assert_eq!(decoder.pause(), None, "{} at {split}", bytes.escape_ascii());
+            }
+        }
+    }
+
+    #[test]
+    fn all_sequences_in_a_row_are_their_events() {
+        let sequences = sequences();
+        let bytes: Vec<u8> = sequences.iter().flat_map(|(bytes, _)| bytes.iter().copied()).collect();
+        let events: Vec<Event> = sequences.into_iter().map(|(_, event)| event).collect();
+        // A piece of one byte in a paste may be a Ctrl+C.
+        for size in 2..40 {
+            let mut decoder = Decoder::default();
+            let read: Vec<Event> = bytes.chunks(size).flat_map(|piece| decoder.read(piece)).collect();
+            assert_eq!(read, events, "pieces of {size}");
+        }
+    }
+
+    #[test]
+    fn answers_of_the_terminal_are_no_keys() {
+        let answers = [
+            "\x1b[?64;1;2c",
+            "\x1b[>0;10;1c",
+            "\x1b[24;80R",
+            "\x1b[?1u",
+            "\x1b[?2026;2$y",
+            "\x1b]11;rgb:ffff/ffff/ffff\x07",
+            "\x1b]11;rgb:ffff/ffff/ffff\x1b\\",
+            "\x1bP1+r636f=383\x1b\\",
+            "\x1b_Gi=1;OK\x1b\\",
+            "\x1b[I",
+            "\x1b[O",
+            "\x1b[97;5:3u",
+            "\x1b[<35;20;10M",
+            "\x1b[<0;0;0M",
+        ];
+        for answer in answers {
+            let mut decoder = Decoder::default();
+            assert_eq!(decoder.read(format!("{answer}j").as_bytes()), [letter('j')], "{answer:?}");
+        }
+    }
+
+    #[test]
+    fn the_escape_key_is_known_after_a_pause_or_with_the_next_one() {
+        let mut decoder = Decoder::default();
+        assert_eq!(decoder.read(b"\x1b"), []);
+        assert_eq!(decoder.pause(), Some(SEQUENCE_PAUSE));
+        assert_eq!(decoder.give_up(), [plain(KeyCode::Esc)]);
+        assert_eq!(decoder.pause(), None);
+        assert_eq!(
+            decoder.read(b"\x1b\x1b\x1b[A"),
+            [plain(KeyCode::Esc), plain(KeyCode::Esc), plain(KeyCode::Up)]
+        );
+        assert_eq!(decoder.read(b"\x1b\x03"), [plain(KeyCode::Esc), interrupt()]);
+    }
+
+    #[test]
+    fn a_paste_without_its_end_is_its_text_and_a_ctrl_c_ends_it() {
+        let paste = |text: &str| Event::Paste(text.to_owned());
+        let begun = |bytes: &[u8]| {
+            let mut decoder = Decoder::default();
+            assert_eq!(decoder.read(bytes), []);
+            assert_eq!(decoder.pause(), Some(PASTE_PAUSE));
+            decoder
+        };
+        assert_eq!(begun(b"\x1b[200~abc").give_up(), [paste("abc")]);
+        assert_eq!(begun(b"\x1b[200~abc\x1b[20").give_up(), [paste("abc")]);
+        assert_eq!(begun(b"\x1b[200~abc\x03").give_up(), [paste("abc"), interrupt()]);
+        let mut decoder = begun(b"\x1b[200~abc");
+        assert_eq!(decoder.read(b"\x03"), [paste("abc"), interrupt()]);
+        assert_eq!(decoder.pause(), None);
+    }
+
+    proptest! {
+        /// Bytes of which many begin sequences; the next key after a pause counts, and a Ctrl+C at any time.
+        #[test]
+        fn no_bytes_swallow_later_keys(
+            pieces in prop::collection::vec(
+                prop_oneof![
+                    prop::sample::select(vec![
+                        "\x1b", "\x1b[", "\x1b[?", "\x1b[<", "\x1b[<5;", "\x1b[[", "\x1b[M", "\x1bO", "\x1b]", "\x1bP",
+                        "\x1b_", "\x1b[200~", "1", ";", "~", "M", "漢",
+                    ]).prop_map(|text| text.as_bytes().to_vec()),
+                    prop::collection::vec(any::<u8>(), 1..5),
+                ],
+                0..12,
+            ),
+        ) {
+            let mut decoder = Decoder::default();
+            for piece in &pieces {
+                decoder.read(piece);
+            }
+            let mut again = Decoder::default();
+            for piece in &pieces {
+                again.read(piece);
+            }
+            let events = again.read(b"\x03");
+            prop_assert_eq!(events.last(), Some(&interrupt()));
+            decoder.give_up();
+            prop_assert_eq!(decoder.pause(), None);
+            prop_assert_eq!(decoder.read(b"j"), [letter('j')]);
+        }
+    }
+}
