@@ -160,8 +160,8 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
                 case.watch.report(done, options.maps);
             }
         };
-        let simulation = (Simulation::new(case.document.resolve("")), case.jobs);
-        let found = Reference::of(scene, options, simulation, &|| case.watch.stop(), &mut report)?;
+        let simulation = Simulation::new(case.document.resolve(""));
+        let found = Reference::of(scene, options, simulation, case.jobs, &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
             bytes(Some(&case.document), &ReferenceReport { title, scene, reference }, format)

@@ -1,9 +1,11 @@
 //! How far an adhesion force can be trusted: criteria of other theories, and errors by their sources.
 
+use crate::reference::{difference_words, model_words, omitted_waves};
 use crate::sheet::Sheet;
 use asperity_data::per_cent;
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
+use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, Criterion, criteria};
 
 /// Returns a warning if the Tabor number of a computed scene is below 1, where JKR theory does not apply; otherwise `None`.
@@ -26,7 +28,7 @@ pub(crate) fn trust(
     deviation: Option<f64>,
 ) {
     let budget = Budget::of(outcome, estimate, ensemble, deviation);
-    let errors = budget.map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble));
+    let errors = budget.map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble, None));
     for (heading, rows) in [
         ("Adhesion without a preload, by several theories", theory_rows(scene, outcome, ensemble)),
         ("Errors of F_a by their sources", errors),
@@ -58,12 +60,14 @@ pub fn theory_rows(
 }
 
 /// Returns the errors of the adhesion force by their sources: number of springs, sample of profiles, measured surface, and model.
-/// A row has a source and its relative error in words. The last row names the largest source.
+/// A row has a source and its relative error in words. With the comparison `reference` with three dimensions there is also a
+/// row for the difference from it. The last row names the largest source.
 pub fn error_rows(
     scene: &Scene,
     estimate: Option<&Estimate>,
     budget: &Budget,
     ensemble: Option<&Ensemble>,
+    reference: Option<&Reference>,
 ) -> Vec<(&'static str, String)> {
     let words = |share: f64| {
         if share > 1.0 { "more than ± 100 %".to_owned() } else { format!("± {}", per_cent(share)) }
@@ -90,8 +94,8 @@ pub fn error_rows(
         (None, Some(_)) => "not known: the measured profile counts as exact".to_owned(),
         (None, None) => "none: the scene states the surface".to_owned(),
     };
-    let model = match (share(budget.model), &scene.roughness) {
-        (Some(model), _) => format!("{model}, against random squares in three dimensions"),
+    let model = match (reference, &scene.roughness) {
+        (Some(reference), _) => model_words(reference),
         (None, Some(_)) => {
             "not known: the MDR is a model for rough bodies, whose adhesion is disputed".into()
         }
@@ -104,13 +108,16 @@ pub fn error_rows(
         Some(_) => "surface: more or larger scans reduce it",
         None => "not known",
     };
-    vec![
-        ("grid", grid),
-        ("sample of profiles", sample),
-        ("surface", surface),
-        ("model", model),
-        ("largest known error", largest.to_owned()),
-    ]
+    let mut rows = vec![("grid", grid), ("sample of profiles", sample), ("surface", surface)];
+    if let Some(reference) = reference
+        && let Some(difference) = difference_words(reference)
+    {
+        let name = "line against three dimensions";
+        rows.push((name, format!("{difference}{}", omitted_waves(reference))));
+    }
+    rows.push(("model", model));
+    rows.push(("largest known error", largest.to_owned()));
+    rows
 }
 
 #[cfg(test)]
@@ -145,7 +152,7 @@ mod tests {
         let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_, _| ()).unwrap();
         let rows = |ensemble: Option<&Ensemble>| {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
-            error_rows(scene, None, &budget, ensemble)
+            error_rows(scene, None, &budget, ensemble, None)
         };
         let words = |rows: Vec<(&str, String)>| rows.into_iter().map(|row| row.1).collect::<Vec<_>>();
         let alone = words(rows(None));

@@ -1,5 +1,6 @@
 //! The work–precision diagram: error over computing time for each setting that affects accuracy.
 
+use crate::reference::omitted_waves;
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
@@ -9,7 +10,7 @@ use asperity_study::half_space::Reference;
 /// springs. The error is the error of the adhesion force, or of the force curve if there is no adhesion force. If `reference`,
 /// the comparison with three dimensions, is given, the figure also has the error of the model.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
-    let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
+    let model = reference.and_then(|reference| reference.budget.model).filter(|model| *model > 0.0);
     let floor = model.unwrap_or(0.0);
     let ended = |(seconds, figure): (f64, ErrorFigure)| {
         (seconds, ErrorFigure { error: figure.error.max(floor), ..figure })
@@ -57,8 +58,9 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
         let low = errors.low.min(model.log10().floor() - 1.0);
         errors.low = low;
         let ends = [times.low, times.high].map(|time| (10.0_f64.powf(time), 10.0_f64.powf(low), model));
-        let name = "error of the model, which no springs reduce";
-        layers.insert(0, Layer::new(name.into(), Ink::Quiet, Shape::Band(ends.to_vec())));
+        let waves = reference.map_or_else(String::new, omitted_waves);
+        let name = Label::plain(&format!("error of the model, which no springs reduce{waves}"));
+        layers.insert(0, Layer::new(name, Ink::Quiet, Shape::Band(ends.to_vec())));
     }
     let of_force = table.reference.adhesion_force.is_some();
     let (name, symbol) =

@@ -112,7 +112,8 @@ fn rows(app: &App, width: u16) -> Vec<Line<'static>> {
         Some(reference) => budget.with_model(reference.budget.model),
         None => budget,
     });
-    let mut errors = budget.map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble));
+    let mut errors =
+        budget.map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble, reference(app)));
     let first = errors.len().min(1);
     errors.rotate_right(first);
     let theories = theory_rows(scene, outcome, ensemble);
