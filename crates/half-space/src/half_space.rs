@@ -341,9 +341,8 @@ mod tests {
         let unit = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
         let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
         let mut half_space = HalfSpace::new(cells, Boundary::Free).unwrap();
-        let mut press = |square: &Square<'_>, load: Load| {
-            half_space.press(square, load, 1e-12, &|| false).unwrap()
-        };
+        let mut press =
+            |square: &Square<'_>, load: Load| half_space.press(square, load, 1e-12, &|| false).unwrap();
         for (side, modulus) in [(1e-4, 2e6), (3.0, 1.0), (1.0, 5e-3), (7e2, 4e9)] {
             let scaled: Vec<f64> = heights.iter().map(|height| height * side).collect();
             let square = Square { heights: &scaled, side, effective_modulus: modulus };

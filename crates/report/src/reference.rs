@@ -170,14 +170,18 @@ pub fn model_sentence(reference: &Reference) -> Option<String> {
     ))
 }
 
-/// Returns the difference of the line from three dimensions with its interval, such as `+4 ± 45 %`; `None` if it is unknown.
+/// Returns the difference of the line from three dimensions with its interval and the compared waves, such as `line against
+/// three dimensions, +4 ± 45 %`; `None` if it is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let difference = format_rounded(100.0 * compared.difference(), 2, "1");
     let sign = if compared.difference() > 0.0 { "+" } else { "" };
+    let waves = omitted_waves(reference);
     Some(match compared.error {
-        Some(error) => format!("{sign}{difference} ± {}", percent(error)),
-        None => format!("{sign}{difference} %"),
+        Some(error) => {
+            format!("line against three dimensions, {sign}{difference} ± {}{waves}", percent(error))
+        }
+        None => format!("line against three dimensions, {sign}{difference} %{waves}"),
     })
 }
 
@@ -191,8 +195,10 @@ pub fn model_words(reference: &Reference) -> String {
             format!("at least {}, beyond sample and grid{}", percent(model), omitted_waves(reference))
         }
         Some(_) => "not distinguished from sample and grid".to_owned(),
-        None if reference.budget.grid.is_none() => "not known, as the grid of the squares".to_owned(),
-        None => "not known, as the sample".to_owned(),
+        None if reference.budget.grid.is_none() => {
+            "not known, because the error of the grid is not known".to_owned()
+        }
+        None => "not known, because the error of the sample is not known".to_owned(),
     }
 }
 
@@ -304,7 +310,7 @@ impl ReferenceReport<'_> {
             let cells = format_rounded(force.cells, 2, "1");
             forces.push(format!("{} ({cells})", format_rounded(force.force, 3, "N")));
         }
-        let help = finest.map_or_else(String::new, |grid| format!("; --grid {grid} adds them"));
+        let help = finest.map_or_else(String::new, |grid| format!("; --grid {grid} may add them"));
         Some(format!(
             "Left out are forces at which fewer than {least} cells of a square are in contact on the average: {}{help}.",
             forces.join(", ")
@@ -321,12 +327,12 @@ impl ReferenceReport<'_> {
         };
         let is_random = self.reference.waves.is_some();
         let sample = if is_random { with_waves(budget.sample) } else { "none: nothing is random".to_owned() };
-        let difference = difference_words(self.reference).map(|difference| format!("{difference}{waves}"));
+        let difference = difference_words(self.reference).unwrap_or_else(|| percent_or_unknown(None));
         let rows = vec![
             ("solver", format!("{:.0e} of the rms height", budget.solver)),
             ("grid of the squares", with_waves(budget.grid)),
             ("sample", sample),
-            ("line against three dimensions", difference.unwrap_or_else(|| percent_or_unknown(None))),
+            ("three dimensions", difference),
             ("model", model_words(self.reference)),
         ];
         let largest = match (budget.largest, budget.model) {
@@ -348,7 +354,7 @@ impl ReferenceReport<'_> {
 
 /// Returns the headings of a table of both models.
 fn header() -> [String; 4] {
-    ["", "line", "three dimensions", "line over three dimensions"].map(String::from)
+    ["", "line", "three dimensions", "ratio"].map(String::from)
 }
 
 /// Returns the numbers of one model, or the ratios of both models. The numbers of the squares have the area of contact and
@@ -404,7 +410,9 @@ impl Report for ReferenceReport<'_> {
             rows.push(row(format!("indentation at {force}"), &loaded.indentation, "m"));
             rows.push(row(format!("stiffness at {force}"), &loaded.stiffness, "N/m"));
         }
-        sheet.heading("Without adhesion, indentations from first touch");
+        sheet.heading(
+            "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
+        );
         if rows.len() > 1 {
             sheet.table(&rows);
         }
@@ -422,7 +430,9 @@ impl Report for ReferenceReport<'_> {
         }
         if rows.len() > 1 {
             let preload = format_quantity(reference.preload, "N");
-            sheet.heading(&format!("With adhesion, after a preload of {preload}"));
+            sheet.heading(&format!(
+                "With adhesion, after a preload of {preload}, ratio of the line to three dimensions"
+            ));
             sheet.table(&rows);
         }
         let (rows, largest) = self.errors();
@@ -537,6 +547,7 @@ mod tests {
     use super::*;
     use asperity_scene::{Simulation, open};
     use asperity_study::half_space::ReferenceOptions;
+    use asperity_study::trust::Budget;
 
     /// The figure has room for a curve and a band of each model.
     #[test]
@@ -551,5 +562,67 @@ mod tests {
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(legend, ["line, mean and quartiles", "three dimensions, mean and quartiles"]);
         assert_eq!(figure.charts[0].layers.len(), 4);
+    }
+
+    /// All numbers of the budget name the waves that are compared, and forces with few cells in contact are left out.
+    #[test]
+    fn what_is_left_out_is_said() {
+        let document = open("pressure-sensitive").unwrap();
+        let options = ReferenceOptions { cells: 64, maps: 2, lines: 32 };
+        let simulation = Simulation::default();
+        let found = Reference::of(document.scene(), options, simulation, 2, &|| false, &mut |_| ()).unwrap();
+        let report = ReferenceReport { title: "Rough", scene: document.scene(), reference: &found };
+        let waves = ", of waves 4 to 8 of 4 to 512";
+        let (rows, _) = report.errors();
+        for (name, words) in &rows[1..4] {
+            assert!(words.ends_with(waves), "{name}: {words}");
+        }
+        assert!(rows[3].1.starts_with("line against three dimensions, "), "{rows:?}");
+        let text = report.text().unwrap();
+        assert!(text.contains("rms height h") && text.contains("e_el/γ with adhesion"), "{text}");
+        assert_eq!(text.contains("Left out are forces"), !found.left_out.is_empty(), "{text}");
+        let rows = crate::trust::error_rows(document.scene(), None, &Budget::default(), None, Some(&found));
+        let row = rows.iter().find(|(name, _)| *name == "three dimensions").unwrap();
+        assert!(row.1.ends_with(waves), "{row:?}");
+        let model = rows.iter().find(|(name, _)| *name == "model").unwrap();
+        assert_eq!(model.1, model_words(&found));
+        let sentence = model_sentence(&found).unwrap();
+        assert!(sentence.contains(waves), "{sentence}");
+    }
+
+    /// The error of a smooth body of revolution is that of the grid, and not of the model.
+    #[test]
+    fn a_sphere_has_no_error_of_the_model() {
+        let document = open("jkr-sphere").unwrap().set("length", "4.2e-5").unwrap();
+        let options = ReferenceOptions { cells: 64, maps: 1, lines: 1 };
+        let simulation = Simulation::default();
+        let found = Reference::of(document.scene(), options, simulation, 1, &|| false, &mut |_| ()).unwrap();
+        let report = ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found };
+        let (rows, largest) = report.errors();
+        assert!(largest.starts_with("The largest is the grid"), "{largest}");
+        assert!(rows.contains(&("model", "none: the line is exact for this body of revolution".to_owned())));
+        assert!(rows.contains(&("sample", "none: nothing is random".to_owned())), "{rows:?}");
+        assert!(!model_sentence(&found).unwrap().contains("at least"));
+    }
+
+    #[test]
+    fn there_is_progress_before_the_first_square() {
+        let mut progress = ReferenceProgress::default();
+        let begins = ReferenceEvent::Begins { maps: 4, threads: 2, bytes: 1 << 20, seconds: 7200.0 };
+        let (words, is_long) = progress.words(&begins);
+        assert!(is_long && words.starts_with("4 squares on 2 threads: about 2 h"), "{words}");
+        let lines = progress.words(&ReferenceEvent::Profiles { count: 16, lines: 64 }).0;
+        assert_eq!(lines, "lines: 25 %");
+        let begun = progress.words(&ReferenceEvent::ProfilesEnd { lines: Vec::new() }).0;
+        assert!(begun.starts_with("0 of 4 squares, 0 %, 2 h"), "{begun}");
+        let loaded = progress.words(&ReferenceEvent::Loaded { share: 0.05 }).0;
+        assert!(loaded.starts_with("0 of 4 squares, 5 %, "), "{loaded}");
+        let square = ReferenceEvent::Square { curve: Vec::new(), headline: 1.0 };
+        assert!(progress.words(&square).0.starts_with("1 of 4 squares, 25 %, "));
+        for _ in 0..30 {
+            progress.words(&ReferenceEvent::Loaded { share: 0.05 });
+        }
+        let most = progress.words(&ReferenceEvent::Loaded { share: 0.05 }).0;
+        assert!(most.starts_with("1 of 4 squares, 99 %, "), "{most}");
     }
 }

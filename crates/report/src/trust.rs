@@ -1,6 +1,6 @@
 //! How far an adhesion force can be trusted: criteria of other theories, and errors by their sources.
 
-use crate::reference::{difference_words, model_words, omitted_waves};
+use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
 use asperity_data::per_cent;
 use asperity_scene::{Estimate, Outcome, Scene};
@@ -109,12 +109,8 @@ pub fn error_rows(
         None => "not known",
     };
     let mut rows = vec![("grid", grid), ("sample of profiles", sample), ("surface", surface)];
-    if let Some(reference) = reference
-        && let Some(difference) = difference_words(reference)
-    {
-        let name = "line against three dimensions";
-        rows.push((name, format!("{difference}{}", omitted_waves(reference))));
-    }
+    let difference = reference.and_then(difference_words);
+    rows.extend(difference.map(|difference| ("three dimensions", difference)));
     rows.push(("model", model));
     rows.push(("largest known error", largest.to_owned()));
     rows

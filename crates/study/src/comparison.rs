@@ -519,15 +519,26 @@ mod tests {
     #[ignore = "computes 480 squares in about two minutes"]
     fn the_interval_of_a_ratio_holds_the_ratio() {
         let spectra = [
-            [("roughness.hurst", "0.55"), ("roughness.modes", "(1, 4)"), ("adhesion.elastic_energy_ratio", "1.5")],
-            [("roughness.hurst", "0.2"), ("roughness.modes", "(2, 4)"), ("adhesion.elastic_energy_ratio", "0.5")],
+            [
+                ("roughness.hurst", "0.55"),
+                ("roughness.modes", "(1, 4)"),
+                ("adhesion.elastic_energy_ratio", "1.5"),
+            ],
+            [
+                ("roughness.hurst", "0.2"),
+                ("roughness.modes", "(2, 4)"),
+                ("adhesion.elastic_energy_ratio", "0.5"),
+            ],
         ];
         let mut random = ChaCha8Rng::seed_from_u64(5);
         let mut least = 1.0_f64;
         for fields in spectra {
             let (lines, squares) = population(&fields, 240, 1920);
             let pulling = |figure: fn(&Pulling) -> f64| {
-                squares.iter().filter_map(|square| square.fine.pulling.as_ref().map(figure)).collect::<Vec<_>>()
+                squares
+                    .iter()
+                    .filter_map(|square| square.fine.pulling.as_ref().map(figure))
+                    .collect::<Vec<_>>()
             };
             let last = SHARES.len() - 1;
             let adhesion = lines.loops.iter().filter_map(|line| line.adhesion_force).collect::<Vec<_>>();
