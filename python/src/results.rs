@@ -184,8 +184,8 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
                 case.watch.report(done, options.maps);
             }
         };
-        let simulation = (case.simulation(), case.jobs);
-        let found = Reference::of(scene, options, simulation, &|| case.watch.stop(), &mut report)?;
+        let stop = || case.watch.stop();
+        let found = Reference::of(scene, options, case.simulation(), case.jobs, &stop, &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
             bytes(

@@ -61,10 +61,10 @@ pub(super) fn compared(
     jobs: usize,
 ) -> Result<Reference, CliError> {
     let (mut line, mut progress) = (ProgressLine::default(), ReferenceProgress::default());
-    let simulation = (Simulation::new(document.resolve("")), jobs);
+    let simulation = Simulation::new(document.resolve(""));
     let signal = stop_by_signal()?;
     let stop = || signal.load(Ordering::SeqCst) != 0;
-    let found = Reference::of(document.scene(), options, simulation, &stop, &mut |event| {
+    let found = Reference::of(document.scene(), options, simulation, jobs, &stop, &mut |event| {
         let (text, is_long) = progress.words(&event);
         line.show(&text, is_long.then_some(&text));
         if is_long {

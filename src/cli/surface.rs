@@ -263,8 +263,7 @@ impl SurfaceTask {
         let mut solved = None;
         if let Some(count) = profiles {
             let report_profile = |computed: u64| progress(computed, count);
-            let adhesion =
-                MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs, &report_profile);
+            let adhesion = MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs, &report_profile);
             let file = Path::new(&self.measured.file);
             solved = Some(adhesion.map_err(|error| CliError::named(path_name(file), error))?);
         }

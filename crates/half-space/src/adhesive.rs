@@ -443,6 +443,36 @@ mod tests {
         }
     }
 
+    /// A loop in other units is the same loop: forces are in units of E*L², energies of E*L³, works of adhesion of E*L. The
+    /// units are powers of two, so that no crack stands differently by rounding.
+    #[test]
+    fn a_loop_scales_with_its_modulus_and_side() {
+        let cells = 32;
+        let power = |k: f64| if k <= 4.0 { 1e-5 * k.powf(-3.2) } else { 0.0 };
+        let heights = random_map(cells, power, 3).unwrap();
+        let states = |side: f64, modulus: f64| {
+            let scaled: Vec<f64> = heights.iter().map(|height| height * side).collect();
+            let square = Square { heights: &scaled, side, effective_modulus: modulus };
+            let work = 1e-5 * modulus * side;
+            let mut body = AdhesiveSquare::new(&square, (work, 0.5 * work)).unwrap();
+            let steps = (0..=6).chain((-12..6).rev());
+            steps.map(|step| moved(&mut body, 0.002 * f64::from(step) * side)).collect::<Vec<_>>()
+        };
+        let expected = states(1.0, 1.0);
+        assert!(expected.iter().any(|state| state.force < 0.0) && expected[6].force > 0.0, "{expected:?}");
+        let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
+        for (side, modulus) in [(2.0_f64.powi(-13), 2.0_f64.powi(21)), (4.0, 1.0), (1.0, 0.125)] {
+            for (found, expected) in states(side, modulus).iter().zip(&expected) {
+                let force = modulus * side * side;
+                assert!(near(found.indentation, expected.indentation * side), "{side}: {found:?}");
+                assert!(near(found.force, expected.force * force), "{side}: {found:?} {expected:?}");
+                assert!(near(found.area, expected.area * side * side), "{side}: {found:?} {expected:?}");
+                let energy = expected.elastic_energy * force * side;
+                assert!(near(found.elastic_energy, energy), "{side}: {found:?} {expected:?}");
+            }
+        }
+    }
+
     /// Kendall's punch is round; a square one pulls off a little earlier at its corners, the same at all sizes.
     #[test]
     fn a_flat_square_pulls_off_as_a_punch() {

@@ -334,6 +334,35 @@ mod tests {
         assert!((one.indentation / other.indentation - 1.0).abs() < 1e-9);
     }
 
+    /// A contact in other units is the same contact: pressures are in units of E*, forces of E*L², lengths of L.
+    #[test]
+    fn a_contact_scales_with_its_modulus_and_side() {
+        let (cells, heights) = (32, rough(32, 0.8, 7));
+        let unit = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+        let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
+        let mut half_space = HalfSpace::new(cells, Boundary::Free).unwrap();
+        let mut press =
+            |square: &Square<'_>, load: Load| half_space.press(square, load, 1e-12, &|| false).unwrap();
+        for (side, modulus) in [(1e-4, 2e6), (3.0, 1.0), (1.0, 5e-3), (7e2, 4e9)] {
+            let scaled: Vec<f64> = heights.iter().map(|height| height * side).collect();
+            let square = Square { heights: &scaled, side, effective_modulus: modulus };
+            let force = 2e-3;
+            let expected = press(&unit, Load::Force(force));
+            let indentation = expected.indentation;
+            for load in [Load::Force(force * modulus * side * side), Load::Indentation(indentation * side)] {
+                let found = press(&square, load);
+                assert!(near(found.force, force * modulus * side * side), "{load:?}: {}", found.force);
+                assert!(near(found.indentation, indentation * side), "{load:?}: {}", found.indentation);
+                assert!(near(found.area, expected.area * side * side), "{load:?}: {}", found.area);
+                let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+                let pressure = largest(&found.pressure);
+                assert!(near(pressure, largest(&expected.pressure) * modulus), "{load:?}: {pressure}");
+                let gap = largest(&found.gap);
+                assert!(near(gap, largest(&expected.gap) * side), "{load:?}: {gap}");
+            }
+        }
+    }
+
     #[test]
     fn values_out_of_range_are_named() {
         let refused = |cells| HalfSpace::new(cells, Boundary::Free).err().unwrap().to_string();

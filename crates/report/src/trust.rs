@@ -1,9 +1,11 @@
 //! How far an adhesion force can be trusted: criteria of other theories, and errors by their sources.
 
+use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
 use asperity_data::{Warning, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
+use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, Criterion, criteria};
 
 /// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their sources.
@@ -16,7 +18,7 @@ pub(crate) fn trust(
 ) {
     let budget = Budget::of(outcome, estimate, ensemble, deviation);
     let errors =
-        budget.map_or_else(Vec::new, |budget| error_rows(scene, outcome, estimate, &budget, ensemble));
+        budget.map_or_else(Vec::new, |budget| error_rows(scene, outcome, estimate, &budget, ensemble, None));
     for (heading, rows) in [
         ("Adhesion without a preload, by several theories", theory_rows(scene, outcome, ensemble)),
         ("Errors of F_a by their sources", errors),
@@ -48,13 +50,15 @@ pub fn theory_rows(
 }
 
 /// Returns the errors of the adhesion force by their sources: number of springs, sample of profiles, measured surface, and model.
-/// A row has a source and its relative error in words. The last row names the largest source.
+/// A row has a source and its relative error in words. With the comparison `reference` with three dimensions there is also a
+/// row for the difference from it. The last row names the largest source.
 pub fn error_rows(
     scene: &Scene,
     outcome: &Outcome,
     estimate: Option<&Estimate>,
     budget: &Budget,
     ensemble: Option<&Ensemble>,
+    reference: Option<&Reference>,
 ) -> Vec<(&'static str, String)> {
     let words = |share: f64| {
         if share > 1.0 { "more than ± 100 %".to_owned() } else { format!("± {}", per_cent(share)) }
@@ -82,8 +86,8 @@ pub fn error_rows(
         (None, Some(_)) => "not known: the measured profile counts as exact".to_owned(),
         (None, None) => "none: the scene states the surface".to_owned(),
     };
-    let model = match (share(budget.model), &scene.roughness) {
-        (Some(model), _) => format!("{model}, against random squares in three dimensions"),
+    let model = match (reference, &scene.roughness) {
+        (Some(reference), _) => model_words(reference),
         (None, Some(_)) => {
             "not known: the MDR is a model for rough bodies, whose adhesion is disputed".into()
         }
@@ -98,13 +102,12 @@ pub fn error_rows(
         Some(_) => "surface: more or larger scans reduce it",
         None => "not known",
     };
-    vec![
-        ("grid", grid),
-        ("sample of profiles", sample),
-        ("surface", surface),
-        ("model", model),
-        ("largest known error", largest.to_owned()),
-    ]
+    let mut rows = vec![("grid", grid), ("sample of profiles", sample), ("surface", surface)];
+    let difference = reference.and_then(difference_words);
+    rows.extend(difference.map(|difference| ("three dimensions", difference)));
+    rows.push(("model", model));
+    rows.push(("largest known error", largest.to_owned()));
+    rows
 }
 
 #[cfg(test)]
@@ -179,7 +182,7 @@ mod tests {
         let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_, _| ()).unwrap();
         let rows = |ensemble: Option<&Ensemble>| {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
-            error_rows(scene, &outcome, None, &budget, ensemble)
+            error_rows(scene, &outcome, None, &budget, ensemble, None)
         };
         let words = |rows: Vec<(&str, String)>| rows.into_iter().map(|row| row.1).collect::<Vec<_>>();
         let alone = words(rows(None));

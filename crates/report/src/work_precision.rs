@@ -1,5 +1,6 @@
 //! The work–precision diagram: error over computing time for each setting that affects accuracy.
 
+use crate::reference::omitted_waves;
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::discretisation::{CostTable, Knob};
@@ -9,7 +10,7 @@ use asperity_study::half_space::Reference;
 /// springs. The error is the error of the adhesion force, or of the force curve if there is no adhesion force. If `reference`,
 /// the comparison with three dimensions, is given, the figure also has the error of the model as a level.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
-    let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
+    let model = reference.and_then(|reference| reference.budget.model).filter(|model| *model > 0.0);
     let points = |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).collect::<Vec<_>>();
     let series: Vec<_> = Knob::ALL.into_iter().map(|knob| (knob, points(knob))).collect();
     let series: Vec<_> = series.into_iter().filter(|(_, points)| !points.is_empty()).collect();
@@ -40,8 +41,9 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
         layers.push(Layer::new(Label::plain(&name), Ink::Series(series.len()), shape));
     }
     if let Some(model) = model {
-        let name = "error of the model, which no springs reduce";
-        layers.insert(0, Layer::new(name.into(), Ink::Quiet, Shape::Level(model)));
+        let waves = reference.map_or_else(String::new, omitted_waves);
+        let name = Label::plain(&format!("error of the model, which no springs reduce{waves}"));
+        layers.insert(0, Layer::new(name, Ink::Quiet, Shape::Level(model)));
     }
     let mut all: Vec<(f64, f64)> = Vec::new();
     for (_, points) in &series {

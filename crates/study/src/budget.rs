@@ -18,8 +18,9 @@ pub struct Budget {
     pub sample: Option<f64>,
     /// Error of the median over random profiles, due to the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
-    /// Error of the model: relative difference between the mean adhesion force on one-dimensional profiles and the mean of the
-    /// same bodies in three dimensions.
+    /// Smallest error of the model that a comparison with three dimensions shows: the relative difference between the mean
+    /// adhesion force on profiles and on the same bodies in three dimensions, as far as it exceeds the errors of the sample
+    /// and of the grid of these bodies.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`; `None` if no error is known, or
     /// if a premise of the model does not hold, which may cause a larger error.
@@ -53,11 +54,11 @@ impl Budget {
         Some(Budget { grid, sample, surface, model: None, largest })
     }
 
-    /// Returns these errors with the relative error `share` of the model as [`Budget::model`].
-    pub fn with_model(self, share: f64) -> Budget {
-        let known = [self.grid, self.sample, self.surface].into_iter().flatten();
-        let is_largest = known.fold(0.0, f64::max) <= share;
-        Budget { model: Some(share), largest: if is_largest { Some("model") } else { self.largest }, ..self }
+    /// Returns these errors with the error [`Budget::model`], which may be unknown. An error of 0 is never the largest.
+    pub fn with_model(self, model: Option<f64>) -> Budget {
+        let others = [self.grid, self.sample, self.surface].into_iter().flatten().fold(0.0, f64::max);
+        let is_largest = model.is_some_and(|model| model > 0.0 && model >= others);
+        Budget { model, largest: if is_largest { Some("model") } else { self.largest }, ..self }
     }
 }
 
@@ -96,12 +97,15 @@ mod tests {
         assert!((sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2, "{sample:?} {quartiles}");
         assert!((sample.surface.unwrap() - 2e-3).abs() < 1e-12 && sample.largest == Some("sample"));
         assert_eq!(budget(0.01, Some(&ensemble), Some(9.0 * median)).largest, Some("surface"));
-        let modelled = [0.2, 1e-3].map(|share| budget(0.01, None, None).with_model(share));
-        assert_eq!(
-            modelled.map(|one| (one.model, one.largest)),
-            [(Some(0.2), Some("model")), (Some(1e-3), Some("grid"))]
-        );
-        assert_eq!(Budget::of(&outcome, None, None, None).unwrap().largest, None);
+        for (model, largest) in
+            [(Some(0.2), "model"), (Some(1e-3), "grid"), (Some(0.0), "grid"), (None, "grid")]
+        {
+            let modelled = budget(0.01, None, None).with_model(model);
+            assert_eq!((modelled.model, modelled.largest), (model, Some(largest)));
+        }
+        let unknown = Budget::of(&outcome, None, None, None).unwrap();
+        assert_eq!(unknown.largest, None);
+        assert_eq!(unknown.with_model(Some(0.0)).largest, None);
         let apart = run(&open("jkr-sphere").unwrap().set("adhesion", "None").unwrap()).unwrap();
         assert_eq!(Budget::of(&apart, None, None, None), None);
     }

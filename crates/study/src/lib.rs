@@ -25,6 +25,8 @@ mod budget;
 mod case_outcome;
 mod cells;
 mod check;
+mod compared;
+mod comparison;
 mod compute;
 mod coordinates;
 mod criteria;
@@ -50,6 +52,7 @@ mod quantity;
 mod question;
 mod recorder;
 mod reference;
+mod reference_budget;
 mod reference_time;
 mod resolved;
 mod results;
@@ -60,6 +63,7 @@ mod search;
 mod select;
 mod sensitivity;
 mod shard;
+mod shells;
 mod spatial;
 mod square_loops;
 mod stairs;
@@ -114,9 +118,12 @@ pub mod checks {
 
 /// Comparison of a scene computed on one-dimensional profiles with the same scene computed in three dimensions.
 pub mod half_space {
+    pub use crate::compared::Compared;
     pub use crate::reference::{
-        Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,
+        LeftOut, Loaded, Reference, ReferenceEvent, ReferenceOptions, RoughnessOfBoth,
     };
+    pub use crate::reference_budget::ReferenceBudget;
+    pub use crate::shells::ComparedRoughness;
     pub use crate::square_loops::SquareLoops;
 }
 

@@ -4,24 +4,17 @@
 //! independent draws, so only their means are compared. At the same force the line has 1.1 to 4.2 times the area of contact in
 //! three dimensions.
 
+use super::compared::Compared;
+use super::comparison::Comparison;
 use super::error::StudyError;
-use super::profiles::{Stop, on_threads_received};
-use super::quantity::Quantity;
-use super::reference_time::{LEAST_CELLS, LONGEST, check_time, seconds_of_square};
-use super::resolved::{Resolved, of_scene};
-use super::spatial::{Loads, Pressing, Pulling};
-use super::statistics::Statistics;
-use asperity_contact::{CurvePoint, Move};
-use asperity_data::{check_room, memory_size, on_threads};
-use asperity_scene::{CheckedScene, Outcome, Scene, Simulation};
+use super::profiles::Stop;
+use super::reference_budget::ReferenceBudget;
+use super::resolved::Resolved;
+use super::shells::ComparedRoughness;
+use asperity_contact::Move;
+use asperity_scene::{CheckedScene, Scene, Simulation};
 use serde::Serialize;
-use std::sync::mpsc::Sender;
-use std::time::Instant;
 
-/// Forces of the comparison without adhesion, as shares of the preload.
-const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
-/// Number of steps of the indentation from the preload to pull-off.
-const STEPS: f64 = 40.0;
 /// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells along the side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
@@ -45,19 +38,6 @@ impl ReferenceOptions {
     }
 }
 
-/// Comparison of one quantity between random profiles and random squares in three dimensions.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Compared {
-    /// Statistics of the quantity over the random profiles.
-    pub line: Statistics,
-    /// Statistics of the quantity over the random squares in three dimensions.
-    pub half_space: Statistics,
-    /// Mean of the quantity over the profiles divided by its mean over the squares.
-    pub ratio: f64,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`]; `None` for fewer than two profiles or squares.
-    pub error: Option<f64>,
-}
-
 /// Comparison of random profiles with random squares in three dimensions under one force, without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
@@ -69,10 +49,48 @@ pub struct Loaded {
     pub stiffness: Compared,
     /// Mean area of contact of the squares at this force, m².
     pub area: f64,
+    /// Mean number of grid cells of a square in contact at this force.
+    pub cells: f64,
+}
+
+impl Loaded {
+    /// Smallest mean number of grid cells in contact with which a force is compared.
+    pub const LEAST_CELLS: f64 = 20.0;
+
+    /// Returns the larger one of the errors [`Compared::grid`] of indentation and stiffness.
+    pub fn grid(&self) -> Option<f64> {
+        Some(self.indentation.grid?.max(self.stiffness.grid?))
+    }
+}
+
+/// Force at which profiles and squares are not compared, because too few grid cells of the squares are in contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// Force on each square, N.
+    pub force: f64,
+    /// Mean number of grid cells of a square in contact, less than [`Loaded::LEAST_CELLS`].
+    pub cells: f64,
+    /// Number of grid cells along the side of a square with which enough cells would be in contact; `None` if it is more
+    /// than the solver allows.
+    pub grid: Option<usize>,
+}
+
+/// Roughness of the profiles and of the squares of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RoughnessOfBoth {
+    /// Roughness of the profiles.
+    pub line: ComparedRoughness,
+    /// Roughness of the squares without adhesion. It has the rms height of the profiles.
+    pub half_space: ComparedRoughness,
+    /// Roughness of the squares with adhesion, with the elastic energy of the profiles; `None` for a scene without adhesion.
+    pub adhesive_half_space: Option<ComparedRoughness>,
 }
 
 /// Comparison of a scene on random profiles with the same scene on random squares in three dimensions. A square is a rigid rough
 /// body of the side L on an elastic half-space.
+///
+/// Both are pressed alike: from separation to the same force or indentation, and back to separation. Of a longer loading this
+/// is the last loop, to the stage with the largest force after the last separation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Numbers of profiles, squares and grid cells with which the comparison was computed.
@@ -84,10 +102,20 @@ pub struct Reference {
     /// Number of periods over L of the shortest wave of the scene, if the comparison omits this wave because the grid of the
     /// squares is too coarse; otherwise `None`.
     pub omitted: Option<u64>,
-    /// Preload in N of the scene on the profile with the seed of the scene. The squares are pressed to this force.
+    /// Roughness of profiles and squares; `None` for a smooth body.
+    pub roughness: Option<RoughnessOfBoth>,
+    /// Work of adhesion on opening in J/m², the same on profiles and squares; `None` without adhesion.
+    pub work_of_adhesion: Option<f64>,
+    /// Stages of the loop of profiles and squares.
+    pub compared_loading: [Move; 2],
+    /// Force in N at which the loop turns. If the loop turns at an indentation or at a displacement of the instrument, this is
+    /// the mean force of the profiles there.
     pub preload: f64,
-    /// Comparison without adhesion at several forces, from a hundredth of the preload to the preload.
+    /// Comparison without adhesion at several forces, from a hundredth of the preload to the preload, where at least
+    /// [`Loaded::LEAST_CELLS`] grid cells of a square are in contact.
     pub loading: Vec<Loaded>,
+    /// Forces at which fewer grid cells are in contact.
+    pub left_out: Vec<LeftOut>,
     /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without adhesion.
     pub adhesion_force: Option<Compared>,
     /// Comparison of the adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for a scene without adhesion.
@@ -95,6 +123,9 @@ pub struct Reference {
     /// Comparison of the energy in J that the contact loses in the loop to the preload and back; `None` for a scene without
     /// adhesion.
     pub dissipated_energy: Option<Compared>,
+    /// True for a smooth body of revolution for which the profile is exact, so that every difference is an error of the
+    /// squares.
+    pub line_is_exact: bool,
     /// Errors of the comparison of adhesion forces, or of indentations for a scene without adhesion, one for each source.
     pub budget: ReferenceBudget,
     /// Number of convolutions over the grid of a square that the solver computed for all squares together, a measure of the
@@ -106,29 +137,10 @@ pub struct Reference {
     pub seconds_of_square: f64,
 }
 
-/// Errors of a [`Reference`], one for each source of errors. The errors `grid`, `sample` and `model` are relative errors of the
-/// adhesion force, or of the indentation at the preload if the scene has no adhesion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ReferenceBudget {
-    /// Largest error of the gap between the bodies in the contacts without adhesion, at any grid cell of any square, divided by
-    /// the rms height of the square.
-    pub solver: f64,
-    /// Relative difference between the mean over the squares and the mean over the same squares with half as many grid cells
-    /// along the side; `None` if half as many cells are too few.
-    pub grid: Option<f64>,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this ratio; `None` for fewer than two
-    /// profiles or squares.
-    pub sample: Option<f64>,
-    /// Difference between [`Compared::ratio`] and 1, without its sign.
-    pub model: f64,
-    /// Name of the field with the largest error: `solver`, `grid`, `sample` or `model`.
-    pub largest: &'static str,
-}
-
 /// Event that [`Reference::of`] reports while it compares profiles with squares.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
-    /// All profiles are computed, and the computation of the squares begins.
+    /// Memory and time are known, and the computation of the profiles begins.
     Begins {
         /// Number of squares, which is one for a body without random roughness.
         maps: u64,
@@ -138,8 +150,23 @@ pub enum ReferenceEvent {
         bytes: u64,
         /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
+    },
+    /// About a hundredth of the profiles are computed.
+    Profiles {
+        /// Number of further profiles.
+        count: u64,
+        /// Number of all profiles.
+        lines: u64,
+    },
+    /// All profiles are computed, and the computation of the squares begins.
+    ProfilesEnd {
         /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene has no adhesion.
         lines: Vec<f64>,
+    },
+    /// A square is computed at one more force or indentation.
+    Loaded {
+        /// Share of the computation of all squares, estimated from smaller squares.
+        share: f64,
     },
     /// The computation of a square is finished.
     Square {
@@ -148,14 +175,6 @@ pub enum ReferenceEvent {
         /// Adhesion force of the square in N, or its indentation at the preload in m if the scene has no adhesion.
         headline: f64,
     },
-}
-
-/// A random square, and the coarser square that is compared with it.
-struct OfSquare {
-    fine: Loads,
-    coarse: Option<Loads>,
-    /// Computing time of the finer square, s.
-    seconds: f64,
 }
 
 impl Reference {
@@ -170,219 +189,36 @@ impl Reference {
     ///
     /// # Errors
     /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of grid cells is
-    /// not allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, or if
-    /// `stop` returned true.
+    /// not allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, if too
+    /// few grid cells are in contact for any comparison, or if `stop` returned true.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
-        (mut simulation, jobs): (Simulation, usize),
+        simulation: Simulation,
+        jobs: usize,
         stop: &Stop<'_>,
         report: &mut dyn FnMut(ReferenceEvent),
     ) -> Result<Reference, StudyError> {
         if options.maps == 0 || options.lines == 0 {
             return Err(StudyError::refused(None, "no profiles", "at least one"));
         }
+        let mut simulation = simulation;
         let resolved = Resolved::of(scene, options.cells, &mut simulation)?;
-        let (seed, is_random) = (scene.seed().unwrap_or(0), scene.seed().is_some());
-        let number = |wanted: u64| if is_random { wanted } else { 1 };
-        let options =
-            ReferenceOptions { maps: number(options.maps), lines: number(options.lines), ..options };
-        let bytes = resolved.body.bytes(options.cells);
-        let threads = jobs.clamp(1, usize::try_from(options.maps).unwrap_or(usize::MAX));
-        let fits = |threads: &usize| check_room(bytes.saturating_mul(*threads as u64)).is_ok();
-        let threads = (1..=threads).rev().find(fits).ok_or_else(|| {
-            let found = format!("not enough memory for the {} of a square", memory_size(bytes));
-            StudyError::refused(
-                Some(&format!("{} cells", options.cells)),
-                found,
-                "fewer cells along the side",
-            )
-        })?;
-
-        let begun = Instant::now();
-        let own = run(&resolved.line, &mut resolved.simulation(), stop)?;
-        let preload = own.figures.preload.filter(|preload| *preload > 0.0).ok_or_else(|| {
-            let allowed = "a loading to a force or an indentation before the separation";
-            StudyError::refused(None, "the loading has no preload above 0 N", allowed)
-        })?;
-        let bare = resolved.line.with(|scene| {
-            scene.adhesion = None;
-            scene.loading = vec![Move::ToForce(preload)];
-        });
-        let bare = bare.map_err(|errors| of_scene(errors.into()))?;
-        let forces = SHARES.map(|share| share * preload);
-        let depth =
-            own.figures.preload_indentation.unwrap_or(0.0) - own.figures.pull_off_indentation.unwrap_or(0.0);
-        let loads = (&forces[..], depth.abs() / STEPS);
-        let of_one = seconds_of_square(&resolved.body, (options.cells, seed), loads, &|| stop())?;
-        let seconds = of_one * options.maps.div_ceil(threads as u64) as f64;
-        check_time(
-            (options.cells, options.maps),
-            seconds,
-            threads as f64 * LONGEST / of_one,
-            resolved.body.works.is_some(),
-        )?;
-        let lines = on_threads(options.lines, jobs, || {
-            let mut simulation = resolved.simulation();
-            let (resolved, bare) = (&resolved, &bare);
-            move |line: u64| {
-                let seed = seed.wrapping_add(line);
-                let pressed = run(&bare.with_seed(seed), &mut simulation, stop)?;
-                let outcome = run(&resolved.line.with_seed(seed), &mut simulation, stop)?;
-                Ok::<_, StudyError>((forces.map(|force| at_force(&pressed, force)), outcome))
-            }
-        })?;
-        let of_lines = begun.elapsed().as_secs_f64();
-
-        let stop = || stop();
-        let bytes = bytes * threads as u64;
-        let is_adhesive = resolved.body.works.is_some();
-        let headline = |(points, outcome): &([CurvePoint; SHARES.len()], Outcome)| match is_adhesive {
-            true => outcome.figures.adhesion_force,
-            false => points.last().map(|point| point.indentation),
+        let seed = scene.seed();
+        let options = match seed {
+            Some(_) => options,
+            None => ReferenceOptions { maps: 1, lines: 1, ..options },
         };
-        let headlines = lines.iter().filter_map(headline).collect();
-        report(ReferenceEvent::Begins { maps: options.maps, threads, bytes, seconds, lines: headlines });
-        let begun = Instant::now();
-        let body = &resolved.body;
-        let worker = |sender: Sender<ReferenceEvent>| {
-            move |map: u64| {
-                let (begun, seed) = (Instant::now(), seed.wrapping_add(map));
-                let fine = body.load((options.cells, seed), loads, &stop)?;
-                let seconds = begun.elapsed().as_secs_f64();
-                let coarse = match options.cells / 2 {
-                    cells if cells >= LEAST_CELLS => Some(body.load((cells, seed), loads, &stop)?),
-                    _ => None,
-                };
-                let pressed =
-                    fine.pressings.iter().zip(loads.0).map(|(found, force)| (found.indentation, *force));
-                let pulling = fine.pulling.as_ref();
-                let curve = pulling.map_or_else(|| pressed.collect(), |pulling| pulling.curve.clone());
-                // The receiver lives until all threads have ended.
-                let headline = fine.headline().unwrap_or(f64::NAN);
-                let _ = sender.send(ReferenceEvent::Square { curve, headline });
-                Ok(OfSquare { fine, coarse, seconds })
-            }
-        };
-        let squares = on_threads_received(options.maps, threads, worker, report)?;
-        let of_squares = begun.elapsed().as_secs_f64();
-        Ok(Reference::gather(options, &resolved, preload, &lines, &squares, [of_lines, of_squares]))
+        Comparison { resolved, options, seed: seed.unwrap_or(0), stop }.run(jobs, report)
     }
-
-    fn gather(
-        options: ReferenceOptions,
-        resolved: &Resolved,
-        preload: f64,
-        lines: &[([CurvePoint; SHARES.len()], Outcome)],
-        squares: &[OfSquare],
-        seconds: [f64; 2],
-    ) -> Reference {
-        let modulus = resolved.body.effective_modulus;
-        let loading = SHARES.iter().enumerate().filter_map(|(at, share)| {
-            let of = |line: &dyn Fn(&CurvePoint) -> f64, square: &dyn Fn(&Pressing) -> f64| {
-                compared(
-                    lines.iter().map(|(points, _)| line(&points[at])),
-                    squares.iter().map(|found| square(&found.fine.pressings[at])),
-                )
-            };
-            Some(Loaded {
-                force: share * preload,
-                indentation: of(&|point| point.indentation, &|found| found.indentation)?,
-                // Without adhesion the stiffness of the springs is E* times their length in contact.
-                stiffness: of(&|point| modulus * point.contact_length, &|found| found.stiffness)?,
-                area: squares.iter().map(|found| found.fine.pressings[at].area).sum::<f64>()
-                    / squares.len() as f64,
-            })
-        });
-        let loading: Vec<Loaded> = loading.collect();
-        let of = |line: &dyn Fn(&Outcome) -> Option<f64>, square: &dyn Fn(&Pulling) -> f64| {
-            compared(
-                lines.iter().filter_map(|(_, outcome)| line(outcome)),
-                squares.iter().filter_map(|found| found.fine.pulling.as_ref().map(square)),
-            )
-        };
-        let adhesion_force = of(&|outcome| outcome.figures.adhesion_force, &|found| found.adhesion_force);
-        let headline = adhesion_force.or(loading.last().map(|last| last.indentation));
-        let budget = budget(headline, squares);
-        Reference {
-            waves: resolved.waves,
-            omitted: resolved.omitted,
-            preload,
-            adhesion_force,
-            first_touch_adhesion_force: of(&|outcome| outcome.first_touch_adhesion_force, &|found| {
-                found.at_touch
-            }),
-            dissipated_energy: of(&|outcome| outcome.figures.dissipated_energy, &|found| {
-                found.dissipated_energy
-            }),
-            loading,
-            budget,
-            convolutions: squares.iter().map(|found| found.fine.convolutions).sum(),
-            seconds,
-            seconds_of_square: squares.iter().map(|found| found.seconds).sum::<f64>() / squares.len() as f64,
-            options,
-        }
-    }
-}
-
-fn run(scene: &CheckedScene, simulation: &mut Simulation, stop: &Stop<'_>) -> Result<Outcome, StudyError> {
-    simulation.run(scene, &|| stop(), &mut |_, _, _| Ok(())).map_err(of_scene)
-}
-
-/// Returns the point of a loading without adhesion at a force in N, between the samples of its curve.
-fn at_force(outcome: &Outcome, force: f64) -> CurvePoint {
-    let curve = outcome.history.legs.first().map_or(&[][..], |leg| &leg.curve);
-    let after = curve.partition_point(|point| point.force < force).min(curve.len().saturating_sub(1));
-    let (Some(one), Some(other)) = (curve.get(after.saturating_sub(1)), curve.get(after)) else {
-        return CurvePoint::default();
-    };
-    let span = other.force - one.force;
-    let share = if span > 0.0 { (force - one.force) / span } else { 0.0 };
-    CurvePoint {
-        force,
-        indentation: one.indentation + share * (other.indentation - one.indentation),
-        contact_length: one.contact_length + share * (other.contact_length - one.contact_length),
-        ..*other
-    }
-}
-
-/// Returns the statistics of both models and the ratio of their means; `None` without values.
-pub(super) fn compared(
-    line: impl Iterator<Item = f64>,
-    square: impl Iterator<Item = f64>,
-) -> Option<Compared> {
-    let bounds = Quantity::AdhesionForce.bounds();
-    let [line, half_space] =
-        [Statistics::of(line.collect(), bounds)?, Statistics::of(square.collect(), bounds)?];
-    let ratio = line.mean / half_space.mean;
-    let relative = |all: &Statistics| all.spread.map(|spread| spread.standard_error / all.mean);
-    let error =
-        relative(&line).zip(relative(&half_space)).map(|(one, other)| 1.96 * ratio * one.hypot(other));
-    let finite = |value: f64| Some(value).filter(|value| value.is_finite());
-    Some(Compared { line, half_space, ratio: finite(ratio)?, error: error.and_then(finite) })
-}
-
-fn budget(headline: Option<Compared>, squares: &[OfSquare]) -> ReferenceBudget {
-    let of = |found: &OfSquare| found.coarse.as_ref()?.headline().zip(found.fine.headline());
-    let both: Option<Vec<(f64, f64)>> = squares.iter().map(of).collect();
-    let grid = both.and_then(|both| {
-        let (coarse, fine) = both.iter().fold((0.0, 0.0), |(a, b), (c, d)| (a + c, b + d));
-        Some((coarse / fine - 1.0).abs()).filter(|share| share.is_finite())
-    });
-    let solver = squares.iter().flat_map(|found| &found.fine.pressings).map(|found| found.residual);
-    let solver = solver.fold(0.0, f64::max);
-    let model = headline.map_or(0.0, |of| (of.ratio - 1.0).abs());
-    let sample = headline.and_then(|of| Some(of.error? / of.ratio));
-    let known = [("solver", Some(solver)), ("grid", grid), ("sample", sample), ("model", Some(model))];
-    let known = known.into_iter().filter_map(|(name, share)| Some((name, share?)));
-    let largest = known.max_by(|one, other| one.1.total_cmp(&other.1)).map_or("model", |(name, _)| name);
-    ReferenceBudget { solver, grid, sample, model, largest }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{Roughness, open};
+    use asperity_scene::{Document, Roughness, open};
+
+    const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/");
 
     fn reference(
         scene: &CheckedScene,
@@ -391,21 +227,58 @@ mod tests {
         jobs: usize,
     ) -> Result<Reference, StudyError> {
         let options = ReferenceOptions { cells, maps, lines: 16 * maps };
-        Reference::of(scene, options, (Simulation::default(), jobs), &|| false, &mut |_| ())
+        Reference::of(scene, options, Simulation::default(), jobs, &|| false, &mut |_| ())
     }
 
-    /// For a sphere the line is exact, so that both models agree to the error of the grid.
+    /// A rough square with modes 1 to 4, which a coarse grid resolves.
+    fn coarse_square() -> Document {
+        let document = open(&format!("{DOCS}examples/rough-square.ron")).unwrap();
+        document.set("roughness.modes", "(1, 4)").unwrap()
+    }
+
+    /// Compares a coarse square with another loading, on one square, without the computing times.
+    fn with_loading(document: &Document, loading: &str) -> Reference {
+        let document = document.set("loading", loading).unwrap();
+        let found = reference(document.scene(), 32, 1, 1).unwrap();
+        Reference { seconds: [0.0; 2], seconds_of_square: 0.0, ..found }
+    }
+
+    /// For a sphere the line is exact, so that both models agree to the error of the grid, and this error is named.
     #[test]
     fn a_sphere_is_the_same_in_both_models() {
         let scene = open("jkr-sphere").unwrap();
         let found = reference(scene.scene(), 64, 3, 1).unwrap();
         assert_eq!((found.options.maps, found.options.lines, found.waves), (1, 1, None));
-        for loaded in &found.loading[2..] {
-            assert!((loaded.indentation.ratio - 1.0).abs() < 0.02, "{loaded:?}");
-            assert!((loaded.stiffness.ratio - 1.0).abs() < 0.03, "{loaded:?}");
+        assert!(found.loading.len() >= 3, "{:?}", found.left_out);
+        for loaded in &found.loading {
+            for compared in [loaded.indentation, loaded.stiffness] {
+                assert!(compared.difference().abs() < compared.grid.unwrap() + 0.03, "{loaded:?}");
+            }
         }
+        let last = found.loading.last().unwrap();
+        assert!(last.indentation.difference().abs() < 0.01, "{last:?}");
+        assert!(last.stiffness.difference().abs() < 0.03, "{last:?}");
         let force = found.adhesion_force.unwrap();
         assert!((force.ratio - 1.0).abs() < 0.15, "{force:?}");
+        let budget = found.budget;
+        assert!(found.line_is_exact && found.roughness.is_none());
+        assert_eq!((budget.model, budget.sample, budget.largest), (Some(0.0), None, "grid"));
+        assert!(budget.grid >= Some((force.ratio - 1.0).abs()), "{budget:?}");
+    }
+
+    /// The line of a flat square or of a sphere with steep waves is not exact.
+    #[test]
+    fn only_the_line_of_a_rising_body_is_exact() {
+        let sphere = open("jkr-sphere").unwrap();
+        let steep = sphere.set("form", "WavySphere(radius: 1.0e-4, amplitude: 1.0e-7, wavelength: 1.0e-6)");
+        let cut = sphere.set("loading", "[ToForce(10.0), ToSeparation]").unwrap();
+        let cut = cut.set("length", "1.0e-6");
+        let flat = sphere.set("form", "None");
+        for document in [steep, cut, flat] {
+            let document = document.unwrap();
+            let found = reference(document.scene(), 32, 1, 1);
+            assert!(found.is_err() || !found.unwrap().line_is_exact, "{:?}", document.scene());
+        }
     }
 
     /// The line of a rough body is a model, whose stiffness is of the size of that of squares. No bit but the
@@ -418,25 +291,117 @@ mod tests {
         for loaded in &found.loading {
             // Two squares scatter by a half.
             assert!((0.4..2.5).contains(&loaded.stiffness.ratio), "{loaded:?}");
+            assert!(loaded.cells >= Loaded::LEAST_CELLS && loaded.grid().is_some(), "{loaded:?}");
+        }
+        assert_eq!(found.loading.len() + found.left_out.len(), 6);
+        for left_out in &found.left_out {
+            assert!(left_out.cells < Loaded::LEAST_CELLS && left_out.grid > Some(64), "{left_out:?}");
         }
         let (seconds, seconds_of_square) = (found.seconds, found.seconds_of_square);
         let same = Reference { seconds, seconds_of_square, ..reference(scene.scene(), 64, 2, 1).unwrap() };
         assert_eq!(same, found);
         assert!(found.budget.solver <= 1e-8 && found.budget.grid.is_some() && found.budget.sample.is_some());
+        // Equal heights without adhesion, and equal elastic energy with adhesion.
+        let roughness = found.roughness.unwrap();
+        let line = roughness.line;
+        assert!((roughness.half_space.rms_height / line.rms_height - 1.0).abs() < 1e-12, "{roughness:?}");
+        let adhesive = roughness.adhesive_half_space.unwrap();
+        assert!((adhesive.elastic_energy / line.elastic_energy - 1.0).abs() < 1e-12, "{roughness:?}");
+        assert!((adhesive.rms_height / line.rms_height - 1.0).abs() < 0.035, "{roughness:?}");
+    }
+
+    /// Only the last loop is compared, which begins after the last separation and ends in separation.
+    #[test]
+    fn the_last_loop_is_compared() {
+        let square = coarse_square();
+        let alone = with_loading(&square, "[ToForce(3.0e-5), ToSeparation]");
+        assert_eq!(alone.compared_loading, [Move::ToForce(3.0e-5), Move::ToSeparation]);
+        for loading in [
+            "[ToForce(3.0e-5), ToSeparation, ToForce(3.0e-5), ToSeparation]",
+            "[ToForce(9.0e-5), ToSeparation, ToForce(3.0e-5), ToSeparation]",
+            "[ToForce(3.0e-5)]",
+            "[ToTouch, ToForce(1.0e-5), ToForce(3.0e-5), ToForce(1.0e-5), ToForce(2.0e-5), ToSeparation]",
+        ] {
+            assert_eq!(with_loading(&square, loading), alone, "{loading}");
+        }
+        let smaller = with_loading(&square, "[ToForce(1.0e-5), ToSeparation]");
+        let [loss, less] =
+            [alone, smaller].map(|found| found.dissipated_energy.map(|energy| energy.half_space.mean));
+        assert!(less < loss, "{less:?} {loss:?}");
+    }
+
+    /// Squares and lines turn at the same indentation, whatever the force there.
+    #[test]
+    fn an_indentation_is_the_same_for_all() {
+        let document = coarse_square().set("adhesion.elastic_energy_ratio", "6.0").unwrap();
+        let turn = 1.5e-6;
+        let mut found = Vec::new();
+        for (stage, stiffness) in [("ToIndentation", "None"), ("ToDisplacement", "Some(1e12)")] {
+            let document = document.set("loading", &format!("[{stage}({turn:e}), ToSeparation]")).unwrap();
+            let document = document.set("loading_stiffness", stiffness).unwrap();
+            let mut deepest = Vec::new();
+            let mut report = |event| {
+                if let ReferenceEvent::Square { curve, .. } = event {
+                    deepest.push(curve.iter().map(|point| point.0).fold(0.0, f64::max));
+                }
+            };
+            let options = ReferenceOptions { cells: 32, maps: 3, lines: 48 };
+            let simulation = Simulation::default();
+            let reference =
+                Reference::of(document.scene(), options, simulation, 1, &|| false, &mut report).unwrap();
+            assert_eq!(deepest.len(), 3);
+            assert!(deepest.iter().all(|deepest| (deepest / turn - 1.0).abs() < 0.02), "{deepest:?}");
+            if stage == "ToIndentation" {
+                assert!(deepest.iter().all(|deepest| (deepest / turn - 1.0).abs() < 1e-8), "{deepest:?}");
+            }
+            let last = reference.loading.last().unwrap();
+            assert_eq!(last.force, reference.preload);
+            found.push(reference);
+        }
+        // A stiff instrument changes nothing.
+        let [indentation, displacement] = <[_; 2]>::try_from(found).unwrap();
+        assert!((indentation.preload / displacement.preload - 1.0).abs() < 1e-3);
+        let energy = |found: &Reference| found.dissipated_energy.unwrap();
+        let line = energy(&indentation).line.mean / energy(&displacement).line.mean;
+        assert!((line - 1.0).abs() < 1e-3, "{line}");
+    }
+
+    /// Lines are compared at exact forces and not between samples.
+    #[test]
+    fn samples_of_the_curve_change_nothing() {
+        let document = coarse_square().set("numerics.samples", "2").unwrap();
+        let few = reference(document.scene(), 32, 1, 1).unwrap();
+        let many = reference(coarse_square().scene(), 32, 1, 1).unwrap();
+        assert_eq!((few.loading, few.adhesion_force), (many.loading, many.adhesion_force));
+        assert_eq!(few.dissipated_energy, many.dissipated_energy);
+    }
+
+    #[test]
+    fn contacts_of_a_few_cells_are_left_out() {
+        let light = with_loading(&coarse_square(), "[ToForce(1.0e-9), ToSeparation]");
+        assert!(light.loading.is_empty() && light.left_out.len() == 6, "{light:?}");
+        assert!(light.adhesion_force.is_some() && light.left_out[5].cells < 4.0, "{:?}", light.left_out);
+        assert_eq!(light.left_out[0].grid, Some(256), "{:?}", light.left_out);
+        let bare = coarse_square().set("adhesion", "None").unwrap();
+        let bare = bare.set("loading", "[ToForce(1.0e-9)]").unwrap();
+        let refused = reference(bare.scene(), 32, 1, 1).unwrap_err().to_string();
+        let expected = "32 cells: at the preload 1 cells of a square are in contact; allowed: at least 20";
+        assert!(refused.starts_with(expected), "{refused}");
+        assert!(refused.ends_with("by a larger preload or 256 cells along the side"), "{refused}");
     }
 
     /// A row of the table of docs/line-and-three-dimensions.md agrees with fewer squares, within the intervals of both.
     #[test]
     fn the_table_of_the_page_is_that_of_the_squares() {
-        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/");
-        let page = std::fs::read_to_string(format!("{root}line-and-three-dimensions.md")).unwrap();
-        let row = page.lines().find(|line| line.starts_with("| 0.8 | 1.0 |")).unwrap();
+        let page = std::fs::read_to_string(format!("{DOCS}line-and-three-dimensions.md")).unwrap();
+        let row = page.lines().find(|line| line.starts_with("| 0.8 | 0.3 |")).unwrap();
         let stated: Vec<(f64, f64)> = row
             .split('|')
             .filter_map(|cell| cell.split_once(" ± "))
             .map(|(ratio, error)| (ratio.trim().parse().unwrap(), error.trim().parse().unwrap()))
             .collect();
-        let document = open(&format!("{root}examples/rough-square.ron")).unwrap();
+        let document = open(&format!("{DOCS}examples/rough-square.ron")).unwrap();
+        let document = document.set("adhesion.elastic_energy_ratio", "0.3").unwrap();
         let found = reference(document.scene(), 64, 3, 2).unwrap();
         let last = found.loading.last().unwrap().indentation;
         let pulled = [found.adhesion_force, found.first_touch_adhesion_force, found.dissipated_energy]
@@ -465,8 +430,14 @@ mod tests {
         });
         let error = refused(&longer.unwrap(), 64);
         assert!(error.contains("at least 128 cells along the side"), "{error}");
-        let touch =
-            scene.scene().with(|scene| scene.loading = vec![Move::ToTouch, Move::ToSeparation]).unwrap();
-        assert!(refused(&touch, 64).starts_with("the loading has no preload"), "{}", refused(&touch, 64));
+        let loadings = [
+            vec![Move::ToTouch, Move::ToSeparation],
+            vec![Move::ToZeroForce, Move::ToSeparation],
+            vec![Move::ToIndentation(-1e-9), Move::ToSeparation],
+        ];
+        for loading in loadings {
+            let touch = scene.scene().with(|scene| scene.loading = loading).unwrap();
+            assert!(refused(&touch, 64).starts_with("the loading has no preload"), "{}", refused(&touch, 64));
+        }
     }
 }

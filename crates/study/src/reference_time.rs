@@ -1,7 +1,7 @@
 //! Time of a comparison with squares in three dimensions, estimated from small squares before it begins.
 
 use super::error::StudyError;
-use super::spatial::Body;
+use super::spatial::{Body, SquareLoading, Watch};
 use asperity_data::format_rounded;
 use std::time::Instant;
 
@@ -14,38 +14,59 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 pub const LONGEST: f64 = 86_400.0;
 
-/// Estimates the time of a square in s from smaller squares, each with twice the cells of the one before.
-pub fn seconds_of_square(
-    body: &Body,
-    (cells, seed): (usize, u64),
-    loads: (&[f64], f64),
-    stop: &dyn Fn() -> bool,
-) -> Result<f64, StudyError> {
-    let growth = GROWTH[usize::from(body.works.is_some())];
-    let mut smaller = LEAST_CELLS;
-    loop {
-        let begun = Instant::now();
-        body.load((smaller, seed), loads, stop)?;
-        let seconds = begun.elapsed().as_secs_f64();
-        if 2 * smaller >= cells || seconds > LEAST_TIMED {
-            return Ok(seconds * growth.powi((cells / smaller).ilog2() as i32) * (1.0 + growth.recip()));
+/// Computing time of a square, estimated from smaller squares, each with twice the cells of the one before.
+#[derive(Clone, Copy, Debug)]
+pub struct SquareTime {
+    /// Time of a square and of the coarser square that is compared with it, s.
+    pub seconds: f64,
+    /// Number of loads of a square.
+    pub loads: u64,
+    pub is_adhesive: bool,
+}
+
+impl SquareTime {
+    /// Estimates the time of a square with this number of cells along the side.
+    pub fn estimate(
+        body: &Body,
+        cells: usize,
+        seed: u64,
+        loading: &SquareLoading,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<SquareTime, StudyError> {
+        let is_adhesive = body.works.is_some();
+        let growth = GROWTH[usize::from(is_adhesive)];
+        let mut smaller = LEAST_CELLS;
+        loop {
+            let begun = Instant::now();
+            let loads = body.load(smaller, seed, loading, Watch { stop, loaded: &|| () })?.count;
+            let seconds = begun.elapsed().as_secs_f64();
+            if 2 * smaller >= cells || seconds > LEAST_TIMED {
+                let of_finest = seconds * growth.powi((cells / smaller).ilog2() as i32);
+                return Ok(SquareTime { seconds: of_finest * (1.0 + growth.recip()), loads, is_adhesive });
+            }
+            smaller *= 2;
         }
-        smaller *= 2;
+    }
+
+    /// Returns the time in s of `maps` squares on a number of threads.
+    pub fn of_squares(&self, maps: u64, threads: usize) -> f64 {
+        self.seconds * maps.div_ceil(threads as u64) as f64
+    }
+
+    /// Returns the share of one load in the computation of `maps` squares.
+    pub fn share_of_load(&self, maps: u64) -> f64 {
+        1.0 / (self.loads.max(1) as f64 * maps as f64)
     }
 }
 
-/// Refuses a comparison of `maps` squares of `cells` cells along the side if it takes longer than a day, in which there is time
-/// for `most` squares.
-pub fn check_time(
-    (cells, maps): (usize, u64),
-    seconds: f64,
-    most: f64,
-    is_adhesive: bool,
-) -> Result<(), StudyError> {
+/// Refuses a comparison of `maps` squares of `cells` cells along the side if it takes longer than a day.
+pub fn check_time(cells: usize, maps: u64, threads: usize, time: &SquareTime) -> Result<(), StudyError> {
+    let seconds = time.of_squares(maps, threads);
     if seconds <= LONGEST {
         return Ok(());
     }
-    let halvings = (seconds / LONGEST).log(GROWTH[usize::from(is_adhesive)]).ceil();
+    let most = threads as f64 * LONGEST / time.seconds;
+    let halvings = (seconds / LONGEST).log(GROWTH[usize::from(time.is_adhesive)]).ceil();
     let grid = (cells >> (halvings as u32).min(usize::BITS - 1)).max(LEAST_CELLS);
     let squares = if most >= 1.0 { format!(", or at most {} squares", most as u64) } else { String::new() };
     let days = format_rounded(seconds / LONGEST, 2, "1");
@@ -61,17 +82,19 @@ mod tests {
 
     #[test]
     fn what_takes_longer_than_a_day_is_refused() {
-        let refused = |seconds, most| check_time((1024, 24), seconds, most, false).unwrap_err().to_string();
-        assert!(check_time((1024, 24), LONGEST, 24.0, false).is_ok());
+        let time = |days: f64| SquareTime { seconds: days * LONGEST, loads: 100, is_adhesive: false };
+        let refused = |maps, days| check_time(1024, maps, 1, &time(days)).unwrap_err().to_string();
+        assert!(check_time(1024, 24, 1, &time(1.0 / 24.0)).is_ok());
+        assert!(check_time(1024, 24, 2, &time(2.0 / 24.0)).is_ok());
         assert_eq!(
-            refused(3.0 * LONGEST, 8.5),
+            refused(24, 0.124),
             "1024 cells: 24 squares take about 3 days, longer than one day; allowed: a grid of at most 512 cells \
              along the side, or at most 8 squares"
         );
-        assert!(
-            refused(50.0 * LONGEST, 0.4).ends_with("allowed: a grid of at most 128 cells along the side")
-        );
-        let never = check_time((8192, 1), 1e300, 0.0, true).unwrap_err().to_string();
+        assert!(refused(24, 50.0 / 24.0).ends_with("allowed: a grid of at most 128 cells along the side"));
+        let never = SquareTime { seconds: 1e300, loads: 1, is_adhesive: true };
+        let never = check_time(8192, 1, 1, &never).unwrap_err().to_string();
         assert!(never.contains("at most 32 cells"), "{never}");
+        assert!((time(1.0).share_of_load(4) - 0.0025).abs() < 1e-15);
     }
 }

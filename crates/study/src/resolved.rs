@@ -1,9 +1,11 @@
 //! A scene with the waves that squares resolve, as a profile and in three dimensions.
 
 use super::error::StudyError;
-use super::spatial::{Body, Spectrum};
+use super::shells::{ComparedRoughness, Shells, Spectrum};
+use super::spatial::Body;
 use asperity_half_space::check_cells;
 use asperity_scene::{CheckedScene, Roughness, RunError, Scene, Simulation};
+use asperity_surface::Amplitude;
 use asperity_surface::lines::MeasuredRoughness;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -13,6 +15,8 @@ const CELLS_PER_WAVE: u64 = 8;
 /// Number of springs for the shortest wave of a profile.
 const SPRINGS_PER_WAVE: u64 = 64;
 const LEAST_SPRINGS: u64 = 4096;
+/// Share of the largest gap of a profile that counts as rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Scene with the waves that squares resolve.
 pub(super) struct Resolved {
@@ -21,10 +25,15 @@ pub(super) struct Resolved {
     /// Spectrum of the random profiles of a measured surface, without the waves that squares do not resolve.
     measured: Option<Arc<MeasuredRoughness>>,
     pub body: Body,
+    /// Roughness of the profiles; `None` for smooth ones.
+    pub line_roughness: Option<ComparedRoughness>,
     /// First and last wave over the length; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
     /// Last wave of the scene, if it is left out.
     pub omitted: Option<u64>,
+    /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards, for which the profile is
+    /// exact while the contact ends before the profile does.
+    pub line_is_exact: bool,
 }
 
 impl Resolved {
@@ -43,7 +52,8 @@ impl Resolved {
                 "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
             return Err(StudyError::refused(None, "the measured profile itself is the line", allowed));
         }
-        let (_, _, governing) = simulation.make_line(scene).map_err(of_scene)?;
+        let (line, _, governing) = simulation.make_line(scene).map_err(of_scene)?;
+        let line_is_exact = scene.roughness.is_none() && scene.form.is_some() && rises_everywhere(&line.gaps);
         let mut changed = Scene::clone(scene);
         // The work of adhesion stays where waves are left out.
         if let Some((adhesion, work)) = scene.adhesion.zip(governing.work_of_adhesion) {
@@ -55,13 +65,16 @@ impl Resolved {
             measured: None,
             body: Body {
                 form: scene.form.clone(),
-                spectrum: None,
+                shells: None,
+                adhesive_height_factor: 1.0,
                 side: scene.length,
                 effective_modulus: governing.effective_modulus,
                 works: governing.adhesive_works(),
             },
+            line_roughness: None,
             waves: None,
             omitted: None,
+            line_is_exact,
         };
         let finest = cells as u64 / CELLS_PER_WAVE;
         let points = |last: u64| (SPRINGS_PER_WAVE * last).next_power_of_two().max(LEAST_SPRINGS);
@@ -82,17 +95,36 @@ impl Resolved {
             (*rms_height, *rms_gradient) = (Some(first * kept.relative_rms()), None);
             (*modes, *wavelengths) = (Some((kept.first, kept.last)), None);
             changed.numerics.points = points(last);
-            resolved.body.spectrum = Some(Spectrum::SelfAffine(kept, first));
+            let amplitude = kept.unit_amplitude(scene.length).scaled(first * kept.relative_rms());
+            let spectrum = Spectrum::SelfAffine { spectrum: kept, amplitude: first };
+            resolved.roughen(spectrum, (kept.first, kept.last), amplitude);
         } else if let Some(line) = simulation.equivalent_line() {
             let (first, whole) = line.modes(scene.length, usize::MAX)?;
             let last = keep(first, whole)?;
             let line = line.up_to(TAU * last as f64 / scene.length);
             changed.numerics.points = points(last);
             resolved.measured = Some(Arc::new(MeasuredRoughness::Equivalent(line.clone())));
-            resolved.body.spectrum = Some(Spectrum::Measured(line));
+            let amplitude = line.amplitude_of_modes(scene.length, (first, last));
+            resolved.roughen(Spectrum::Measured(line), (first, last), amplitude);
         }
         resolved.line = changed.checked().map_err(|errors| of_scene(errors.into()))?;
         Ok(resolved)
+    }
+
+    /// Gives the squares the waves of a spectrum. `amplitude` is that of the profiles with these modes.
+    fn roughen(&mut self, spectrum: Spectrum, modes: (u64, u64), amplitude: Amplitude) {
+        let shells = Shells::new(spectrum, self.body.side, modes);
+        let line = ComparedRoughness {
+            rms_height: amplitude.rms_height,
+            rms_gradient: amplitude.rms_gradient,
+            elastic_energy: amplitude.elastic_energy(self.body.effective_modulus),
+        };
+        let square = shells.roughness(self.body.effective_modulus);
+        if square.elastic_energy > 0.0 {
+            self.body.adhesive_height_factor = (line.elastic_energy / square.elastic_energy).sqrt();
+        }
+        self.body.shells = Some(shells);
+        self.line_roughness = Some(line);
     }
 
     /// Returns a simulation of the profiles.
@@ -103,6 +135,15 @@ impl Resolved {
             None => simulation,
         }
     }
+}
+
+/// Returns true if a profile with these gaps rises everywhere on both sides of its deepest point.
+fn rises_everywhere(gaps: &[f64]) -> bool {
+    let deepest = gaps.iter().copied().fold(0.0, f64::max);
+    let summit = (0..gaps.len()).min_by(|one, other| gaps[*one].total_cmp(&gaps[*other])).unwrap_or(0);
+    let rises = |inner: f64, outer: f64| outer >= inner - ROUNDING * deepest;
+    gaps[summit..].windows(2).all(|pair| rises(pair[0], pair[1]))
+        && gaps[..=summit].windows(2).all(|pair| rises(pair[1], pair[0]))
 }
 
 /// Converts an error of the scene itself.

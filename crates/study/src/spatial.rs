@@ -1,10 +1,12 @@
 //! The body of a scene in three dimensions: one random square on a half-space, loaded without and with adhesion.
 
 use super::error::StudyError;
+use super::shells::Shells;
+use asperity_contact::Move;
 use asperity_half_space::{
     AdhesiveSquare, AdhesiveState, Boundary, HalfSpace, HalfSpaceError, Load, Square, random_map,
 };
-use asperity_surface::{EquivalentLine, Form, SelfAffine};
+use asperity_surface::Form;
 
 /// Residual of contacts without adhesion, in rms heights.
 const TOLERANCE: f64 = 1e-8;
@@ -12,30 +14,93 @@ const TOLERANCE: f64 = 1e-8;
 const APART: f64 = 0.02;
 /// Share of the preload by which a loop may miss the preload.
 const NEAR: f64 = 0.01;
+/// Share of an indentation that counts as rounding.
+const ROUNDING: f64 = 1e-9;
 /// Largest number of steps of a loop, far more than any loop needs.
 const MOST_STEPS: usize = 4000;
-
-/// Spectrum of a random surface.
-#[derive(Clone, Debug)]
-pub(super) enum Spectrum {
-    /// Self-affine spectrum with the amplitude A₁ in m of its first mode without a roll-off.
-    SelfAffine(SelfAffine, f64),
-    /// Spectrum of the surface whose equivalent line this is.
-    Measured(EquivalentLine),
-}
 
 /// A body in three dimensions, without its random phases.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub form: Option<Form>,
-    /// Spectrum of the roughness; `None` for a smooth body.
-    pub spectrum: Option<Spectrum>,
+    /// Waves of the roughness; `None` for a smooth body.
+    pub shells: Option<Shells>,
+    /// Factor of the heights of the roughness in contacts with adhesion. With it squares and lines have the same e_el/γ.
+    pub adhesive_height_factor: f64,
     /// Side L of the square, m.
     pub side: f64,
     /// Effective modulus E*, Pa.
     pub effective_modulus: f64,
     /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
     pub works: Option<[f64; 2]>,
+}
+
+/// Turning point of the loop to which squares and lines are pressed alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Turn {
+    /// Force, N.
+    Force(f64),
+    /// Indentation, m.
+    Indentation(f64),
+    /// Displacement of the drive of an instrument, d + F/k.
+    Displacement {
+        /// Displacement, m.
+        displacement: f64,
+        /// Stiffness k of the instrument, N/m.
+        stiffness: f64,
+    },
+}
+
+impl Turn {
+    /// Returns the stage of a loading that ends at this point.
+    pub fn stage(self) -> Move {
+        match self {
+            Turn::Force(force) => Move::ToForce(force),
+            Turn::Indentation(indentation) => Move::ToIndentation(indentation),
+            Turn::Displacement { displacement, .. } => Move::ToDisplacement(displacement),
+        }
+    }
+
+    /// Returns how far a square has come, in the unit of the target, and the target.
+    fn progress(self, state: &AdhesiveState) -> Approach {
+        match self {
+            Turn::Force(target) => Approach { reached: state.force, target, tolerance: NEAR },
+            Turn::Indentation(target) => Approach { reached: state.indentation, target, tolerance: ROUNDING },
+            Turn::Displacement { displacement, stiffness } => Approach {
+                reached: state.indentation + state.force / stiffness,
+                target: displacement,
+                tolerance: NEAR,
+            },
+        }
+    }
+}
+
+/// How far a square has come on the way to the turning point.
+struct Approach {
+    reached: f64,
+    target: f64,
+    /// Share of the target that may be missing.
+    tolerance: f64,
+}
+
+/// Loads on a square.
+#[derive(Clone, Debug)]
+pub(super) struct SquareLoading {
+    /// Forces without adhesion, N.
+    pub forces: Vec<f64>,
+    /// Turning point of the loop with adhesion.
+    pub turn: Turn,
+    /// Step of the indentation in the loop, m.
+    pub step: f64,
+}
+
+/// What the computation of a square calls meanwhile.
+#[derive(Clone, Copy)]
+pub(super) struct Watch<'a> {
+    /// Returns true if the computation should end.
+    pub stop: &'a dyn Fn() -> bool,
+    /// Is called after each load.
+    pub loaded: &'a dyn Fn(),
 }
 
 /// State without adhesion at one force.
@@ -69,6 +134,8 @@ pub(super) struct Loads {
     /// Figures of the adhesive loop; `None` without adhesion.
     pub pulling: Option<Pulling>,
     pub convolutions: u64,
+    /// Number of loads, each with or without adhesion.
+    pub count: u64,
 }
 
 impl Loads {
@@ -90,45 +157,42 @@ impl Body {
         heights + HalfSpace::bytes(cells, Boundary::Free).max(adhesive).max(3 * heights)
     }
 
-    /// Loads the square with these random phases to each force in N without adhesion, and to the last one with adhesion, in
-    /// steps of the indentation in m.
+    /// Loads the square with these random phases to each force without adhesion, and in a loop to the turning point and
+    /// back with adhesion.
     pub fn load(
         &self,
-        (cells, seed): (usize, u64),
-        (forces, step): (&[f64], f64),
-        stop: &dyn Fn() -> bool,
+        cells: usize,
+        seed: u64,
+        loading: &SquareLoading,
+        watch: Watch<'_>,
     ) -> Result<Loads, StudyError> {
-        let heights = self.heights(cells, seed)?;
         let mut loads = Loads::default();
-        self.press(&heights, forces, &mut loads, stop)?;
-        if let (Some([closing, opening]), Some(preload)) = (self.works, forces.last()) {
-            let square = || AdhesiveSquare::new(&self.square(&heights), (opening, closing));
-            let mut touched = Loop::begin(square()?, stop)?;
-            touched.pull_off(step, stop)?;
-            let mut pressed = Loop::begin(square()?, stop)?;
-            pressed.press(*preload, step, stop)?;
-            pressed.pull_off(step, stop)?;
-            loads.convolutions += touched.body.convolutions() + pressed.body.convolutions();
-            loads.pulling = Some(Pulling {
-                at_touch: touched.adhesion_force(),
-                adhesion_force: pressed.adhesion_force(),
-                dissipated_energy: work(&pressed.curve).max(0.0),
-                curve: pressed.curve,
-            });
-        }
+        let heights = self.heights(cells, seed, 1.0)?;
+        self.press(&heights, &loading.forces, &mut loads, watch)?;
+        drop(heights);
+        let Some(works) = self.works else { return Ok(loads) };
+        let heights = self.heights(cells, seed, self.adhesive_height_factor)?;
+        let mut touched = self.begin_loop(&heights, works, watch)?;
+        touched.pull_off(loading.step)?;
+        let mut pressed = self.begin_loop(&heights, works, watch)?;
+        pressed.press(loading.turn, loading.step)?;
+        pressed.pull_off(loading.step)?;
+        loads.convolutions += touched.body.convolutions() + pressed.body.convolutions();
+        loads.count += (touched.curve.len() + pressed.curve.len()) as u64;
+        loads.pulling = Some(Pulling {
+            at_touch: touched.adhesion_force(),
+            adhesion_force: pressed.adhesion_force(),
+            dissipated_energy: work(&pressed.curve).max(0.0),
+            curve: pressed.curve,
+        });
         Ok(loads)
     }
 
-    /// Returns the heights in m of the square with these random phases, row by row.
-    pub fn heights(&self, cells: usize, seed: u64) -> Result<Vec<f64>, StudyError> {
-        let mut heights = match &self.spectrum {
-            Some(Spectrum::SelfAffine(spectrum, first)) => {
-                let variance = |waves: f64| first * first * spectrum.relative_variance_of_surface(waves);
-                random_map(cells, variance, seed)?
-            }
-            Some(Spectrum::Measured(line)) => {
-                random_map(cells, |waves| line.variance_of_surface(waves, self.side), seed)?
-            }
+    /// Returns the heights in m of the square with these random phases, row by row. The heights of the roughness are
+    /// multiplied by a factor.
+    pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
+        let mut heights = match &self.shells {
+            Some(shells) => random_map(cells, |waves| factor * factor * shells.variance(waves), seed)?,
             None => asperity_data::resized(Vec::new(), cells * cells, 0.0).map_err(HalfSpaceError::from)?,
         };
         if let Some(form) = &self.form {
@@ -142,6 +206,18 @@ impl Body {
         Ok(heights)
     }
 
+    /// Brings a square with adhesion to first touch. `works` are the works of adhesion on closing and on opening, J/m².
+    fn begin_loop<'a>(
+        &self,
+        heights: &[f64],
+        works: [f64; 2],
+        watch: Watch<'a>,
+    ) -> Result<Loop<'a>, StudyError> {
+        let [closing, opening] = works;
+        let body = AdhesiveSquare::new(&self.square(heights), (opening, closing))?;
+        Ok(Loop::begin(body, watch)?)
+    }
+
     fn square<'a>(&self, heights: &'a [f64]) -> Square<'a> {
         Square { heights, side: self.side, effective_modulus: self.effective_modulus }
     }
@@ -152,69 +228,83 @@ impl Body {
         heights: &[f64],
         forces: &[f64],
         loads: &mut Loads,
-        stop: &dyn Fn() -> bool,
+        watch: Watch<'_>,
     ) -> Result<(), StudyError> {
         let mut half_space = HalfSpace::new(heights.len().isqrt(), Boundary::Free)?;
-        for force in forces {
-            let mut at = |force: f64| {
-                let found = half_space.press(&self.square(heights), Load::Force(force), TOLERANCE, stop)?;
-                loads.convolutions += found.convolutions;
-                Ok::<_, HalfSpaceError>((found.indentation, found.area, found.residual))
-            };
-            let (indentation, area, residual) = at(*force)?;
-            let (deeper, ..) = at(force * (1.0 + APART))?;
-            let stiffness = APART * force / (deeper - indentation);
-            loads.pressings.push(Pressing { indentation, stiffness, area, residual });
+        let square = self.square(heights);
+        for &force in forces {
+            let pressed = half_space.press(&square, Load::Force(force), TOLERANCE, watch.stop)?;
+            let more = Load::Force(force * (1.0 + APART));
+            let deeper = half_space.press(&square, more, TOLERANCE, watch.stop)?;
+            loads.convolutions += pressed.convolutions + deeper.convolutions;
+            loads.count += 1;
+            loads.pressings.push(Pressing {
+                indentation: pressed.indentation,
+                stiffness: APART * force / (deeper.indentation - pressed.indentation),
+                area: pressed.area,
+                residual: pressed.residual,
+            });
+            (watch.loaded)();
         }
         Ok(())
     }
 }
 
 /// The motion of a square with adhesion.
-struct Loop {
+struct Loop<'a> {
     body: AdhesiveSquare,
     state: AdhesiveState,
     curve: Vec<(f64, f64)>,
+    watch: Watch<'a>,
 }
 
-impl Loop {
+impl<'a> Loop<'a> {
     /// Begins the motion at first touch.
-    fn begin(mut body: AdhesiveSquare, stop: &dyn Fn() -> bool) -> Result<Loop, HalfSpaceError> {
-        let state = body.move_to(0.0, stop)?;
-        Ok(Loop { body, state, curve: vec![(0.0, state.force)] })
+    fn begin(mut body: AdhesiveSquare, watch: Watch<'a>) -> Result<Loop<'a>, HalfSpaceError> {
+        let state = body.move_to(0.0, watch.stop)?;
+        (watch.loaded)();
+        Ok(Loop { body, state, curve: vec![(0.0, state.force)], watch })
     }
 
-    fn move_by(&mut self, step: f64, stop: &dyn Fn() -> bool) -> Result<(), HalfSpaceError> {
-        self.state = self.body.move_to(self.state.indentation + step, stop)?;
+    fn move_by(&mut self, step: f64) -> Result<(), HalfSpaceError> {
+        self.state = self.body.move_to(self.state.indentation + step, self.watch.stop)?;
         self.curve.push((self.state.indentation, self.state.force));
+        (self.watch.loaded)();
         Ok(())
     }
 
-    /// Presses to a force in N, in steps of the indentation in m.
-    fn press(&mut self, preload: f64, step: f64, stop: &dyn Fn() -> bool) -> Result<(), StudyError> {
-        // The next step ends at the preload, by the stiffness of the last one.
-        let mut next = step;
+    /// Presses to the turning point, in steps of the indentation in m.
+    fn press(&mut self, turn: Turn, step: f64) -> Result<(), StudyError> {
+        let mut approach = turn.progress(&self.state);
+        // Only an indentation grows as evenly as the steps.
+        let mut next = match turn {
+            Turn::Indentation(indentation) => step.min(indentation),
+            _ => step,
+        };
         for _ in 0..MOST_STEPS {
-            let before = self.state.force;
-            if before >= preload * (1.0 - NEAR) {
+            if approach.reached >= approach.target * (1.0 - approach.tolerance) {
                 return Ok(());
             }
-            self.move_by(next, stop)?;
-            let missing = (preload - self.state.force) * next / (self.state.force - before);
-            next = if missing > 0.0 { missing.clamp(0.05 * step, step) } else { step };
+            let before = approach.reached;
+            self.move_by(next)?;
+            approach = turn.progress(&self.state);
+            // The next step ends at the target, by the slope of the last one.
+            let missing = (approach.target - approach.reached) * next / (approach.reached - before);
+            let shortest = if matches!(turn, Turn::Indentation(_)) { 0.0 } else { 0.05 * step };
+            next = if missing > 0.0 { missing.clamp(shortest, step) } else { step };
         }
         let deepest = self.state.indentation;
-        let found = format!("{preload:e} N is not reached at the indentation {deepest:e} m");
+        let found = format!("{:?} is not reached at the indentation {deepest:e} m", turn.stage());
         Err(StudyError::refused(Some("the preload in three dimensions"), found, "a smaller preload"))
     }
 
     /// Pulls off in steps of the indentation in m, until nothing touches.
-    fn pull_off(&mut self, step: f64, stop: &dyn Fn() -> bool) -> Result<(), StudyError> {
+    fn pull_off(&mut self, step: f64) -> Result<(), StudyError> {
         for _ in 0..MOST_STEPS {
             if self.state.area == 0.0 {
                 break;
             }
-            self.move_by(-step, stop)?;
+            self.move_by(-step)?;
         }
         Ok(())
     }

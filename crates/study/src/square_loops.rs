@@ -1,8 +1,9 @@
 //! Loops of random squares in three dimensions for comparison with the profile, as far as they are computed.
 
+use super::compared::{Compared, Values};
 use super::error::StudyError;
 use super::profiles::Stop;
-use super::reference::{Compared, Reference, ReferenceEvent, ReferenceOptions, compared};
+use super::reference::{Reference, ReferenceEvent, ReferenceOptions};
 use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
@@ -18,43 +19,65 @@ pub struct SquareLoops {
     pub lines: Vec<f64>,
     /// Adhesion force of each computed square in N, or its indentation at the preload in m if the scene has no adhesion.
     pub squares: Vec<f64>,
+    /// Estimated share of the computation of the squares that is done, from 0 to 1.
+    pub share: f64,
     /// Comparison of all squares with the random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
 }
 
 impl SquareLoops {
-    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` is a pair: a
-    /// simulation that knows the folder of the measured files of the scene, and the number of threads. `report` receives the
-    /// curves so far at the beginning and after each square.
+    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` knows the
+    /// folder of the measured files of the scene, and `jobs` is the number of threads. `report` receives the curves so far
+    /// at the beginning, after each hundredth of the computation, and after each square.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].
     pub fn of(
         scene: &CheckedScene,
-        simulation: (Simulation, usize),
+        simulation: Simulation,
+        jobs: usize,
         stop: &Stop<'_>,
         report: &mut dyn FnMut(&SquareLoops),
     ) -> Result<SquareLoops, StudyError> {
         let options = ReferenceOptions::of(scene, None);
         let mut loops = SquareLoops::default();
         let mut take_in = |event| {
-            match event {
-                ReferenceEvent::Begins { maps, lines, .. } => (loops.maps, loops.lines) = (maps, lines),
-                ReferenceEvent::Square { curve, headline } => {
-                    loops.curves.push(curve);
-                    loops.squares.push(headline);
-                }
+            if loops.take(event) {
+                report(&loops);
             }
-            report(&loops);
         };
-        let reference = Reference::of(scene, options, simulation, stop, &mut take_in)?;
-        Ok(SquareLoops { reference: Some(reference), ..loops })
+        let reference = Reference::of(scene, options, simulation, jobs, stop, &mut take_in)?;
+        Ok(SquareLoops { reference: Some(reference), share: 1.0, ..loops })
+    }
+
+    /// Takes in an event. Returns true if there is something new to show.
+    fn take(&mut self, event: ReferenceEvent) -> bool {
+        match event {
+            ReferenceEvent::Begins { maps, .. } => self.maps = maps,
+            ReferenceEvent::Profiles { .. } => return false,
+            ReferenceEvent::ProfilesEnd { lines } => {
+                self.lines = lines;
+                return false;
+            }
+            ReferenceEvent::Loaded { share } => {
+                let before = (100.0 * self.share).floor();
+                // The number of loads is an estimate.
+                self.share = (self.share + share).min(0.99);
+                return (100.0 * self.share).floor() > before;
+            }
+            ReferenceEvent::Square { curve, headline } => {
+                self.curves.push(curve);
+                self.squares.push(headline);
+            }
+        }
+        true
     }
 
     /// Compares the values [`SquareLoops::lines`] of the profiles with the values [`SquareLoops::squares`]; `None`
     /// before the first square is computed.
     pub fn headline(&self) -> Option<Compared> {
-        compared(self.lines.iter().copied(), self.squares.iter().copied())
+        let values = Values { lines: self.lines.clone(), squares: self.squares.clone(), coarse: Vec::new() };
+        values.compared()
     }
 
     /// Returns the mean and the scatter of the force of the computed squares as a function of the indentation. There is one
@@ -112,18 +135,25 @@ mod tests {
     fn loops_are_reported_one_by_one() {
         let scene = open("kendall-punch").unwrap();
         let mut counts = Vec::new();
-        let mut report = |loops: &SquareLoops| counts.push((loops.maps, loops.curves.len()));
-        let simulation = (Simulation::default(), 1);
-        let loops = SquareLoops::of(scene.scene(), simulation, &|| false, &mut report).unwrap();
-        assert_eq!(counts, [(1, 0), (1, 1)]);
+        let mut shares = Vec::new();
+        let mut report = |loops: &SquareLoops| {
+            counts.push((loops.maps, loops.curves.len()));
+            shares.push(loops.share);
+        };
+        let loops = SquareLoops::of(scene.scene(), Simulation::default(), 1, &|| false, &mut report).unwrap();
+        // There is progress before the only square is finished.
+        assert_eq!((counts[0], shares[0]), ((1, 0), 0.0));
+        assert_eq!(counts.last(), Some(&(1, 1)));
+        assert!(counts.iter().filter(|count| **count == (1, 0)).count() > 20, "{counts:?}");
+        assert!(shares.is_sorted() && shares.last() > Some(&0.5) && shares.last() < Some(&1.0), "{shares:?}");
         let lowest = loops.curves[0].iter().map(|point| -point.1).fold(0.0, f64::max);
         assert_eq!(vec![lowest], loops.squares);
         let compared = loops.reference.as_ref().unwrap().adhesion_force;
-        assert_eq!(compared, loops.headline());
         let ratio = compared.unwrap().ratio;
+        assert_eq!(Some(ratio), loops.headline().map(|headline| headline.ratio));
         assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
         assert_eq!(loops.bands().len(), 2);
-        let stopped = SquareLoops::of(scene.scene(), (Simulation::default(), 1), &|| true, &mut |_| ());
+        let stopped = SquareLoops::of(scene.scene(), Simulation::default(), 1, &|| true, &mut |_| ());
         assert!(stopped.is_err());
     }
 

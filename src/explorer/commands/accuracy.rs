@@ -82,8 +82,8 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
 fn squares(app: &App) -> Study {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
     Study::new(key, true, move |simulation, stop, report| {
-        let solver = (std::mem::take(simulation), threads());
-        let found = SquareLoops::of(&scene, solver, stop, &mut |part| report(part.clone()));
+        let own = std::mem::take(simulation);
+        let found = SquareLoops::of(&scene, own, threads(), stop, &mut |part| report(part.clone()));
         found.map_err(|error| error.to_string())
     })
 }

@@ -153,8 +153,9 @@ fn words(app: &App, width: u16) -> Words {
         Some(reference) => budget.with_model(reference.budget.model),
         None => budget,
     });
-    let mut errors =
-        budget.map_or_else(Vec::new, |budget| error_rows(scene, outcome, estimate, &budget, ensemble));
+    let mut errors = budget.map_or_else(Vec::new, |budget| {
+        error_rows(scene, outcome, estimate, &budget, ensemble, reference(app))
+    });
     let first = errors.len().min(1);
     errors.rotate_right(first);
     let theories = theory_rows(scene, outcome, ensemble);

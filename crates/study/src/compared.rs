@@ -1,0 +1,123 @@
+//! Comparison of one quantity between random profiles and random squares: the ratio of the means and its errors.
+
+use super::quantity::Quantity;
+use super::statistics::Statistics;
+use asperity_data::{mean, student_quantile};
+use serde::Serialize;
+
+/// Rounding of a number of degrees of freedom.
+const ROUNDING: f64 = 1e-9;
+
+/// Comparison of one quantity between random profiles and random squares in three dimensions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Compared {
+    /// Statistics of the quantity over the random profiles.
+    pub line: Statistics,
+    /// Statistics of the quantity over the random squares in three dimensions.
+    pub half_space: Statistics,
+    /// Mean of the quantity over the profiles divided by its mean over the squares.
+    pub ratio: f64,
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], by Student's t; `None` for fewer than two
+    /// profiles or squares.
+    pub error: Option<f64>,
+    /// Relative difference between the mean over the squares and the mean over the same squares with half as many grid cells
+    /// along the side; `None` if half as many cells are too few.
+    pub grid: Option<f64>,
+}
+
+impl Compared {
+    /// Returns the difference between the ratio and 1.
+    pub fn difference(&self) -> f64 {
+        self.ratio - 1.0
+    }
+}
+
+/// Values of one quantity.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Values {
+    /// Value of each random profile.
+    pub lines: Vec<f64>,
+    /// Value of each random square.
+    pub squares: Vec<f64>,
+    /// Value of each square with half as many grid cells along the side; empty if there are none.
+    pub coarse: Vec<f64>,
+}
+
+impl Values {
+    /// Returns the statistics of both models and the ratio of their means; `None` without values.
+    pub fn compared(self) -> Option<Compared> {
+        let bounds = Quantity::AdhesionForce.bounds();
+        let grid = self.grid_error();
+        let line = Statistics::of(self.lines, bounds)?;
+        let half_space = Statistics::of(self.squares, bounds)?;
+        let ratio = line.mean / half_space.mean;
+        if !ratio.is_finite() {
+            return None;
+        }
+        let error = error_of_ratio(&line, &half_space).filter(|error| error.is_finite());
+        Some(Compared { line, half_space, ratio, error, grid })
+    }
+
+    fn grid_error(&self) -> Option<f64> {
+        if self.coarse.is_empty() || self.coarse.len() != self.squares.len() {
+            return None;
+        }
+        let error = (mean(&self.coarse) / mean(&self.squares) - 1.0).abs();
+        error.is_finite().then_some(error)
+    }
+}
+
+/// Returns half the width of the 95 % confidence interval of the ratio of two means. The number of degrees of freedom of
+/// Student's t follows from the relative errors of both means by the rule of Welch and Satterthwaite.
+fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
+    let line_error = line.spread?.standard_error / line.mean;
+    let square_error = square.spread?.standard_error / square.mean;
+    let error = line_error.hypot(square_error);
+    if error == 0.0 {
+        return Some(0.0);
+    }
+    // The shares of the variance, so that no power of a small error underflows.
+    let line_share = (line_error / error).powi(2);
+    let square_share = (square_error / error).powi(2);
+    let freedom = (line_share.powi(2) / (line.count - 1) as f64
+        + square_share.powi(2) / (square.count - 1) as f64)
+        .recip();
+    let ratio = line.mean / square.mean;
+    Some(student_quantile((freedom + ROUNDING).floor().max(1.0) as u32) * ratio * error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn compared(lines: &[f64], squares: &[f64], coarse: &[f64]) -> Option<Compared> {
+        let values = Values { lines: lines.to_vec(), squares: squares.to_vec(), coarse: coarse.to_vec() };
+        values.compared()
+    }
+
+    #[test]
+    fn a_ratio_has_its_errors() {
+        let found = compared(&[2.0; 40], &[1.0, 2.0, 3.0], &[1.5, 2.0, 3.1]).unwrap();
+        assert_eq!(found.ratio, 1.0);
+        // The lines are known exactly: two degrees of freedom, and the standard error 1/√3 of a mean of 2.
+        let expected = 4.302_652_730 / 3.0_f64.sqrt() / 2.0;
+        assert!((found.error.unwrap() / expected - 1.0).abs() < 1e-9, "{found:?}");
+        assert!((found.grid.unwrap() - 0.1).abs() < 1e-12, "{found:?}");
+        assert!(found.difference() == 0.0);
+        // Both means have the same relative error: twice the degrees of freedom of one.
+        let both = compared(&[10.0, 20.0, 30.0], &[1.0, 2.0, 3.0], &[]).unwrap();
+        let expected = 10.0 * 2.776_445_105 * (2.0_f64 / 3.0).sqrt() / 2.0;
+        assert!((both.error.unwrap() / expected - 1.0).abs() < 1e-9, "{both:?}");
+        assert_eq!(both.grid, None);
+    }
+
+    #[test]
+    fn what_has_no_ratio_has_none() {
+        assert_eq!(compared(&[], &[1.0], &[]), None);
+        assert_eq!(compared(&[1.0], &[], &[]), None);
+        assert_eq!(compared(&[1.0, 2.0], &[0.0, 0.0], &[]), None);
+        let single = compared(&[1.0, 2.0], &[2.0], &[0.0]).unwrap();
+        assert_eq!((single.ratio, single.error, single.grid), (0.75, None, Some(1.0)));
+        assert_eq!(compared(&[1.0, 1.0], &[2.0, 2.0], &[1.0]).unwrap().error, Some(0.0));
+    }
+}

@@ -1,0 +1,138 @@
+//! Errors of a comparison with three dimensions by their sources.
+
+use super::compared::Compared;
+use serde::Serialize;
+
+/// Errors of a [`Reference`](super::reference::Reference), one for each source of errors. All except `solver` are relative
+/// errors of the adhesion force, or of the indentation at the preload if the scene has no adhesion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ReferenceBudget {
+    /// Largest error of the gap between the bodies in the contacts without adhesion, at any grid cell of any square, divided by
+    /// the rms height of the square.
+    pub solver: f64,
+    /// Error of the mean over the squares by their grid. It is the relative difference between this mean and the mean over
+    /// the same squares with half as many grid cells along the side, or the difference from the profile if the profile is
+    /// exact and differs more. `None` if half as many cells are too few.
+    pub grid: Option<f64>,
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this ratio; `None` for fewer than two
+    /// profiles or squares.
+    pub sample: Option<f64>,
+    /// Mean over the profiles divided by the mean over the squares, minus 1; `None` if this ratio is unknown.
+    pub difference: Option<f64>,
+    /// Smallest error of the model that the comparison shows: the part of `difference`, without its sign, that exceeds the
+    /// errors `sample` and `grid`. It is 0 if these errors can explain the difference, and `None` if one of them is unknown.
+    pub model: Option<f64>,
+    /// Name of the field with the largest known error: `solver`, `grid`, `sample` or `model`.
+    pub largest: &'static str,
+}
+
+/// What is known of the bodies of a comparison.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bodies {
+    /// True for random profiles and squares.
+    pub are_random: bool,
+    /// True for a body of revolution for which the profile is exact.
+    pub line_is_exact: bool,
+}
+
+impl ReferenceBudget {
+    /// Collects the errors. `headline` is the comparison of the adhesion force or of the indentation, and `solver` the error
+    /// [`ReferenceBudget::solver`].
+    pub(super) fn new(solver: f64, headline: Option<&Compared>, bodies: Bodies) -> ReferenceBudget {
+        let mut budget = ReferenceBudget {
+            solver,
+            grid: None,
+            sample: None,
+            difference: None,
+            model: None,
+            largest: "solver",
+        };
+        if let Some(compared) = headline {
+            budget.add(compared, bodies);
+        }
+        let mut most = solver;
+        for (name, error) in [("grid", budget.grid), ("sample", budget.sample), ("model", budget.model)] {
+            if let Some(error) = error
+                && error >= most
+                && error > 0.0
+            {
+                budget.largest = name;
+                most = error;
+            }
+        }
+        budget
+    }
+
+    fn add(&mut self, compared: &Compared, bodies: Bodies) {
+        let difference = compared.difference();
+        self.difference = Some(difference);
+        self.sample = compared.error.map(|error| error / compared.ratio);
+        self.grid = compared.grid;
+        if bodies.line_is_exact {
+            // The difference is the error of the squares.
+            self.grid = Some(difference.abs().max(compared.grid.unwrap_or(0.0)));
+            self.model = Some(0.0);
+            return;
+        }
+        // Bodies that are not random have no error of a sample.
+        let sample = if bodies.are_random { compared.error } else { Some(0.0) };
+        if let (Some(sample), Some(grid)) = (sample, compared.grid) {
+            self.model = Some((difference.abs() - sample - grid * compared.ratio).max(0.0));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::compared::Values;
+    use super::*;
+
+    const RANDOM: Bodies = Bodies { are_random: true, line_is_exact: false };
+
+    /// A ratio of `lines`/2 with the error `error` in a comparison whose coarse squares differ by `grid`.
+    fn compared(lines: f64, error: Option<f64>, grid: Option<f64>) -> Compared {
+        let values = Values { lines: vec![lines; 2], squares: vec![2.0; 2], coarse: Vec::new() };
+        Compared { error, grid, ..values.compared().unwrap() }
+    }
+
+    #[test]
+    fn the_model_is_what_exceeds_sample_and_grid() {
+        let budget = |compared: Compared| ReferenceBudget::new(1e-9, Some(&compared), RANDOM);
+        let within = budget(compared(2.08, Some(0.45), Some(0.1)));
+        assert!((within.difference.unwrap() - 0.04).abs() < 1e-12);
+        assert_eq!((within.model, within.largest), (Some(0.0), "sample"));
+        let coarse = budget(compared(2.08, Some(0.05), Some(0.1)));
+        assert_eq!((coarse.model, coarse.largest), (Some(0.0), "grid"));
+        // 8 against 2: 3 above 1, of which 1 is the sample and 4 times 0.1 the grid.
+        let far = budget(compared(8.0, Some(1.0), Some(0.1)));
+        assert!((far.model.unwrap() - 1.6).abs() < 1e-12 && far.largest == "model", "{far:?}");
+        assert!((far.sample.unwrap() - 0.25).abs() < 1e-12);
+        let below = budget(compared(1.0, Some(0.1), Some(0.2)));
+        assert!((below.model.unwrap() - 0.3).abs() < 1e-12 && below.difference == Some(-0.5), "{below:?}");
+    }
+
+    #[test]
+    fn an_unknown_error_leaves_the_model_unknown() {
+        for (error, grid) in [(None, Some(0.1)), (Some(0.1), None), (None, None)] {
+            let compared = compared(8.0, error, grid);
+            assert_eq!(ReferenceBudget::new(1e-9, Some(&compared), RANDOM).model, None);
+        }
+        let none = ReferenceBudget::new(1e-9, None, RANDOM);
+        assert_eq!((none.difference, none.model, none.largest), (None, None, "solver"));
+    }
+
+    /// A smooth square differs from a line of the same length, and the line of a body of revolution is exact.
+    #[test]
+    fn a_smooth_body_has_no_sample() {
+        let alone = compared(2.2, None, Some(0.03));
+        let flat = Bodies { are_random: false, line_is_exact: false };
+        let budget = ReferenceBudget::new(0.0, Some(&alone), flat);
+        assert!((budget.model.unwrap() - 0.067).abs() < 1e-12 && budget.largest == "model", "{budget:?}");
+        let sphere = Bodies { are_random: false, line_is_exact: true };
+        let budget = ReferenceBudget::new(0.0, Some(&alone), sphere);
+        assert!((budget.grid.unwrap() - 0.1).abs() < 1e-12 && budget.largest == "grid", "{budget:?}");
+        assert_eq!(budget.model, Some(0.0));
+        let same = ReferenceBudget::new(1e-9, Some(&compared(2.0, None, None)), sphere);
+        assert_eq!((same.grid, same.largest), (Some(0.0), "solver"));
+    }
+}
