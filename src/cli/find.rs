@@ -15,10 +15,12 @@ Examples:
   asperity find preload pressure-sensitive --where 'F_a/F_a,max = 20 %'
   asperity find adhesion.work rough-sphere --where 'F_a = 2 uN' --profiles 32
   asperity find roughness.rms_height my-scene.ron --where 'F_a/F_n = 0.1' --range 10nm..1um
-  asperity find preload my-scene.ron --where 'dissipated energy = 2 pJ' --format json | jq .median
+  asperity find preload my-scene.ron --where 'dissipated energy = 2 pJ' --format json | jq .value
 
 Each random profile is searched for itself; the answer is median, quartiles and range. A preload
-replaces the loading of the scene, and the adhesion force over it is the exact staircase.";
+replaces the loading of the scene. Over it F_a, F_a/F_n, the dissipated energy and the contact length
+have exact answers. Any other quantity is computed at several values, and where it comes close to the
+wanted value between two of them, the answer says that crossings may be missed.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]

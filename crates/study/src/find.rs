@@ -342,4 +342,121 @@ mod tests {
         assert!((part.quantile(0.25).unwrap() / values[1] - 1.0).abs() < 1e-8);
         assert_eq!(part.range().map(|ends| (ends.0 / values[0] - 1.0).abs() < 1e-8), Some(true));
     }
+
+    /// F_a of a sphere does not depend on the preload: F_a/F_n has its only crossing at F_a divided by the ratio.
+    #[test]
+    fn ratios_are_found_from_no_preload_upwards() {
+        let sphere = scene("jkr-sphere", 1 << 10);
+        let force = alone(&sphere, 0, Move::ToForce(1e-6), Quantity::AdhesionForce);
+        for ratio in [1e-2, 1.0, 100.0, 1e6] {
+            let found = asked(&sphere, "preload", &format!("F_a/F_n = {ratio}"), 1, None, 1).unwrap();
+            let answer = &found.answers[0];
+            assert_eq!((answer.crossings.len(), answer.is_proven, answer.may_miss), (1, true, false));
+            let preload = found.values()[0].unwrap();
+            assert!((preload * ratio / force - 1.0).abs() < 1e-12, "{ratio}: {preload}");
+            let there = alone(&sphere, 0, Move::ToForce(preload), Quantity::AdhesionCoefficient);
+            assert!((there / ratio - 1.0).abs() < 1e-12, "{there}");
+        }
+        // Beyond the range on either side.
+        let range = |ends| asked(&sphere, "preload", "F_a/F_n = 100", 1, Some(ends), 1).unwrap();
+        for (ends, reached) in
+            [((1e-6, 1e-3), [false; 2]), ((0.0, 1e-7), [true; 2]), ((1e-9, 1e-7), [true; 2])]
+        {
+            let found = range(ends);
+            assert_eq!((found.values(), found.unreached()), (vec![None], 1), "{ends:?}");
+            assert_eq!(found.answers[0].reached[1], reached[1], "{ends:?}");
+            assert!(found.answers[0].is_proven);
+        }
+        // A pull has no ratio.
+        assert!((range((-1e-6, 1e-3)).values()[0].unwrap() * 100.0 / force - 1.0).abs() < 1e-12);
+        let pulled = asked(&sphere, "preload", "F_a/F_n = 100", 1, Some((-1e-6, -1e-7)), 1).unwrap_err();
+        assert!(pulled.contains("the scene has no F_a/F_n"), "{pulled}");
+    }
+
+    /// The value at an end of the range, and the value on a stair of F_a, are reached there.
+    #[test]
+    fn targets_at_the_ends_and_on_stairs_are_reached_where_they_begin() {
+        let sphere = scene("jkr-sphere", 1 << 10);
+        let with_radius = |radius| {
+            let scene = sphere.with(|scene| scene.form = Some(asperity_surface::Form::Paraboloid { radius }));
+            alone(&scene.unwrap(), 0, Move::ToForce(1e-4), Quantity::AdhesionForce)
+        };
+        let condition = format!("F_a = {:e} N", with_radius(2e-4));
+        for ends in [(1e-4, 2e-4), (2e-4, 4e-4)] {
+            let found = asked(&sphere, "form.radius", &condition, 1, Some(ends), 1).unwrap();
+            assert_eq!(found.values(), [Some(2e-4)], "{ends:?}");
+        }
+        let rough = scene("pressure-sensitive", 2048);
+        let stair = alone(&rough, 5, Move::ToForce(1e-5), Quantity::AdhesionForce);
+        let ask = |range| asked(&rough, "preload", &format!("F_a = {stair:e} N"), 1, range, 1).unwrap();
+        let preload = ask(None).values()[0].unwrap();
+        let force = |preload| alone(&rough, 5, Move::ToForce(preload), Quantity::AdhesionForce);
+        assert!(preload < 1e-5 && force(preload) == stair && force(preload * (1.0 - 4.0 * WITHIN)) < stair);
+        // A range below the step, one on the stair, and one above the stair.
+        assert_eq!(ask(Some((0.0, 0.9 * preload))).values(), [None]);
+        assert_eq!(ask(Some((preload, 1e-5))).values(), [Some(preload)]);
+        let above = ask(Some((1e-3, 2e-3)));
+        assert_eq!((above.values(), above.answers[0].crossings.len()), (vec![Some(1e-3)], 0));
+        // One number is no range.
+        let one = asked(&rough, "preload", "F_a = 1 uN", 1, Some((1e-5, 1e-5)), 1).unwrap_err();
+        assert!(one.contains("allowed: two finite numbers, the first below the second"), "{one}");
+    }
+
+    #[test]
+    fn zero_and_negative_targets_are_found() {
+        let sphere = scene("jkr-sphere", 1 << 10);
+        let bare = sphere.with(|scene| scene.adhesion = None).unwrap();
+        for condition in ["F_a = 0 N", "F_a/F_n = 0", "dissipated energy = 0 J"] {
+            let free = asked(&bare, "preload", condition, 1, None, 1).unwrap();
+            assert_eq!(free.values(), [Some(0.0)], "{condition}");
+            let adhesive = asked(&sphere, "preload", condition, 1, None, 1).unwrap();
+            assert_eq!(adhesive.answers[0].crossings, [0.0; 0], "{condition}");
+        }
+        // The indentation at pull-off of a sphere falls as the work of adhesion rises.
+        let found = asked(&sphere, "adhesion.work", "pull_off_indentation = -200 nm", 1, None, 1).unwrap();
+        let work = found.values()[0].unwrap();
+        let with_work = sphere.with(|scene| scene.adhesion = Some(Adhesion::by_work(work))).unwrap();
+        let at = alone(&with_work, 0, Move::ToForce(1e-4), Quantity::PullOffIndentation);
+        assert!((at / -200e-9 - 1.0).abs() < 1e-6, "{at}");
+        // It does not depend on the preload.
+        let never = asked(&sphere, "preload", "pull_off_indentation = -200 nm", 1, None, 1).unwrap();
+        assert_eq!((never.values(), never.answers[0].may_miss), (vec![None], false));
+    }
+
+    /// Only whole waves are answers: another wavelength between two of them is the same contact.
+    #[test]
+    fn wavelengths_and_lengths_are_found_in_whole_waves() {
+        let document = open("pressure-sensitive").unwrap();
+        let waves = [("roughness.modes", "None"), ("roughness.wavelengths", "(2.5e-5, 1e-6)")];
+        let waves = waves.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let rough = document.set_all(&waves).unwrap().set("numerics.points", "1024").unwrap();
+        for (path, count) in [
+            ("roughness.wavelengths.0", (|number: f64| 1e-4 / number) as fn(f64) -> f64),
+            ("roughness.wavelengths.1", |number| 1e-4 / number),
+            ("length", |number| number / 2.5e-5),
+        ] {
+            let value = |number: f64| {
+                let set = rough.set(path, &format!("{number:?}")).unwrap();
+                alone(set.scene(), 5, Move::ToForce(2e-5), Quantity::AdhesionForce)
+            };
+            let scene =
+                rough.scene().with(|scene| scene.loading = vec![Move::ToForce(2e-5), Move::ToSeparation]);
+            let target = 0.9 * alone(rough.scene(), 5, Move::ToForce(2e-5), Quantity::AdhesionForce);
+            let found = asked(&scene.unwrap(), path, &format!("F_a = {target:e} N"), 1, None, 1).unwrap();
+            assert!(found.question.is_of_whole_waves());
+            assert!(!found.answers[0].crossings.is_empty(), "{path}");
+            for &crossing in &found.answers[0].crossings {
+                let waves = count(crossing).round();
+                assert!((count(crossing) / waves - 1.0).abs() < 1e-9, "{path}: {crossing}");
+                let per_wave = if path == "length" { crossing / waves } else { crossing * waves };
+                let of_waves =
+                    |waves: f64| if path == "length" { per_wave * waves } else { per_wave / waves };
+                let is_below = |waves: f64| waves >= 1.0 && value(of_waves(waves)) < target;
+                assert!(value(crossing) >= target, "{path}: {crossing}");
+                assert!(is_below(waves - 1.0) || is_below(waves + 1.0), "{path}: {crossing}");
+            }
+        }
+        let none = asked(rough.scene(), "roughness.wavelengths.0", "F_a = 1 uN", 1, Some((6e-5, 9e-5)), 1);
+        assert!(none.unwrap_err().contains("a number for which whole waves fit on the length"));
+    }
 }

@@ -65,7 +65,7 @@ pub struct Answer {
     pub seed: Option<u64>,
     /// Ascending values of the number at which the quantity crosses the target, or comes to rest on it. Each has a relative
     /// error of at most 1e-9. If only some values are allowed, such as whole numbers, it is the allowed value beside the
-    /// crossing at which the quantity is at least the target.
+    /// crossing at which the quantity is at least the target, but for rounding.
     pub crossings: Vec<f64>,
     /// True if there may be more crossings than the listed ones, since the quantity comes close to the target between two
     /// numbers at which it was computed. Also the first one may be missed.

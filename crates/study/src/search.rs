@@ -104,29 +104,15 @@ impl Search<'_> {
         }
         let found = ratio_crossings([from.max(0.0), to], target, &mut |numbers| self.climb(numbers))?;
         answer.may_miss = found.may_miss;
-        for crossing in found.numbers {
-            let number = self.at_least_target(crossing)?;
-            answer.crossings.push(number);
-        }
+        answer.crossings = found.numbers;
         Ok(())
-    }
-
-    /// Returns this preload, or the next smaller one at which the ratio F_a/F_n is at least the target in spite of rounding.
-    fn at_least_target(&mut self, preload: f64) -> Result<f64, RunError> {
-        for steps in 0..4 {
-            let lower = preload * (1.0 - f64::from(steps) * f64::EPSILON);
-            if self.value(lower)? >= self.question.target {
-                return Ok(lower);
-            }
-        }
-        Ok(preload)
     }
 
     /// Searches a quantity that is constant wherever F_a is.
     fn search_steps(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
         let target = self.question.target;
         let (pairs, may_miss) = step_crossings(coordinates, target, &mut |numbers| self.climb(numbers))?;
-        answer.is_proven = true;
+        answer.is_proven = !may_miss;
         answer.may_miss = may_miss;
         let first = self.known.first().filter(|first| first.value == target);
         answer.crossings.extend(first.map(|first| first.number));
@@ -162,35 +148,42 @@ impl Search<'_> {
     ) -> Result<(), RunError> {
         let target = self.question.target;
         for pair in tried.windows(2) {
-            let ends = [pair[0], pair[1]];
-            let falls_onto = match ends.map(|tried| side(tried, target)) {
-                [Some(Ordering::Less), Some(Ordering::Equal | Ordering::Greater)]
-                | [Some(Ordering::Greater), Some(Ordering::Less)] => false,
-                [Some(Ordering::Greater) | None, Some(Ordering::Equal)] => true,
-                _ => continue,
+            let sides = [side(pair[0], target), side(pair[1], target)];
+            let is_passed = match sides {
+                [Some(Ordering::Less), Some(other)] => other != Ordering::Less,
+                [Some(Ordering::Greater), Some(other)] => other != Ordering::Greater,
+                [None, Some(Ordering::Equal)] => true,
+                _ => false,
             };
-            let way = Passage { target, falls_onto };
-            let number = passage(coordinates, way, ends, &mut |number| self.value(number))?;
-            let number = self.first_on_target(coordinates, ends[0], number)?;
-            answer.crossings.push(number);
+            if is_passed {
+                let number = self.crossing(coordinates, pair[0], pair[1])?;
+                answer.crossings.push(number);
+            }
         }
         Ok(())
     }
 
-    /// Returns `end`, or the first number of a plateau on the target that ends there. The quantity begins above the target at
-    /// `from`, or below.
-    fn first_on_target(&mut self, coordinates: &Coordinates, from: Tried, end: f64) -> Result<f64, RunError> {
+    /// Returns the number between two others at which the quantity passes the target, or comes to rest on it.
+    fn crossing(&mut self, coordinates: &Coordinates, from: Tried, to: Tried) -> Result<f64, RunError> {
         let target = self.question.target;
-        let is_above = from.value > target;
-        if !is_above || from.number == end {
-            return Ok(end);
+        let (mut from, mut end) = (from, to);
+        let mut falls_onto = side(from, target) != Some(Ordering::Less) && end.value == target;
+        loop {
+            let way = Passage { target, falls_onto };
+            let number = passage(coordinates, way, [from, end], &mut |number| self.value(number))?;
+            if from.value < target || number == from.number {
+                return Ok(number);
+            }
+            let reached = Tried { number, value: self.value(number)? };
+            match side(reached, target) {
+                // A plateau on the target ends here. It may begin earlier.
+                Some(Ordering::Equal) if !falls_onto => (end, falls_onto) = (reached, true),
+                // The quantity falls through the target on the way.
+                Some(Ordering::Less) if from.value.is_nan() => (from, falls_onto) = (reached, false),
+                Some(Ordering::Less) if falls_onto => (end, falls_onto) = (reached, false),
+                _ => return Ok(number),
+            }
         }
-        let end = Tried { number: end, value: self.value(end)? };
-        if end.value != target {
-            return Ok(end.number);
-        }
-        let way = Passage { target, falls_onto: true };
-        passage(coordinates, way, [from, end], &mut |number| self.value(number))
     }
 
     /// Computes the quantity at one number; NaN if it has no value there.

@@ -91,8 +91,8 @@ pub fn answer(app: &App) -> Option<String> {
         (Err(why), _) => why.to_string(),
         (Ok(_), None) => "finding the value on all profiles…".to_owned(),
         (Ok(_), Some(Ok(found))) => {
-            let any =
-                found.question.is_of_preload() && found.quantile(0.5) == Some(found.question.searched.0);
+            let any = found.question.seeks_least_preload()
+                && found.quantile(0.5) == Some(found.question.searched.0);
             match value(found) {
                 Some(_) => found_in_words(found) + " Enter takes the median.",
                 None if any => format!("At any preload on most profiles. {}", found_in_words(found)),
@@ -105,7 +105,7 @@ pub fn answer(app: &App) -> Option<String> {
 
 /// The value to take: the median over the profiles, if the target needs one.
 fn value(found: &Found) -> Option<f64> {
-    let is_needed = |value: &f64| !found.question.is_of_preload() || *value > found.question.searched.0;
+    let is_needed = |value: &f64| !found.question.seeks_least_preload() || *value > found.question.searched.0;
     found.quantile(0.5).filter(is_needed)
 }
 
