@@ -530,9 +530,7 @@ impl Warning {
             Warning::UnresolvedSpectrum => "roughness.continue_to continues it as a power law.",
             Warning::OffsetRows => "Rows that are not levelled one by one keep these waves.",
             Warning::WavesApart { .. } => "Level the rows before, or choose one by roughness.row.",
-            Warning::TipArtefacts { .. } => {
-                "A sharper tip resolves them; the radius of the tip is stated by roughness.tip_radius."
-            }
+            Warning::TipArtefacts { .. } => "A sharper tip resolves these waves.",
         };
         remedy.to_owned()
     }
@@ -541,6 +539,14 @@ impl Warning {
 impl Display for Warning {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
         write!(formatter, "{} {}", self.sentence(), self.remedy())
+    }
+}
+
+/// A warning is written as its text.
+#[cfg(feature = "files")]
+impl serde::Serialize for Warning {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use asperity_data::{AxisScale, Table, Warning, format_quantity, format_rounded, grouped};
+use crate::warnings::warnings_section;
+use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped};
 use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
@@ -90,8 +91,6 @@ impl Report for FitReport<'_> {
         }
         if let Some(number) = fit.tabor {
             sheet.paragraph(&format!("Tabor number μ = {}.", format_quantity(number, "1")));
-            let warning = Warning::of_tabor_number(number);
-            warning.iter().for_each(|warning| sheet.paragraph(&warning.to_string()));
         }
         let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
         if let Some((one, other, value)) = strongest {
@@ -106,6 +105,7 @@ impl Report for FitReport<'_> {
         if fit.document.scene().roughness.is_some() {
             sheet.paragraph(ROUGH);
         }
+        warnings_section(&mut sheet, &fit.warnings);
         Some(sheet.into_text())
     }
 

@@ -67,5 +67,5 @@ pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
 pub use trust::{error_rows, theory_rows};
-pub use warnings::{counted_section, counted_text, warning_texts, warnings_section};
+pub use warnings::{counted_section, counted_texts, warning_texts, warnings_section};
 pub use work_precision::work_precision;

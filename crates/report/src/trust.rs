@@ -120,15 +120,55 @@ mod tests {
     }
 
     #[test]
-    fn a_summary_begins_with_the_theory_that_does_not_apply() {
+    fn a_summary_names_the_theory_that_does_not_apply() {
         let hard = scene(&[("material", "(effective_modulus: 2.0e11)"), ("adhesion", "(work: 0.05)")]);
         let outcome = run(&hard).unwrap();
         let text = crate::summary::brief_summary(hard.scene(), &outcome);
         assert!(
-            text.starts_with("JKR theory and the rule of Hess do not apply: the Tabor number 0."),
+            text.contains("* JKR theory and the rule of Hess do not apply: the Tabor number 0."),
             "{text}"
         );
-        assert_eq!(without_jkr(&run(&scene(&[])).unwrap()), None);
+        assert_eq!(run(&scene(&[("roughness.modes", "(4, 256)")])).unwrap().warnings, []);
+    }
+
+    /// No error is stated for a contact that reaches the ends of its profile, and none is named as the largest one.
+    #[test]
+    fn no_error_is_stated_where_the_contact_reaches_the_ends() {
+        let fields = [("length", "2.0e-5"), ("material", "(effective_modulus: 1.0e6)")];
+        let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("jkr-sphere").unwrap().set_all(&fields).unwrap();
+        let outcome = run(&document).unwrap();
+        let own = asperity_scene::estimate(document.scene(), std::path::Path::new(""), &outcome, &|| false);
+        assert_eq!(own, None);
+        // Also if somebody states one.
+        let evidence = asperity_scene::discretisation::Evidence::ClosedForm;
+        let target = asperity_scene::discretisation::Target::AdhesionForce;
+        let stated = Estimate { target, error: 7e-4, near_step: false, evidence };
+        let budget = Budget::of(&outcome, Some(&stated), None, None).unwrap();
+        assert_eq!(budget.largest, None);
+        let rows = error_rows(document.scene(), &outcome, own.as_ref(), &budget, None);
+        assert!(
+            rows[3].1.starts_with("not known: a premise") && rows[4].1.starts_with("not known: a premise")
+        );
+        let report = crate::RunReport {
+            title: "",
+            scene: document.scene(),
+            outcome: &outcome,
+            choice: None,
+            estimate: Some(&stated),
+            ensemble: None,
+            deviation: None,
+        };
+        use crate::report::Report;
+        let text = report.text().unwrap();
+        assert!(text.contains("error unknown") && !text.contains("grid ±"), "{text}");
+        let mut json = Vec::new();
+        report.json().unwrap().write_json(&mut json, &[]).unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+        assert_eq!(json["adhesion_force_error"], serde_json::Value::Null);
+        assert!(
+            json["warnings"][0].as_str().unwrap().starts_with("The contact reaches an end of the profile")
+        );
     }
 
     #[test]

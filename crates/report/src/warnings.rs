@@ -12,17 +12,20 @@ pub fn warnings_section(sheet: &mut Sheet, warnings: &[Warning]) {
 
 /// Adds a section with the premises that an ensemble of random profiles does not meet, each with the number of profiles.
 pub fn counted_section(sheet: &mut Sheet, warnings: &[CountedWarning], profiles: u64) {
-    let sentences: Vec<String> = warnings.iter().map(|counted| counted_text(counted, profiles)).collect();
-    sentences_section(sheet, &sentences);
+    sentences_section(sheet, &counted_texts(warnings, profiles));
 }
 
-/// Returns a premise that does not hold on some of `profiles` random profiles: `On 12 of 16 profiles: ` and the warning. The count
-/// is left out if the premise does not hold on any profile.
-pub fn counted_text(counted: &CountedWarning, profiles: u64) -> String {
-    if counted.profiles == profiles {
-        return counted.warning.to_string();
+/// Returns the premises that do not hold on some of `profiles` random profiles: `On 12 of 16 profiles: ` and the warning. The
+/// count is left out if the premise does not hold on any profile.
+pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> {
+    let mut texts = Vec::with_capacity(warnings.len());
+    for counted in warnings {
+        let text = counted.warning.to_string();
+        let is_everywhere = counted.profiles == profiles;
+        let share = format!("On {} of {} profiles: ", grouped(counted.profiles), grouped(profiles));
+        texts.push(if is_everywhere { text } else { share + &text });
     }
-    format!("On {} of {} profiles: {}", grouped(counted.profiles), grouped(profiles), counted.warning)
+    texts
 }
 
 /// Returns the entry `warnings` of the JSON object of an ensemble: for each premise its name, the number of profiles that do not

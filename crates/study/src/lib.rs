@@ -17,6 +17,7 @@
 //! Programs with figures and tables use further names in the modules [`folders`], [`maps`], [`checks`], [`half_space`] and
 //! [`trust`].
 
+mod answer_warnings;
 mod axis;
 mod boundary;
 mod bracket;
@@ -68,6 +69,7 @@ mod store;
 mod study_map;
 mod tables;
 
+pub use answer_warnings::warnings_of;
 pub use axis::{Axis, Spacing};
 pub use compute::compute;
 pub use ensemble::{Ensemble, ensemble};

@@ -87,6 +87,14 @@ fn same(one: &[f64], other: &[f64]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(equal)
 }
 
+/// Counts a warning of one more profile.
+fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
+    match counted.iter_mut().find(|known| known.warning.name() == warning.name()) {
+        Some(known) => known.profiles += 1,
+        None => counted.push(CountedWarning { warning: warning.clone(), profiles: 1 }),
+    }
+}
+
 fn same_record(one: &Recorded, other: &Recorded) -> bool {
     match (one, other) {
         (Ok(one), Ok(other)) => same(one, other),
@@ -317,9 +325,23 @@ impl Results {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut counted: Vec<CountedWarning> = Vec::new();
         for warning in self.warnings.range(places).flat_map(|(_, warnings)| warnings) {
-            match counted.iter_mut().find(|known| known.warning.name() == warning.name()) {
-                Some(known) => known.profiles += 1,
-                None => counted.push(CountedWarning { warning: warning.clone(), profiles: 1 }),
+            count(&mut counted, warning);
+        }
+        counted
+    }
+
+    /// Returns the premises of the model that profiles do not meet in any [cell](Plan), each with the number of these profiles.
+    pub fn all_warnings(&self) -> Vec<CountedWarning> {
+        let mut counted: Vec<CountedWarning> = Vec::new();
+        for line in 0..self.plan.lines {
+            let places = (0..self.plan.cells()).map(|cell| cell * self.plan.lines + line);
+            let of_profile: Vec<&Warning> =
+                places.filter_map(|place| self.warnings.get(&place)).flatten().collect();
+            let mut names = BTreeSet::new();
+            for warning in of_profile {
+                if names.insert(warning.name()) {
+                    count(&mut counted, warning);
+                }
             }
         }
         counted
