@@ -269,6 +269,8 @@ class Texts(InFolder):
         several = asp.measured("line.txt", unit="um", further_files=Path("line.txt"))
         self.assertEqual(several.values["further_files"], [str(Path("line.txt").absolute())])
         self.assertEqual(asp.measured('a"b\\c.txt').values["file"], str(Path('a"b\\c.txt').absolute()))
+        channels = [asp.measured("line.txt", channel=channel).values for channel in (2, "height")]
+        self.assertEqual((channels[0]["channel"], channels[1]["surface_name"]), (2, "height"))
         rough = asp.self_affine(0.7, rms_height="10 nm", modes=(4, 64))
         self.assertIn("seed: 1", asp.scene("pressure-sensitive", roughness=rough).text)
         self.assertIn('unit: "um"', asp.scene(asp.profile("100 µm", 1024, roughness=numbers), modulus=1e6).text)
@@ -447,7 +449,7 @@ class Words(InFolder):
         self.assertEqual(found.value, found.median)
         self.assertEqual(found.target, 0.2)
         for name in ["items", "keys", "pop", "get", "update"]:
-            with self.assertRaisesRegex(AttributeError, f"no '{name}'; allowed: scene, field"):
+            with self.assertRaisesRegex(AttributeError, f"no '{name}'; allowed: scene, .*field"):
                 getattr(found, name)
         values = asp.Values(values=3, items=4)
         self.assertEqual((values.values, values.items, list(values.keys()), dict(values)), (3, 4, ["values", "items"], {"values": 3, "items": 4}))

@@ -530,9 +530,7 @@ impl Warning {
             Warning::UnresolvedSpectrum => "roughness.continue_to continues it as a power law.",
             Warning::OffsetRows => "Rows that are not levelled one by one keep these waves.",
             Warning::WavesApart { .. } => "Level the rows before, or choose one by roughness.row.",
-            Warning::TipArtefacts { .. } => {
-                "A sharper tip resolves them; the radius of the tip is stated by roughness.tip_radius."
-            }
+            Warning::TipArtefacts { .. } => "A sharper tip resolves these waves.",
         };
         remedy.to_owned()
     }

@@ -6,9 +6,9 @@ use crate::sheet::Sheet;
 use crate::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
 use crate::warnings::{sentences_section, warning_texts};
 use asperity_contact::Move;
-use asperity_data::{Kind, Table, format_quantity, format_range, grouped, path_name, per_cent};
+use asperity_data::{Kind, Table, Warning, format_quantity, format_range, grouped, path_name, per_cent};
 use asperity_plot::Figure;
-use asperity_scene::{CheckedScene, Scene};
+use asperity_scene::{CheckedScene, Governing, Scene};
 use asperity_study::RegimeCounts;
 use asperity_study::trust::{MeasuredAdhesion, ProfileAdhesion};
 use asperity_surface::spectra::{Along, Bin, End, Node};
@@ -45,6 +45,18 @@ pub struct SurfaceReport {
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
+impl SurfaceReport {
+    /// Returns a warning if attraction has too long a range for the summits of the surface; `None` without a modulus and a work
+    /// of adhesion.
+    fn of_tabor_number(&self) -> Option<Warning> {
+        let (scene, _) = self.adhesion.as_ref()?;
+        let modes = self.line.modes(scene.length, scene.numerics.points as usize).ok()?;
+        let amplitude = self.line.amplitude_of_modes(scene.length, modes);
+        let governing = Governing::of(scene, None, Some(amplitude));
+        governing.tabor_number(scene).and_then(Warning::of_tabor_number)
+    }
+}
+
 impl Report for SurfaceReport {
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
@@ -78,6 +90,7 @@ impl Report for SurfaceReport {
             let whose = if number == 0 { "" } else { "opposite face: " };
             warnings.extend(face.warnings().iter().map(|warning| format!("{whose}{warning}")));
         }
+        warnings.extend(self.of_tabor_number().iter().map(Warning::to_string));
         sentences_section(&mut sheet, &warnings);
         Some(sheet.into_text())
     }
@@ -99,11 +112,15 @@ impl Report for SurfaceReport {
                 lines: &computed.profiles,
             }
         });
+        let of_first = FaceJson::new(first);
+        let mut warnings = of_first.warnings;
+        warnings.extend(self.of_tabor_number().iter().map(Warning::to_string));
         Some(Box::new(FaceJson {
             equivalent_line: Some(self.moments()),
             adhesion: Some(adhesion),
             opposite: others.first().map(|face| Box::new(FaceJson::new(face))),
-            ..FaceJson::new(first)
+            warnings,
+            ..of_first
         }))
     }
 
