@@ -1,6 +1,6 @@
 //! One criterion of adhesion: its number, its threshold, and whether it holds.
 
-use asperity_data::{format_quantity, format_rounded};
+use asperity_data::{Warning, format_quantity, format_rounded};
 use serde::Serialize;
 
 /// Criterion by which one theory decides whether bodies adhere without a preload: a number of the scene and its threshold.
@@ -27,7 +27,7 @@ pub struct Criterion {
 impl Criterion {
     /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the rule of Hess for the largest
     /// stretch of a spring applies.
-    pub const LEAST_TABOR_NUMBER: f64 = 1.0;
+    pub const LEAST_TABOR_NUMBER: f64 = Warning::LEAST_TABOR_NUMBER;
 
     /// Makes a criterion without a number.
     pub(super) const fn new(
