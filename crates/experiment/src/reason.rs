@@ -177,7 +177,7 @@ pub(crate) fn reason(
 }
 
 /// Returns the reason if the contact fills its profile or has few springs.
-fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
+pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
     let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).ok()?;
     let points = || outcome.history.legs.iter().flat_map(|leg| &leg.curve);
     let length = ends(points().map(|point| point.contact_length)).1;

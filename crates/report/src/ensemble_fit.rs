@@ -33,6 +33,9 @@ impl Report for EnsembleFitReport<'_> {
         if let Some(text) = self.not_described() {
             sheet.paragraph(&text);
         }
+        if let Some(reason) = &fit.unsuitable_profile {
+            sheet.paragraph(&format!("{reason} γ and E* are wrong without it."));
+        }
         sheet.heading(&format!("Many random profiles of {title}"));
         fit.instrument.iter().for_each(|text| sheet.paragraph(text));
         let number = fit.curves.len();

@@ -220,7 +220,7 @@ impl FitsReport<'_> {
                 grouped(self.rows.len() as u64)
             ));
         }
-        if !self.free.contains(&Parameter::Offset) {
+        if !self.free.contains(&Parameter::Offset) && without < self.rows.len() {
             text.push(format!(
                 "The offset was not fitted, so the intervals leave out that first touch is known to the distance of two points \
                  only: --free {} fits it.",

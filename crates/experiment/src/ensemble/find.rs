@@ -1,7 +1,7 @@
 //! The steps of a comparison of measured curves with random profiles.
 
 use super::compared::Compared;
-use super::computed::Specimen;
+use super::computed::{Place, Specimen, seed_of};
 use super::deviation::{Response, deviations};
 use super::measured::Measured;
 use super::place::placed;
@@ -11,9 +11,11 @@ use super::shifts::Shifts;
 use super::table::{Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
+use crate::reason::{Reason, of_profile};
 use crate::scene::wrong;
+use asperity_contact::Move;
 use asperity_data::{Control, format_quantity, mean};
-use asperity_scene::{Document, Roughness, Scene, Simulation, Solver};
+use asperity_scene::{Adhesion, Document, Material, Roughness, Scene, Simulation, Solver, Strength};
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
@@ -32,6 +34,8 @@ const SAME_STIFFNESS: f64 = 0.01;
 const NORMAL: f64 = 1.96;
 /// Largest standard error of the roughness for which the results change in proportion to the error.
 const MOST_ERROR: f64 = 0.5;
+/// Number of random profiles whose contact is examined.
+const EXAMINED: u64 = 5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
@@ -163,6 +167,7 @@ fn compare(
         prospects: PROSPECTS.into_iter().filter(|one| *one > curves.len() as u64).map(prospect).collect(),
         roughness,
         instrument: instrument.clone(),
+        unsuitable_profile: unsuitable_profile(&workers, best, mean(&measured.preloads)),
         lines: options.lines,
         computed: computed.load(Ordering::Relaxed),
         preload: mean(&measured.preloads),
@@ -173,6 +178,29 @@ fn compare(
         deviations,
         at_end_of_table: !posterior.beyond().is_empty(),
     })
+}
+
+/// Returns why most of a few random profiles are not suitable for a contact with the parameters of a place.
+fn unsuitable_profile(workers: &Workers<'_>, place: Place, preload: f64) -> Option<Reason> {
+    let Specimen { scene, closing, .. } = workers.specimen;
+    let [work, modulus] = place.parameters().map(f64::exp);
+    let mut simulation = Simulation::new(workers.folder.to_path_buf());
+    let mut found = Vec::new();
+    for line in 0..EXAMINED {
+        let profile = scene.with(|scene| {
+            scene.material = Material::effective(modulus);
+            let closing = (closing != 1.0).then_some(closing * work);
+            let strength = Strength::Work { opening: work, closing };
+            scene.adhesion = scene.adhesion.map(|adhesion| Adhesion { strength, ..adhesion });
+            scene.loading = vec![Move::ToForce(preload), Move::ToSeparation];
+            scene.set_seed(seed_of(workers.specimen.scene, line));
+        });
+        found.extend(of_profile(&profile.ok()?, &mut simulation));
+    }
+    if 2 * found.len() <= EXAMINED as usize {
+        return None;
+    }
+    found.first().copied()
 }
 
 /// Returns the scene with the stiffness of the instrument that the files state, and this change in words.
@@ -241,7 +269,6 @@ fn check(
 mod tests {
     use super::*;
     use crate::ensemble::specimens::{curve, document, scene};
-    use asperity_scene::Adhesion;
 
     const OPTIONS: EnsembleOptions =
         EnsembleOptions { lines: 16, is_modulus_free: false, height_error: None, hurst_error: None };
@@ -294,6 +321,17 @@ mod tests {
         let wider = found(&others, &scene, stated).unwrap();
         let added = NORMAL * 0.1 * shifts.work_by_height;
         assert!((wider.work.half_width() - fit.work.half_width().hypot(added)).abs() < 0.02 * added);
+    }
+
+    /// A profile that is shorter than the contact is named.
+    #[test]
+    fn a_contact_that_fills_its_profile_is_named() {
+        let (scene, all) = curves(2, None);
+        assert_eq!(found(&all, &scene, OPTIONS).unwrap().unsuitable_profile, None);
+        let mut short = scene.clone();
+        short.length = 2e-5;
+        let fit = found(&all, &short, OPTIONS).unwrap();
+        assert_eq!(fit.unsuitable_profile, Some(Reason::ShortProfile(2e-5)));
     }
 
     #[test]

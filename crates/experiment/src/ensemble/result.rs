@@ -1,6 +1,7 @@
 //! The result of a comparison of curves with random profiles.
 
 use super::posterior::IntervalEstimate;
+use crate::reason::Reason;
 
 /// Options of [`fit_ensemble`](crate::fit_ensemble), which compares measured curves with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +42,9 @@ pub struct EnsembleFit {
     /// otherwise `None`.
     #[serde(skip)]
     pub instrument: Option<String>,
+    /// Why the profiles of the scene are not suitable with the fitted values: the contact fills most of the examined profiles,
+    /// or few springs are in contact. `None` if they are suitable.
+    pub unsuitable_profile: Option<Reason>,
     /// Number of random profiles with which the curves were compared.
     pub lines: u64,
     /// Number of force curves computed on these profiles.
