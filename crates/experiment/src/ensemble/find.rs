@@ -8,7 +8,7 @@ use super::place::placed;
 use super::posterior::IntervalEstimate;
 use super::result::{EnsembleFit, EnsembleOptions, Prospect, Shares};
 use super::shifts::Shifts;
-use super::table::{Table, Workers, nodes};
+use super::table::{End, Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
 use crate::reason::{Reason, of_profile};
@@ -126,7 +126,10 @@ fn compare(
     let best = posterior.best();
     let response = Response::at(&compared.scatter, best, known.is_none());
     let shifts = Shifts { workers: &workers, compared: &compared, measured: &measured, response: &response };
-    let roughness = shifts.at(best, options.lines)?;
+    // Curves without adhesion do not change with γ, and no change of γ makes up for a change of the roughness.
+    let beyond = posterior.beyond();
+    let work_at_most = beyond.contains(&End::LowRange).then(|| posterior.most_work());
+    let roughness = if work_at_most.is_some() { None } else { shifts.at(best, options.lines)? };
     let by_roughness = |by_height: f64, by_hurst: f64| {
         let [height, hurst] = [options.height_error, options.hurst_error].map(Option::unwrap_or_default);
         NORMAL * (by_height * height).hypot(by_hurst * hurst)
@@ -154,7 +157,8 @@ fn compare(
     let learned = |line: usize, node: usize| compared.learned[line][node];
     let deviations = deviations(&table, &learned, &response, best, &measured.mean());
     Ok(EnsembleFit {
-        work,
+        work: work_at_most.map_or(work, |most| work.at_most(most)),
+        work_at_most,
         modulus,
         modulus_is_given: known.is_some(),
         closing_over_opening: closing,
@@ -164,7 +168,11 @@ fn compare(
             profiles: square / lines / variance / all,
             roughness: of_roughness[0].powi(2) / all,
         },
-        prospects: PROSPECTS.into_iter().filter(|one| *one > curves.len() as u64).map(prospect).collect(),
+        prospects: PROSPECTS
+            .into_iter()
+            .filter(|one| *one > curves.len() as u64 && work_at_most.is_none())
+            .map(prospect)
+            .collect(),
         roughness,
         instrument: instrument.clone(),
         unsuitable_profile: unsuitable_profile(&workers, best, mean(&measured.preloads)),
@@ -176,7 +184,7 @@ fn compare(
         scatter_ratio: compared.scatter_ratio(&measured, best),
         described: deviations.iter().all(|one| !one.deviates),
         deviations,
-        at_end_of_table: !posterior.beyond().is_empty(),
+        at_end_of_table: !beyond.is_empty(),
     })
 }
 
@@ -321,6 +329,22 @@ mod tests {
         let wider = found(&others, &scene, stated).unwrap();
         let added = NORMAL * 0.1 * shifts.work_by_height;
         assert!((wider.work.half_width() - fit.work.half_width().hypot(added)).abs() < 0.02 * added);
+    }
+
+    /// Curves without adhesion give an upper bound of γ and no other number that depends on it.
+    #[test]
+    fn curves_without_adhesion_have_an_upper_bound_of_it() {
+        let (scene, _) = curves(0, None);
+        let bare = Scene { adhesion: Some(Adhesion::by_work(1e-8)), ..scene.clone() };
+        let mut simulation = Simulation::default();
+        let all: Vec<_> =
+            (0..4).map(|seed| (seed.to_string(), curve(&mut simulation, &bare, 70 + seed, 0.01))).collect();
+        let fit = found(&all, &scene, EnsembleOptions { lines: 64, ..OPTIONS }).unwrap();
+        let most = fit.work_at_most.unwrap();
+        assert!((1e-5..0.03).contains(&most), "{most:e}");
+        assert_eq!((fit.work.low, fit.work.high, fit.roughness), (0.0, most, None));
+        assert!(fit.work.value <= most && fit.prospects.is_empty() && fit.at_end_of_table);
+        assert!((fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12, "{:?}", fit.shares);
     }
 
     /// A profile that is shorter than the contact is named.
