@@ -165,7 +165,7 @@ pub(crate) fn reason(
 }
 
 /// Returns the reason if the contact reaches the ends of its profile or has few springs.
-fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
+pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
     let outcome = simulation.compute(scene).ok()?;
     outcome.warnings.iter().find_map(|warning| match warning {
         Warning::ContactAtEnds { length } => Some(Reason::ShortProfile(*length)),

@@ -33,16 +33,22 @@ impl Report for EnsembleFitReport<'_> {
         if let Some(text) = self.not_described() {
             sheet.paragraph(&text);
         }
+        if let Some(reason) = &fit.unsuitable_profile {
+            sheet.paragraph(&reason.to_string());
+        }
         sheet.heading(&format!("Many random profiles of {title}"));
         fit.instrument.iter().for_each(|text| sheet.paragraph(text));
         let number = fit.curves.len();
         let curves = if number == 1 { "1 curve".to_owned() } else { format!("{number} curves") };
         let spectrum = if has_roughness_errors { "this roughness" } else { "exactly this roughness" };
-        sheet.paragraph(&format!(
-            "γ = {}, from {curves} and {} random profiles of {spectrum}.",
-            with_interval(&fit.work, "J/m²"),
-            grouped(fit.lines)
-        ));
+        let profiles = format!("from {curves} and {} random profiles of {spectrum}", grouped(fit.lines));
+        sheet.paragraph(&match fit.work_at_most {
+            Some(most) => format!(
+                "γ is at most {} (95 %), {profiles}: curves without adhesion do not differ from these.",
+                format_rounded(most, 2, "J/m²")
+            ),
+            None => format!("γ = {}, {profiles}.", with_interval(&fit.work, "J/m²")),
+        });
         let modulus = if fit.modulus_is_given {
             format!("E* = {}, given.", format_quantity(fit.modulus.value, "Pa"))
         } else {
@@ -67,7 +73,9 @@ impl Report for EnsembleFitReport<'_> {
         if has_roughness_errors {
             parts.push(format!("{} by the errors of the roughness", share(fit.shares.roughness)));
         }
-        sheet.paragraph(&format!("The squared width of the interval of γ: {}.", parts.join(", ")));
+        if fit.work_at_most.is_none() {
+            sheet.paragraph(&format!("The squared width of the interval of γ: {}.", parts.join(", ")));
+        }
         let prospects =
             fit.prospects.iter().map(|of| format!("{} curves ± {}", of.curves, per_cent(of.half_width)));
         let prospects: Vec<String> = prospects.collect();
@@ -75,7 +83,7 @@ impl Report for EnsembleFitReport<'_> {
             let profiles = grouped(fit.lines);
             sheet.paragraph(&format!("With {profiles} profiles γ by {}.", prospects.join(", ")));
         }
-        if fit.at_end_of_table {
+        if fit.at_end_of_table && fit.work_at_most.is_none() {
             sheet.paragraph(
                 "The interval reaches the end of the computed values, and may be wider: more curves, or E* from another \
                  measurement.",
@@ -151,6 +159,9 @@ impl Report for EnsembleFitReport<'_> {
             of.map(|(place, curve)| (place, curve.work.value)).collect()
         };
         let IntervalEstimate { value, low, high } = fit.work;
+        // The axis is logarithmic: an interval that begins at 0 is drawn from the lowest end of all curves.
+        let lowest = fit.curves.iter().map(|curve| curve.work.low).fold(value, f64::min);
+        let low = if low > 0.0 { low } else { lowest };
         let band = Shape::Band([0.5, last + 0.5].map(|place| (place, low, high)).to_vec());
         let bars = places().map(|(place, curve)| {
             let ends = vec![(place, curve.work.low), (place, curve.work.high)];
@@ -178,7 +189,10 @@ impl Report for EnsembleFitReport<'_> {
             "1",
         );
         let y = ChartAxis::new(scale, span, "work of adhesion", "γ", "J/m²");
-        let note = format!("all curves: γ = {}", with_interval(&fit.work, "J/m²"));
+        let note = match fit.work_at_most {
+            Some(most) => format!("all curves: γ is at most {} (95 %)", format_rounded(most, 2, "J/m²")),
+            None => format!("all curves: γ = {}", with_interval(&fit.work, "J/m²")),
+        };
         let charts = vec![Chart::new(x, y, layers)];
         let notes = vec![Label::plain(&note)];
         Some(Figure { title: title.to_owned(), notes, charts, size: Figure::SMALL, ..Figure::default() })

@@ -198,20 +198,17 @@ impl FitsReport<'_> {
             let [lower, median, upper] = found.quartiles;
             let median = format_quantity(median, row.unit);
             let quartiles = format_range((lower, upper), 4, row.unit);
+            let curves = if found.count == 1 { "curve" } else { "curves" };
             let count = grouped(found.count as u64);
             let name = format!("{}{} {}", row.term[..1].to_uppercase(), &row.term[1..], row.symbol);
-            format!("{name}: median {median}, quartiles {quartiles}, over {count} {of}.")
+            format!("{name}: median {median}, quartiles {quartiles}, over {count} {curves} {of}.")
         };
         let (described, others) = (self.values(true), self.values(false));
         let mut text = Vec::new();
         let has_others = !others.is_empty();
         let all = Self::distribution([described.clone(), others].concat());
-        text.extend(
-            Self::distribution(described).map(|found| sentence(found, "curves that the model describes")),
-        );
-        text.extend(
-            all.filter(|_| has_others).map(|found| sentence(found, "curves in all, described or not")),
-        );
+        text.extend(Self::distribution(described).map(|found| sentence(found, "that the model describes")));
+        text.extend(all.filter(|_| has_others).map(|found| sentence(found, "in all, described or not")));
         let without = self.failures().count();
         if without > 0 {
             text.push(format!(
@@ -220,7 +217,7 @@ impl FitsReport<'_> {
                 grouped(self.rows.len() as u64)
             ));
         }
-        if !self.free.contains(&Parameter::Offset) {
+        if !self.free.contains(&Parameter::Offset) && without < self.rows.len() {
             text.push(format!(
                 "The offset was not fitted, so the intervals leave out that first touch is known to the distance of two points \
                  only: --free {} fits it.",

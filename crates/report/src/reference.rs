@@ -579,7 +579,8 @@ mod tests {
         let options = ReferenceOptions { cells: 64, maps: 2, lines: 32 };
         let simulation = Simulation::default();
         let found = Reference::of(document.scene(), options, simulation, 2, &|| false, &mut |_| ()).unwrap();
-        let report = ReferenceReport { title: "Rough", scene: document.scene(), reference: &found };
+        let report =
+            ReferenceReport { title: "Rough", scene: document.scene(), reference: &found, warnings: &[] };
         let waves = ", of waves 4 to 8 of 4 to 512";
         let (rows, _) = report.errors();
         for (name, words) in &rows[1..4] {
@@ -589,7 +590,10 @@ mod tests {
         let text = report.text().unwrap();
         assert!(text.contains("rms height h") && text.contains("e_el/γ with adhesion"), "{text}");
         assert_eq!(text.contains("Left out are forces"), !found.left_out.is_empty(), "{text}");
-        let rows = crate::trust::error_rows(document.scene(), None, &Budget::default(), None, Some(&found));
+        let scene = document.scene();
+        let outcome = asperity_scene::run(&document).unwrap();
+        let budget = Budget::default();
+        let rows = crate::trust::error_rows(scene, &outcome, None, &budget, None, Some(&found));
         let row = rows.iter().find(|(name, _)| *name == "three dimensions").unwrap();
         assert!(row.1.ends_with(waves), "{row:?}");
         let model = rows.iter().find(|(name, _)| *name == "model").unwrap();
@@ -605,7 +609,8 @@ mod tests {
         let options = ReferenceOptions { cells: 64, maps: 1, lines: 1 };
         let simulation = Simulation::default();
         let found = Reference::of(document.scene(), options, simulation, 1, &|| false, &mut |_| ()).unwrap();
-        let report = ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found };
+        let report =
+            ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found, warnings: &[] };
         let (rows, largest) = report.errors();
         assert!(largest.starts_with("The largest is the grid"), "{largest}");
         assert!(rows.contains(&("model", "none: the line is exact for this body of revolution".to_owned())));

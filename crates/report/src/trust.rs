@@ -149,7 +149,7 @@ mod tests {
         let stated = Estimate { target, error: 7e-4, near_step: false, evidence };
         let budget = Budget::of(&outcome, Some(&stated), None, None).unwrap();
         assert_eq!(budget.largest, None);
-        let rows = error_rows(document.scene(), &outcome, own.as_ref(), &budget, None);
+        let rows = error_rows(document.scene(), &outcome, own.as_ref(), &budget, None, None);
         assert!(
             rows[3].1.starts_with("not known: a premise") && rows[4].1.starts_with("not known: a premise")
         );

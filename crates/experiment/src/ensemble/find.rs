@@ -1,19 +1,21 @@
 //! The steps of a comparison of measured curves with random profiles.
 
 use super::compared::Compared;
-use super::computed::Specimen;
+use super::computed::{Place, Specimen, seed_of};
 use super::deviation::{Response, deviations};
 use super::measured::Measured;
 use super::place::placed;
 use super::posterior::IntervalEstimate;
 use super::result::{EnsembleFit, EnsembleOptions, Prospect, Shares};
 use super::shifts::Shifts;
-use super::table::{Table, Workers, nodes};
+use super::table::{End, Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
+use crate::reason::{Reason, of_profile};
 use crate::scene::wrong;
+use asperity_contact::Move;
 use asperity_data::{Control, format_quantity, mean};
-use asperity_scene::{Document, Roughness, Scene, Simulation, Solver};
+use asperity_scene::{Adhesion, Document, Material, Roughness, Scene, Simulation, Solver, Strength};
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
@@ -32,6 +34,8 @@ const SAME_STIFFNESS: f64 = 0.01;
 const NORMAL: f64 = 1.96;
 /// Largest standard error of the roughness for which the results change in proportion to the error.
 const MOST_ERROR: f64 = 0.5;
+/// Number of random profiles whose contact is examined.
+const EXAMINED: u64 = 5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
@@ -122,7 +126,10 @@ fn compare(
     let best = posterior.best();
     let response = Response::at(&compared.scatter, best, known.is_none());
     let shifts = Shifts { workers: &workers, compared: &compared, measured: &measured, response: &response };
-    let roughness = shifts.at(best, options.lines)?;
+    // Curves without adhesion do not change with γ, and no change of γ makes up for a change of the roughness.
+    let beyond = posterior.beyond();
+    let work_at_most = beyond.contains(&End::LowRange).then(|| posterior.most_work());
+    let roughness = if work_at_most.is_some() { None } else { shifts.at(best, options.lines)? };
     let by_roughness = |by_height: f64, by_hurst: f64| {
         let [height, hurst] = [options.height_error, options.hurst_error].map(Option::unwrap_or_default);
         NORMAL * (by_height * height).hypot(by_hurst * hurst)
@@ -150,7 +157,8 @@ fn compare(
     let learned = |line: usize, node: usize| compared.learned[line][node];
     let deviations = deviations(&table, &learned, &response, best, &measured.mean());
     Ok(EnsembleFit {
-        work,
+        work: work_at_most.map_or(work, |most| work.at_most(most)),
+        work_at_most,
         modulus,
         modulus_is_given: known.is_some(),
         closing_over_opening: closing,
@@ -160,9 +168,14 @@ fn compare(
             profiles: square / lines / variance / all,
             roughness: of_roughness[0].powi(2) / all,
         },
-        prospects: PROSPECTS.into_iter().filter(|one| *one > curves.len() as u64).map(prospect).collect(),
+        prospects: PROSPECTS
+            .into_iter()
+            .filter(|one| *one > curves.len() as u64 && work_at_most.is_none())
+            .map(prospect)
+            .collect(),
         roughness,
         instrument: instrument.clone(),
+        unsuitable_profile: unsuitable_profile(&workers, best, mean(&measured.preloads)),
         lines: options.lines,
         computed: computed.load(Ordering::Relaxed),
         preload: mean(&measured.preloads),
@@ -171,8 +184,31 @@ fn compare(
         scatter_ratio: compared.scatter_ratio(&measured, best),
         described: deviations.iter().all(|one| !one.deviates),
         deviations,
-        at_end_of_table: !posterior.beyond().is_empty(),
+        at_end_of_table: !beyond.is_empty(),
     })
+}
+
+/// Returns why most of a few random profiles are not suitable for a contact with the parameters of a place.
+fn unsuitable_profile(workers: &Workers<'_>, place: Place, preload: f64) -> Option<Reason> {
+    let Specimen { scene, closing, .. } = workers.specimen;
+    let [work, modulus] = place.parameters().map(f64::exp);
+    let mut simulation = Simulation::new(workers.folder.to_path_buf());
+    let mut found = Vec::new();
+    for line in 0..EXAMINED {
+        let profile = scene.with(|scene| {
+            scene.material = Material::effective(modulus);
+            let closing = (closing != 1.0).then_some(closing * work);
+            let strength = Strength::Work { opening: work, closing };
+            scene.adhesion = scene.adhesion.map(|adhesion| Adhesion { strength, ..adhesion });
+            scene.loading = vec![Move::ToForce(preload), Move::ToSeparation];
+            scene.set_seed(seed_of(workers.specimen.scene, line));
+        });
+        found.extend(of_profile(&profile.ok()?, &mut simulation));
+    }
+    if 2 * found.len() <= EXAMINED as usize {
+        return None;
+    }
+    found.first().copied()
 }
 
 /// Returns the scene with the stiffness of the instrument that the files state, and this change in words.
@@ -241,7 +277,6 @@ fn check(
 mod tests {
     use super::*;
     use crate::ensemble::specimens::{curve, document, scene};
-    use asperity_scene::Adhesion;
 
     const OPTIONS: EnsembleOptions =
         EnsembleOptions { lines: 16, is_modulus_free: false, height_error: None, hurst_error: None };
@@ -294,6 +329,33 @@ mod tests {
         let wider = found(&others, &scene, stated).unwrap();
         let added = NORMAL * 0.1 * shifts.work_by_height;
         assert!((wider.work.half_width() - fit.work.half_width().hypot(added)).abs() < 0.02 * added);
+    }
+
+    /// Curves without adhesion give an upper bound of γ and no other number that depends on it.
+    #[test]
+    fn curves_without_adhesion_have_an_upper_bound_of_it() {
+        let (scene, _) = curves(0, None);
+        let bare = Scene { adhesion: Some(Adhesion::by_work(1e-8)), ..scene.clone() };
+        let mut simulation = Simulation::default();
+        let all: Vec<_> =
+            (0..4).map(|seed| (seed.to_string(), curve(&mut simulation, &bare, 70 + seed, 0.01))).collect();
+        let fit = found(&all, &scene, EnsembleOptions { lines: 64, ..OPTIONS }).unwrap();
+        let most = fit.work_at_most.unwrap();
+        assert!((1e-5..0.03).contains(&most), "{most:e}");
+        assert_eq!((fit.work.low, fit.work.high, fit.roughness), (0.0, most, None));
+        assert!(fit.work.value <= most && fit.prospects.is_empty() && fit.at_end_of_table);
+        assert!((fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12, "{:?}", fit.shares);
+    }
+
+    /// A profile that is shorter than the contact is named.
+    #[test]
+    fn a_contact_that_fills_its_profile_is_named() {
+        let (scene, all) = curves(2, None);
+        assert_eq!(found(&all, &scene, OPTIONS).unwrap().unsuitable_profile, None);
+        let mut short = scene.clone();
+        short.length = 2e-5;
+        let fit = found(&all, &short, OPTIONS).unwrap();
+        assert_eq!(fit.unsuitable_profile, Some(Reason::ShortProfile(2e-5)));
     }
 
     #[test]

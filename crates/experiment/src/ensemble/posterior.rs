@@ -20,6 +20,8 @@ const LEAST_STEP: f64 = 1e-12;
 /// Share of the probability within `EDGE` of an end of the table, above which the table is too short.
 const MOST_AT_END: f64 = 2e-3;
 const EDGE: f64 = 0.1;
+/// Density divided by the largest density above which a value is not excluded: exp(−1.96²/2).
+const NOT_EXCLUDED: f64 = 0.146_5;
 /// Quantiles of the result and of its 95 % interval.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 
@@ -42,6 +44,11 @@ impl IntervalEstimate {
 
     pub(crate) fn known(value: f64) -> Self {
         IntervalEstimate { value, low: value, high: value }
+    }
+
+    /// Returns the estimate of a parameter that has an upper bound only.
+    pub(crate) fn at_most(self, most: f64) -> Self {
+        IntervalEstimate { value: self.value.min(most), low: 0.0, high: most }
     }
 
     /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural logarithm.
@@ -227,6 +234,15 @@ impl Posterior {
         let [low, value, high] =
             QUANTILES.map(|share| quantile(&self.axes[parameter], &probabilities, share).exp());
         IntervalEstimate { value, low, high }
+    }
+
+    /// Returns the largest γ in J/m² that is not excluded at the level of 5 %: its probability density is at least exp(−1.96²/2)
+    /// times the largest one.
+    pub fn most_work(&self) -> f64 {
+        let densities = self.along(0);
+        let largest = densities.iter().copied().fold(0.0, f64::max);
+        let last = densities.iter().rposition(|density| *density >= NOT_EXCLUDED * largest);
+        self.axes[0][last.unwrap_or(densities.len() - 1)].exp()
     }
 
     /// Returns the mean of a function of ln γ and ln E*.

@@ -1,6 +1,7 @@
 //! The result of a comparison of curves with random profiles.
 
 use super::posterior::IntervalEstimate;
+use crate::reason::Reason;
 
 /// Options of [`fit_ensemble`](crate::fit_ensemble), which compares measured curves with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +21,10 @@ pub struct EnsembleOptions {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct EnsembleFit {
-    /// Work of adhesion γ, J/m².
+    /// Work of adhesion γ, J/m². Its interval begins at 0 if [`Self::work_at_most`] has a value.
     pub work: IntervalEstimate,
+    /// Upper bound of γ in J/m² if curves without adhesion would have the same summaries; otherwise `None`.
+    pub work_at_most: Option<f64>,
     /// Effective modulus E*, Pa. A given modulus has an interval of zero width.
     pub modulus: IntervalEstimate,
     /// True if the scene gives the effective modulus.
@@ -35,12 +38,16 @@ pub struct EnsembleFit {
     /// Precision that the work of adhesion would have with 16, 64 and 256 measured curves. Only those of these numbers
     /// are listed that exceed the present number of curves.
     pub prospects: Vec<Prospect>,
-    /// Effect of a wrong roughness of the scene on γ and E*; `None` if the scene has a measured roughness.
+    /// Effect of a wrong roughness of the scene on γ and E*; `None` if the scene has a measured roughness,
+    /// or if γ has an upper bound only.
     pub roughness: Option<RoughnessShifts>,
     /// Sentence on the stiffness of the instrument if the scene and the files of the curves do not agree on it;
     /// otherwise `None`.
     #[serde(skip)]
     pub instrument: Option<String>,
+    /// Why the profiles of the scene are not suitable with the fitted values: the contact fills most of the examined profiles,
+    /// or few springs are in contact. `None` if they are suitable.
+    pub unsuitable_profile: Option<Reason>,
     /// Number of random profiles with which the curves were compared.
     pub lines: u64,
     /// Number of force curves computed on these profiles.
