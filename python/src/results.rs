@@ -104,7 +104,11 @@ pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<
         let found = Found::of(question, (simulation, case.jobs), &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, found) = (case.document.title(), case.document.scene(), &found);
-            bytes(Some(&case.document), &FindReport { title, scene, found }, format)
+            bytes(
+                Some(&case.document),
+                &FindReport { title, scene, found, warnings: &scene.warnings() },
+                format,
+            )
         }))
     })
 }
@@ -140,7 +144,14 @@ pub fn reversals(py: Python<'_>, call: Call, range: Option<&str>, count: usize) 
         let map = simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
         Ok(Report::new(move |format| {
             let (title, scene) = (case.document.title(), case.document.scene());
-            let report = ReversalReport { title, scene, map: &map, preloads: None, staircase: None };
+            let report = ReversalReport {
+                title,
+                scene,
+                map: &map,
+                warnings: &scene.warnings(),
+                preloads: None,
+                staircase: None,
+            };
             bytes(Some(&case.document), &report, format)
         }))
     })
@@ -164,7 +175,11 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
         let found = Reference::of(scene, options, simulation, &|| case.watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
-            bytes(Some(&case.document), &ReferenceReport { title, scene, reference }, format)
+            bytes(
+                Some(&case.document),
+                &ReferenceReport { title, scene, reference, warnings: &scene.warnings() },
+                format,
+            )
         }))
     })
 }

@@ -4,7 +4,7 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::ProgressLine;
 use super::reference::compared;
-use super::scene::{SceneArguments, threads};
+use super::scene::{SceneArguments, threads, warn};
 use asperity_data::parse_quantity;
 use asperity_report::{CostReport, Format};
 use asperity_scene::discretisation::{Progress, measure};
@@ -52,6 +52,7 @@ fn budget(text: &str) -> Result<Duration, String> {
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
+    warn(&document, &document.scene().warnings());
     let scene = document.scene();
     let (mut line, mut seen) = (ProgressLine::default(), Vec::new());
     let measured =

@@ -3,7 +3,7 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
-use super::scene::{ProfileArguments, SceneArguments};
+use super::scene::{ProfileArguments, SceneArguments, holds_warnings, simulation_of, warn};
 use asperity_report::{FindReport, Format};
 use asperity_scene::Simulation;
 use asperity_study::{Axis, Found, Quantity, Question};
@@ -59,6 +59,10 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let found = Found::of(question, (simulation, arguments.profiles.threads()), &|| false, &mut report);
     progress.clear();
     let found = found.map_err(failed)?;
-    let report = FindReport { title: document.title(), scene, found: &found };
+    let warnings = found.warnings(scene, &mut simulation_of(&document));
+    let report = FindReport { title: document.title(), scene, found: &found, warnings: &warnings };
+    if !holds_warnings(format) {
+        warn(&document, &warnings);
+    }
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
 }

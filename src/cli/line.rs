@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES, without_look};
-use super::scene::{SceneArguments, simulation_of};
+use super::scene::{SceneArguments, simulation_of, warn};
 use asperity_report::Format;
 use clap::Args;
 use std::io::Write;
@@ -27,6 +27,7 @@ pub struct LineArguments {
 pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(TABLES, Format::Csv)?;
     let document = arguments.scene.open()?;
+    warn(&document, &document.scene().warnings());
     let mut simulation = simulation_of(&document);
     let made = simulation.make_line(document.scene());
     let (line, ..) = made.map_err(|error| CliError::named(document.name(), error))?;

@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::AnswerFormat;
-use super::scene::SceneArguments;
+use super::scene::{SceneArguments, warn};
 use asperity_report::stages_text;
 use asperity_scene::Scene;
 use asperity_scene::stages::Workload;
@@ -30,6 +30,7 @@ pub struct PlanArguments {
 
 pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
+    warn(&document, &document.scene().warnings());
     let (scene, plan) = (document.scene(), Workload::of(document.scene()));
     arguments.format.write(stdout, || stages_text(&plan), &PlanJson { scene, plan: &plan })
 }

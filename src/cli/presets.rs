@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::AnswerFormat;
-use asperity_data::{object, printable, printable_lines};
+use asperity_data::{Warning, object, printable, printable_lines};
 use asperity_report::Sheet;
 use asperity_scene::library::Entry;
 use asperity_scene::{Document, Simulation};
@@ -81,19 +81,23 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut wrong = Vec::new();
     for file in files {
         match checked(file) {
-            Ok((name, None)) => writeln!(stdout, "{}: ok", printable(&name))?,
-            Ok((name, Some(warning))) => writeln!(stdout, "{}: ok; warning: {warning}", printable(&name))?,
+            Ok((name, warnings)) => {
+                writeln!(stdout, "{}: ok", printable(&name))?;
+                for warning in warnings {
+                    writeln!(stdout, "{}: warning: {warning}", printable(&name))?;
+                }
+            }
             Err(errors) => wrong.push(errors),
         }
     }
     if wrong.is_empty() { Ok(()) } else { Err(CliError::message(wrong.join("\n"))) }
 }
 
-/// The name of a valid scene with its warning, or else all its errors, line by line.
-fn checked(file: &str) -> Result<(String, Option<String>), String> {
+/// The name of a valid scene with its warnings, or else all its errors, line by line.
+fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
     let document = asperity_scene::library::open_argument(file).map_err(|errors| errors.to_string())?;
     match profile_error(&document) {
-        None => Ok((document.name().into(), document.scene().warning())),
+        None => Ok((document.name().into(), document.scene().warnings())),
         Some(error) => Err(error),
     }
 }

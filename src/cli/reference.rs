@@ -3,10 +3,11 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::{ProgressLine, stop_by_signal};
-use super::scene::{ProfileArguments, SceneArguments};
+use super::scene::{ProfileArguments, SceneArguments, holds_warnings, simulation_of, warn};
 use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
 use asperity_study::half_space::{Reference, ReferenceOptions};
+use asperity_study::warnings_of;
 use clap::Args;
 use std::io::Write;
 use std::sync::atomic::Ordering;
@@ -44,7 +45,12 @@ pub(super) fn reference(arguments: &ReferenceArguments, stdout: &mut dyn Write) 
     let lines = arguments.profiles.lines.map_or(usual.lines, u64::from);
     let options = ReferenceOptions { cells: arguments.grid, lines, ..usual };
     let found = compared(&document, options, arguments.profiles.threads())?;
-    let report = ReferenceReport { title: document.title(), scene: document.scene(), reference: &found };
+    let scene = document.scene();
+    let warnings = warnings_of(scene, &mut simulation_of(&document));
+    let report = ReferenceReport { title: document.title(), scene, reference: &found, warnings: &warnings };
+    if !holds_warnings(format) {
+        warn(&document, &warnings);
+    }
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, document.scene()))
 }
 

@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
-use super::scene::{SceneArguments, simulation_of};
+use super::scene::{SceneArguments, holds_warnings, simulation_of, warn};
 use asperity_data::AxisScale;
 use asperity_report::{Format, ReversalReport};
 use asperity_scene::RunError;
@@ -67,6 +67,14 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let mut simulation = simulation_of(&document);
     let ((ends, count), never) = (arguments.preloads.unwrap_or((None, USUAL)), || false);
     let map = simulation.reversal_map(scene, ends, count, &never).map_err(failed)?;
+    let mut warnings = Vec::new();
+    if let Some(deepest) = map.reversals.last() {
+        warnings = deepest.warnings(&simulation.profile(scene).map_err(failed)?);
+    }
+    warnings.extend(simulation.warnings(scene).map_err(failed)?);
+    if !holds_warnings(format) {
+        warn(&document, &warnings);
+    }
     let (mut preloads, mut staircase) = (None, None);
     // Tables hold the turning points alone.
     if !format.is_table() {
@@ -87,6 +95,7 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
         title: document.title(),
         scene,
         map: &map,
+        warnings: &warnings,
         preloads: preloads.as_ref(),
         staircase: staircase.as_ref(),
     };

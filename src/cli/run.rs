@@ -3,10 +3,12 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE};
 use super::progress::ProgressLine;
-use super::scene::{ProfileArguments, SceneArguments, compute, open_scene, simulation_of};
+use super::scene::{
+    ProfileArguments, SceneArguments, compute, holds_warnings, open_scene, simulation_of, warn,
+};
 use asperity_contact::LegRecord;
 use asperity_contact::motion::Leg;
-use asperity_data::{grouped, wrap};
+use asperity_data::{Warning, grouped, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
     ComparedScene, ContactSets, Format, PreloadReport, Report, RunReport, ScenesReport, check_measured_files,
@@ -252,6 +254,9 @@ fn run_loadings(
         let mut scenes = Vec::new();
         for one in chosen {
             let (outcome, ensemble) = (compute(one.document, &one.scene)?, arguments.ensemble(one, format)?);
+            if !holds_warnings(format) {
+                warn(one.document, &outcome.warnings);
+            }
             scenes.push(ComparedScene { document: one.document, outcome, ensemble });
         }
         return write(&ScenesReport { scenes: &scenes, panels: arguments.draw == Some(Drawn::Panels) });
@@ -261,6 +266,9 @@ fn run_loadings(
     // First the profile of the scene, whose failure is that of the scene.
     let outcome = compute(document, scene)?;
     let ensemble = arguments.ensemble(one, format)?;
+    if !holds_warnings(format) {
+        warn(document, &outcome.warnings);
+    }
     if let Some(ensemble) = ensemble.as_ref().filter(|_| format.is_table()) {
         return write(ensemble);
     }
@@ -288,6 +296,10 @@ fn run_preloads(
     let report = |one: &Chosen<'_>, is_drawn| arguments.adhesion(one, preloads, is_drawn);
     if let [one] = chosen {
         let (results, staircase) = report(one, format.is_picture())?;
+        if !holds_warnings(format) {
+            let warnings: Vec<Warning> = results.all_warnings().into_iter().map(|one| one.warning).collect();
+            warn(one.document, &warnings);
+        }
         let (title, choice) = (one.document.title(), one.choice.as_ref());
         let (results, staircase, curves) = (&results, staircase.as_ref(), arguments.curves);
         return write(&PreloadReport { title, choice, results, staircase, curves });
@@ -313,6 +325,7 @@ fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, C
             Ok(())
         };
         let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
+        warn(document, &outcome.warnings);
         figures.push(match has_patches {
             true => sets.patches_figure(document.title(), &outcome),
             false => {

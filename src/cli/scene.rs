@@ -2,7 +2,8 @@
 
 use super::error::CliError;
 use crate::explorer::recognition::no_scene;
-use asperity_data::{parallel, printable};
+use asperity_data::{Warning, parallel, printable};
+use asperity_report::Format;
 use asperity_scene::library::open_argument;
 use asperity_scene::{CheckedScene, Document, Outcome, Scene, Simulation};
 use asperity_study::Ensemble;
@@ -65,13 +66,22 @@ pub struct Overrides {
 impl SceneArguments {
     /// Opens the scene and applies the overrides.
     pub(super) fn open(&self) -> Result<Document, CliError> {
-        let document = self.overrides.apply(open_scene(&self.scene)?)?;
-        if let Some(warning) = document.scene().warning() {
-            // The command continues even if standard error is closed.
-            let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(document.name()));
-        }
-        Ok(document)
+        self.overrides.apply(open_scene(&self.scene)?)
     }
+}
+
+/// Writes on standard error the premises that a scene does not meet, for results that do not say it themselves: tables, figures
+/// and times.
+pub(super) fn warn(document: &Document, warnings: &[Warning]) {
+    for warning in warnings {
+        // The command continues even if standard error is closed.
+        let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(document.name()));
+    }
+}
+
+/// Returns true for formats that hold the warnings of a result themselves.
+pub(super) fn holds_warnings(format: Format) -> bool {
+    matches!(format, Format::Text | Format::Json)
 }
 
 /// Opens the scene of an argument; a measured file in its place is named with the commands that use it.

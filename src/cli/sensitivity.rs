@@ -4,10 +4,10 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
 use super::removed;
-use super::scene::{SceneArguments, threads};
+use super::scene::{SceneArguments, holds_warnings, simulation_of, threads, warn};
 use asperity_report::{Format, SensitivityReport};
 use asperity_scene::Simulation;
-use asperity_study::Sensitivity;
+use asperity_study::{Sensitivity, warnings_of};
 use clap::Args;
 use std::io::Write;
 
@@ -46,6 +46,11 @@ pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Wri
     let found = Sensitivity::of(scene, simulation, &|| false, &mut report);
     progress.clear();
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
-    let report = SensitivityReport { title: document.title(), scene, sensitivity: &found };
+    let warnings = warnings_of(scene, &mut simulation_of(&document));
+    let report =
+        SensitivityReport { title: document.title(), scene, sensitivity: &found, warnings: &warnings };
+    if !holds_warnings(format) {
+        warn(&document, &warnings);
+    }
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
 }

@@ -12,6 +12,7 @@ mod cost;
 mod documentation;
 mod estimates;
 mod generated;
+mod length;
 mod notices;
 mod processes;
 mod program;

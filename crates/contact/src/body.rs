@@ -227,11 +227,23 @@ impl Body {
             [before, self.point()],
             leg.energy(squared_stretch),
         );
-        let record = LegRecord { jump_energy, ..record };
+        let smallest_of_rest =
+            if loads || self.is_separated() { None } else { Some(self.rest_of(&leg, low)?) };
+        let reaches_ends = leg.reaches_ends(high);
+        let record = LegRecord { jump_energy, reaches_ends, smallest_of_rest, ..record };
         self.work.count(&record);
         self.leg = leg;
         self.curve_time += clock.elapsed();
         Ok(record)
+    }
+
+    /// Finds the point of the smallest force on the rest of an unloading, from the indentation `from` in m to separation. This
+    /// search does not count as work of the loading, which does not go there.
+    fn rest_of(&self, unloading: &Leg, from: f64) -> Result<CurvePoint, ContactError> {
+        let (separation, _) = unloading.reach(Goal::Separation(None), from, &mut Work::default())?;
+        let (grid, _) = self.grid(separation, from);
+        let smallest = unloading.smallest(&grid, &mut Work::default())?;
+        Ok(self.point_of(smallest))
     }
 
     /// Computes the unloading to separation from several turning points. Each turning point is where a loading from
@@ -319,6 +331,7 @@ impl Body {
             smallest: self.point_of(smallest),
             separation,
             dissipated_energy: released[0] + released[1] + 0.0,
+            reaches_ends: loading.reaches_ends(high),
             forces,
         })
     }
@@ -379,6 +392,8 @@ pub struct Reversal {
     pub separation: f64,
     /// Energy in J dissipated on the way from separation to the turning point and back to separation.
     pub dissipated_energy: f64,
+    /// True if an outermost spring of the profile was in contact at any moment of the loading.
+    pub reaches_ends: bool,
     /// Forces in N on unloading, at the indentations that [`Contact::reversals`] was given. Indentations above the turning
     /// point are left out. At indentations below `separation` the force is 0.
     pub forces: Vec<f64>,

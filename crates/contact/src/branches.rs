@@ -2,6 +2,7 @@
 //! path into loading stages.
 
 use super::history::{CurvePoint, Direction, LegRecord};
+use asperity_data::Warning;
 use std::ops::Range;
 
 /// Relative difference within which two forces or two indentations count as equal. Equal forces may be different sums.
@@ -89,14 +90,51 @@ impl Branch {
     }
 
     /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of its stage. Returns `None` if
-    /// this force is above zero, or if the unloading ends in contact while the force still falls.
+    /// this force is above zero, or if the unloading ends in contact while the force still falls, or with a smaller force on its
+    /// rest up to separation.
     pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let unloading = Branch::last_unloading(legs)?;
         let (stage, least) = unloading.smallest(legs)?;
-        let (first, last) = (legs.get(unloading.stages.start)?, legs.get(unloading.stages.end - 1)?);
-        let end = last.curve.last()?;
-        let is_passed = end.springs == 0 || least.force < end.force - ROUNDING * first.largest.force.abs();
+        let rounding = unloading.rounding(legs);
+        let is_passed = match unloading.rest(legs) {
+            Rest::None => true,
+            Rest::Unknown => false,
+            Rest::Smallest(of_rest) => {
+                let end = legs.get(unloading.stages.end - 1)?.curve.last()?;
+                least.force < end.force - rounding && least.force <= of_rest.force + rounding
+            }
+        };
         Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
+    }
+
+    /// Returns the warning that the last unloading ends in contact although its rest would pull with a larger force than the
+    /// unloading so far. Returns `None` if the bodies are pulled off, or if nothing pulls.
+    pub fn ends_in_contact(legs: &[LegRecord]) -> Option<Warning> {
+        let unloading = Branch::last_unloading(legs)?;
+        let (_, least) = unloading.smallest(legs)?;
+        match unloading.rest(legs) {
+            Rest::None => None,
+            Rest::Unknown => Some(Warning::EndsInContact { further: None }),
+            Rest::Smallest(of_rest) => {
+                let pulls_further = of_rest.force < (least.force - unloading.rounding(legs)).min(0.0);
+                pulls_further.then_some(Warning::EndsInContact { further: Some(-of_rest.force) })
+            }
+        }
+    }
+
+    /// Returns what is known of the way from the end of an unloading to separation.
+    fn rest(&self, legs: &[LegRecord]) -> Rest {
+        // The last stages may leave the body in place.
+        let Some((_, last)) = self.touching(legs).next_back() else { return Rest::None };
+        if last.end_in_contact().is_none() {
+            return Rest::None;
+        }
+        last.smallest_of_rest.map_or(Rest::Unknown, Rest::Smallest)
+    }
+
+    /// Returns the difference in N within which two forces of the branch count as equal.
+    fn rounding(&self, legs: &[LegRecord]) -> f64 {
+        legs.get(self.stages.start).map_or(0.0, |first| ROUNDING * first.largest.force.abs())
     }
 
     /// Returns the point of the smallest force while the branch is in contact, and the index of its stage. Returns `None` if
@@ -108,6 +146,16 @@ impl Branch {
             a.force.total_cmp(&b.force).then(a.indentation.total_cmp(&b.indentation))
         })
     }
+}
+
+/// Way from the end of an unloading to separation.
+enum Rest {
+    /// There is none: the unloading separates the bodies.
+    None,
+    /// The way is not known.
+    Unknown,
+    /// Point of the smallest force of the way.
+    Smallest(CurvePoint),
 }
 
 fn is_still(leg: &LegRecord) -> bool {

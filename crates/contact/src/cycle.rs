@@ -1,13 +1,16 @@
 //! The loading of a contact and its result: force curve, figures and patches.
 
 use super::body::{Body, Reversal};
+use super::branches::Branch;
 use super::contact::Contact;
 use super::error::{ContactError, LARGEST, check};
 use super::figures::Figures;
 use super::history::{CurvePoint, History, LegRecord};
 use super::leg::{Leg, PatchState};
 use super::moving_body::{MovingBody, load_body};
+use super::profile::Profile;
 use super::target::Move;
+use asperity_data::Warning;
 
 /// Number of samples of the force curve of a stage, if none is given.
 const SAMPLES: usize = 512;
@@ -243,6 +246,40 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
     Ok(())
 }
 
+impl History {
+    /// Returns the premises of the model that the loading of a profile does not meet: a contact that ends inside the profile of
+    /// a curved body, an unloading to separation, and enough springs in contact.
+    pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
+        let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
+        let most_springs = self.legs.iter().map(LegRecord::most_springs).max().unwrap_or(0);
+        let mut warnings = warnings_of_contact(profile, reaches_ends, most_springs);
+        warnings.extend(Branch::ends_in_contact(&self.legs));
+        warnings
+    }
+}
+
+impl Reversal {
+    /// Returns the premises of the model that the loading of a profile to the turning point does not meet: a contact that ends
+    /// inside the profile of a curved body, and enough springs in contact.
+    pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
+        warnings_of_contact(profile, self.reaches_ends, self.turn.springs)
+    }
+}
+
+/// Returns the premises that a contact does not meet. `reaches_ends` is true if an outermost spring was in contact, and
+/// `most_springs` is the largest number of springs in contact.
+fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if reaches_ends && profile.is_curved() {
+        warnings.push(Warning::ContactAtEnds { length: profile.length() });
+    }
+    // A profile of few springs, all of which are in contact, is resolved as well as it can be.
+    if most_springs < profile.points() as u64 {
+        warnings.extend(Warning::of_springs_in_contact(most_springs));
+    }
+    warnings
+}
+
 impl Cycle {
     /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite sign. Returns `None` if
     /// the smallest force is above zero, or if the unloading ends in contact while the force still falls.
@@ -311,6 +348,28 @@ impl Cycle {
     #[must_use]
     pub fn stages(&self) -> &[LegRecord] {
         &self.history.legs
+    }
+
+    /// Returns the premises of the model that this loading does not meet, such as a contact that reaches the ends of the profile
+    /// of a curved body. The list is empty if all premises hold that can be known from the heights and the loading.
+    ///
+    /// ```
+    /// use asperity_contact::{Contact, Modulus, Move, Profile};
+    ///
+    /// // Heights of a scan along a sphere of 200 µm. They are not those of its equivalent profile x²/R.
+    /// let cut: Vec<f64> = (-512..=512).map(|i| -(f64::from(i) * 1.0e-7).powi(2) / 4.0e-4).collect();
+    /// let contact = Contact::builder(&Profile::from_heights(cut, 1.0e-7)?, Modulus::effective(1.0e6)?);
+    /// let cycle = contact.work_of_adhesion(0.03).build()?.load(&[Move::ToForce(5.0e-6), Move::ToSeparation])?;
+    /// let names: Vec<&str> = cycle.warnings().iter().map(|warning| warning.name()).collect();
+    /// assert_eq!(names, ["cut_like_heights"]);
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
+    #[must_use]
+    pub fn warnings(&self) -> Vec<Warning> {
+        let profile = self.leg.contact().profile();
+        let mut warnings = self.history.warnings(profile);
+        warnings.extend(profile.doubt());
+        warnings
     }
 
     /// Returns the state of each contact patch at the end of the last stage, such as its force, from left to right.

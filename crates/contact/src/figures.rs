@@ -219,13 +219,17 @@ mod tests {
         let none = adhesion(0.0);
         assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
         assert_eq!(adhesion(-1e-300), Some(1e-300));
-        // The pull-off is a minimum within the stage: the force rises again after it.
-        let ends_at = |force| {
+        // The pull-off is a minimum within the stage, and the rest of the unloading has no smaller force.
+        let ends_at = |force: f64, rest: Option<f64>| {
             let mut pulled = pulled(-1.0, 0);
             pulled.curve = vec![pulled.smallest, point(-0.5, force, 1)];
+            pulled.smallest_of_rest = rest.map(|force| point(-0.6, force, 1));
             figures(&[pressed(1.0), pulled]).adhesion_force
         };
-        assert_eq!([ends_at(-1.0), ends_at(-1.0 + 1e-12), ends_at(-0.9)], [None, None, Some(1.0)]);
+        let rest = Some(-0.9);
+        let ends = [ends_at(-1.0, rest), ends_at(-1.0 + 1e-12, rest), ends_at(-0.9, rest)];
+        assert_eq!(ends, [None, None, Some(1.0)]);
+        assert_eq!([ends_at(-0.9, Some(-1.1)), ends_at(-0.9, None)], [None; 2]);
         // A coefficient that overflows is `None`, and so is that of a target force of zero, where a rounding remains.
         for pressed in [pressed(0.0), pressed(1e-320)] {
             assert_eq!(figures(&[pressed, pulled(-1.0, 0)]).adhesion_coefficient, None);

@@ -47,6 +47,11 @@ pub struct LegRecord {
     /// and `jump_energy` over all stages is the loop area ∮F dD of the history. A jump may begin in one stage and continue
     /// in the next stage of the same direction. Each of the two stages then has its own part of the energy.
     pub jump_energy: f64,
+    /// True if an outermost spring of the profile was in contact at any moment of the motion.
+    pub reaches_ends: bool,
+    /// Point of the smallest force on the rest of an unloading that ends in contact, if the body went on to separation from
+    /// there. `None` for any other motion, and if the rest is not known.
+    pub smallest_of_rest: Option<CurvePoint>,
 }
 
 impl LegRecord {
@@ -62,6 +67,8 @@ impl LegRecord {
             detached: 0,
             released_energy: 0.0,
             jump_energy: 0.0,
+            reaches_ends: false,
+            smallest_of_rest: None,
         }
     }
 
@@ -112,6 +119,12 @@ impl LegRecord {
     /// Returns the last point of the curve; `None` if the body is separated there.
     pub fn end_in_contact(&self) -> Option<CurvePoint> {
         self.curve.last().copied().filter(|point| point.springs > 0)
+    }
+
+    /// Returns the largest number of springs in contact at any moment of the motion.
+    pub fn most_springs(&self) -> u64 {
+        // A motion in one direction only attaches or only detaches springs.
+        self.curve.iter().map(|point| point.springs).max().unwrap_or(0)
     }
 
     /// Returns the indentation in m at the beginning of the motion.

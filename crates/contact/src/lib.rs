@@ -48,6 +48,7 @@ mod interval;
 mod leg;
 mod modulus;
 mod moving_body;
+mod nominal_form;
 mod profile;
 mod stepwise;
 mod target;
@@ -64,8 +65,11 @@ pub use error::ContactError;
 pub use figures::{Figures, Mark};
 pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use modulus::Modulus;
+pub use nominal_form::NominalForm;
 pub use profile::Profile;
 pub use target::Move;
+
+pub use asperity_data::Warning;
 
 /// Bodies that move from one target to the next, for models of instruments and for simulations of particles.
 /// [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check it.

@@ -3,7 +3,9 @@
 use super::adhesive::levels::Edges;
 use super::adhesive::tree::ContactTree;
 use super::error::{ContactError, LARGEST, check, is_positive};
+use super::nominal_form::{NominalForm, falls_to_both_ends, radius_of_cut};
 use super::totals::GapScale;
+use asperity_data::Warning;
 use std::sync::{Arc, OnceLock};
 
 /// Largest number of points of a profile.
@@ -32,6 +34,7 @@ pub struct Profile {
     pub(super) length: f64,
     first: usize,
     summit: f64,
+    nominal_form: NominalForm,
 }
 
 /// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge model. A tree is built when a
@@ -87,7 +90,7 @@ impl Profile {
         check("smallest gap of the profile", smallest, smallest == 0.0, "0: the highest point has no gap")?;
         check("largest gap of the profile", deepest, deepest <= LARGEST, "at most 1e50 m")?;
         let springs = Arc::new(Springs { gaps, deepest, trees: Default::default() });
-        Ok(Profile { springs, spacing, length, first: 0, summit: 0.0 })
+        Ok(Profile { springs, spacing, length, first: 0, summit: 0.0, nominal_form: NominalForm::Unstated })
     }
 
     /// Places the profile on a foundation, a row of springs, of the length `length` in m. The foundation may be longer than
@@ -120,6 +123,38 @@ impl Profile {
     pub fn with_summit(self, summit: f64) -> Result<Self, ContactError> {
         check("height of the highest point", summit, summit.abs() <= LARGEST, "from -1e50 to 1e50 m")?;
         Ok(Profile { summit, ..self })
+    }
+
+    /// States the form of the body. [`Cycle::warnings`](crate::Cycle::warnings) depends on it; forces and energies do not.
+    #[must_use]
+    pub fn with_nominal_form(self, nominal_form: NominalForm) -> Self {
+        Profile { nominal_form, ..self }
+    }
+
+    /// Returns the form of the body that was stated by [`Profile::with_nominal_form`].
+    pub fn nominal_form(&self) -> NominalForm {
+        self.nominal_form
+    }
+
+    /// Returns true if the body is curved, so that its contact is meant to end inside the profile. If nobody has stated the form,
+    /// the heights decide: the mean gaps of 16 parts of the profile grow from the smallest one to both ends, and at the ends
+    /// almost as fast as on the way.
+    pub fn is_curved(&self) -> bool {
+        match self.nominal_form {
+            NominalForm::Curved => true,
+            NominalForm::Flat => false,
+            NominalForm::Unstated => falls_to_both_ends(self.gaps()),
+        }
+    }
+
+    /// Returns the doubt about heights of which nobody has stated that they are an equivalent profile. Returns `None` if the
+    /// form is stated, and for a flat profile, which is its own equivalent.
+    pub fn doubt(&self) -> Option<Warning> {
+        if self.nominal_form != NominalForm::Unstated || self.deepest() == 0.0 {
+            return None;
+        }
+        let radius = radius_of_cut(self.gaps(), self.spacing);
+        Some(radius.map_or(Warning::HeightsAsProfile, |radius| Warning::CutLikeHeights { radius }))
     }
 
     /// Returns the number of points N, one for each spring under the profile.

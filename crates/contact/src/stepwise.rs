@@ -247,8 +247,26 @@ impl<'a> Stepwise<'a> {
             [here, end],
             leg.energy(squared),
         );
+        let reaches_ends = leg.reaches_ends(high);
+        let record = LegRecord { reaches_ends, ..record };
         self.work.count(&record);
         Ok(record)
+    }
+}
+
+impl Stepwise<'_> {
+    /// Returns the point of the smallest force on the rest of an unloading, on which a copy of the body walks to separation.
+    /// Returns `None` for a loading, for a separated body, and if the copy takes too many steps.
+    fn rest(&self, direction: Direction) -> Result<Option<CurvePoint>, ContactError> {
+        if direction == Direction::Loading || self.totals.springs == 0 {
+            return Ok(None);
+        }
+        let mut copy = self.clone();
+        match copy.walk(Move::ToSeparation, direction, Goal::Separation(None)) {
+            Ok(record) => Ok(Some(record.smallest)),
+            Err(ContactError::Interrupted) => Err(ContactError::Interrupted),
+            Err(_) => Ok(None),
+        }
     }
 }
 
@@ -265,8 +283,13 @@ impl MovingBody for Stepwise<'_> {
             Some((direction, goal)) => {
                 self.check_steps(direction, goal)?;
                 let before = self.clone();
-                let walked = self.walk(target, direction, goal);
-                walked.inspect_err(|_| *self = Stepwise { work: self.work, ..before })
+                match self.walk(target, direction, goal) {
+                    Ok(record) => Ok(LegRecord { smallest_of_rest: self.rest(direction)?, ..record }),
+                    Err(error) => {
+                        *self = Stepwise { work: self.work, ..before };
+                        Err(error)
+                    }
+                }
             }
         }
     }

@@ -165,6 +165,7 @@ fn find(
         work_at_most,
         tabor,
         reason: reason.transpose()?,
+        warnings: simulation.compute(found.scene())?.warnings,
         correlations,
         not_distinguished,
         assumptions,

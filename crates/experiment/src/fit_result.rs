@@ -3,7 +3,7 @@
 use crate::parameter::Parameter;
 use crate::reason::Reason;
 use crate::search::MISFIT;
-use asperity_data::format_within;
+use asperity_data::{Warning, format_within};
 use asperity_scene::Document;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -71,6 +71,8 @@ pub struct FitResult {
     pub tabor: Option<f64>,
     /// Reason why the model does not describe the curve; `None` if [`Self::misfit`] is at most 1.5.
     pub reason: Option<Reason>,
+    /// Premises of the model that the scene with the found values does not meet.
+    pub warnings: Vec<Warning>,
     /// Each pair of free parameters with the correlation of their errors, from −1 to 1.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
     /// Pairs of free parameters that the curve cannot separate. A pair of one parameter with itself means that the curve does

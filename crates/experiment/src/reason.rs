@@ -6,21 +6,16 @@ use crate::error::ExperimentError;
 use crate::free::least_squares;
 use crate::model::Model;
 use crate::parameter::{Parameter, Values};
-use asperity_data::{format_quantity, median};
-use asperity_scene::{CheckedScene, Governing, Simulation};
+use asperity_data::{Warning, format_quantity, median};
+use asperity_scene::{CheckedScene, Simulation};
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-/// Share of the length above which a contact fills its profile, and smallest number of springs in contact.
-const FULL: f64 = 0.99;
-const FEWEST_SPRINGS: u64 = 20;
 /// Largest jump of the force between two points on a rigid instrument, divided by the pull-off force. A sphere on a rigid
 /// instrument jumps by 5/9.
 const RIGID: f64 = 0.65;
 /// Share of the squared residuals that a pattern must explain.
 const EXPLAINS: f64 = 0.4;
-/// Tabor number below which the theory of Johnson, Kendall and Roberts does not apply.
-const LONG_RANGE: f64 = 1.0;
 /// Slope of the force, divided by the stiffness of the instrument, that the instrument does not allow. The slope is
 /// measured in a part of the way from first touch to the turning point, with a smallest number of points.
 const STEEPER: f64 = 1.03;
@@ -38,13 +33,11 @@ const CUT: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact fills the whole profile, which should be longer. The value is the length of the profile in m.
-    #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
+    /// The contact reaches the ends of the profile, which should be longer. The value is the length of the profile in m.
+    #[error("{}", Warning::ContactAtEnds { length: *.0 })]
     ShortProfile(f64),
     /// Too few springs are in contact for an accurate force. The value is the largest number of springs in contact.
-    #[error(
-        "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
-    )]
+    #[error("{}", Warning::FewSpringsInContact { springs: *.0 })]
     CoarseProfile(u64),
     /// The measured force jumps by this value in N between two points, but the instrument of the scene is rigid.
     #[error(
@@ -71,12 +64,7 @@ pub enum Reason {
     )]
     Step(f64),
     /// The attraction reaches too far for JKR theory. The value is the Tabor number, which is below 5.
-    #[error(
-        "The Tabor number is {}, below {}: attraction of this range is not that of Johnson, Kendall and \
-         Roberts.",
-        format_quantity(*.0, "1"),
-        Governing::LEAST_TABOR_NUMBER
-    )]
+    #[error("{}", Warning::of_tabor_number(*.0).map_or_else(String::new, |warning| warning.to_string()))]
     TaborNumber(f64),
     /// The profile of the scene is one of many random profiles, and the specimen has another profile.
     #[error(
@@ -154,8 +142,8 @@ pub(crate) fn reason(
     if step && curve.segment.first() != curve.segment.last() {
         return Ok(Reason::Step(curve.remaining[2]));
     }
-    let low = tabor.filter(|number| *number < Governing::LEAST_TABOR_NUMBER);
-    if let Some(number) = low.filter(|number| *number < LONG_RANGE) {
+    let low = tabor.filter(|number| *number < Warning::JKR_TABOR_NUMBER);
+    if let Some(number) = low.filter(|number| *number < Warning::LEAST_TABOR_NUMBER) {
         return Ok(Reason::TaborNumber(number));
     }
     let stiffness = values[Parameter::Stiffness as usize];
@@ -176,18 +164,14 @@ pub(crate) fn reason(
     Ok(low.map_or(other, Reason::TaborNumber))
 }
 
-/// Returns the reason if the contact fills its profile or has few springs.
+/// Returns the reason if the contact reaches the ends of its profile or has few springs.
 fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
-    let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).ok()?;
-    let points = || outcome.history.legs.iter().flat_map(|leg| &leg.curve);
-    let length = ends(points().map(|point| point.contact_length)).1;
-    let springs = points().map(|point| point.springs).max()?;
-    // The contact of a flat face does not grow.
-    let grows = scene.form.as_ref().is_some_and(|form| form.summit_curvature() != Some(0.0));
-    if grows && length >= FULL * outcome.line.length {
-        return Some(Reason::ShortProfile(outcome.line.length));
-    }
-    (springs < FEWEST_SPRINGS).then_some(Reason::CoarseProfile(springs))
+    let outcome = simulation.compute(scene).ok()?;
+    outcome.warnings.iter().find_map(|warning| match warning {
+        Warning::ContactAtEnds { length } => Some(Reason::ShortProfile(*length)),
+        Warning::FewSpringsInContact { springs } => Some(Reason::CoarseProfile(*springs)),
+        _ => None,
+    })
 }
 
 /// Returns the largest rise of the force in N between neighbouring points of a retraction. The force of a retraction rises

@@ -4,7 +4,10 @@ use crate::ensemble::{profiles_named, rounded};
 use crate::report::{Json, Report};
 use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
-use asperity_data::{Kind, Table, format_quantity, format_range, format_rounded, grouped, object, one_unit};
+use crate::warnings::{warning_texts, warnings_section};
+use asperity_data::{
+    Kind, Table, Warning, format_quantity, format_range, format_rounded, grouped, object, one_unit,
+};
 use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found};
 
@@ -21,6 +24,8 @@ pub struct FindReport<'a> {
     pub scene: &'a Scene,
     /// Values of the number at which the result reaches the wanted value, on each profile.
     pub found: &'a Found,
+    /// Premises of the model that the scene with the median answer does not meet.
+    pub warnings: &'a [Warning],
 }
 
 /// Returns the answer of a search in one sentence. It has the median and the quartiles, over the profiles, of the number at which
@@ -160,6 +165,7 @@ impl Report for FindReport<'_> {
         sheet.paragraph(self.title);
         sheet.heading(&found_in_words(found));
         self.exceptions().iter().for_each(|sentence| sheet.paragraph(sentence));
+        warnings_section(&mut sheet, self.warnings);
         let several = self.several();
         if !several.is_empty() {
             sheet.heading("Several crossings, of which the first counts");
@@ -193,6 +199,7 @@ impl Report for FindReport<'_> {
         let [low, median, high] = [0.25, 0.5, 0.75].map(|share| found.quantile(share));
         Some(Box::new(object! {
             "scene": self.scene,
+            "warnings": warning_texts(self.warnings),
             "field": &question.axis.path,
             "unit": question.axis.unit,
             "quantity": question.quantity,

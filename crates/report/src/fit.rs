@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::summary::tabor_number;
+use crate::warnings::warnings_section;
 use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped};
 use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
@@ -90,7 +90,7 @@ impl Report for FitReport<'_> {
             sheet.paragraph(&format!("Pull-off force of the curve {}{work}.", format_quantity(force, "N")));
         }
         if let Some(number) = fit.tabor {
-            sheet.paragraph(&format!("Tabor number μ = {}.", tabor_number(number)));
+            sheet.paragraph(&format!("Tabor number μ = {}.", format_quantity(number, "1")));
         }
         let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
         if let Some((one, other, value)) = strongest {
@@ -105,6 +105,7 @@ impl Report for FitReport<'_> {
         if fit.document.scene().roughness.is_some() {
             sheet.paragraph(ROUGH);
         }
+        warnings_section(&mut sheet, &fit.warnings);
         Some(sheet.into_text())
     }
 

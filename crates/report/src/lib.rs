@@ -34,6 +34,7 @@ mod study_figure;
 mod summary;
 mod surface;
 mod trust;
+mod warnings;
 mod work_precision;
 
 pub use cost::CostReport;
@@ -65,5 +66,6 @@ pub use status::{progress_text, status_text};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
-pub use trust::{error_rows, theory_rows, without_jkr};
+pub use trust::{error_rows, theory_rows};
+pub use warnings::{counted_section, counted_texts, warning_texts, warnings_section};
 pub use work_precision::work_precision;

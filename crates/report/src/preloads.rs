@@ -2,6 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
+use crate::warnings::{counted_section, counted_values};
 use asperity_data::{AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, object};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::discretisation::Choice;
@@ -85,6 +86,7 @@ impl Report for PreloadReport<'_> {
         if let Some(choice) = self.choice {
             sheet.heading(&choice.sentence());
         }
+        counted_section(&mut sheet, &self.results.all_warnings(), plan.lines);
         Some(sheet.into_text())
     }
 
@@ -104,6 +106,7 @@ impl Report for PreloadReport<'_> {
             }
         });
         Some(Box::new(object! {
+            "warnings": counted_values(&self.results.all_warnings()),
             "scene": &plan.scene,
             "mean": self.is_mean().then(spread),
             "lines": (0..plan.lines).map(line).collect::<Vec<_>>(),

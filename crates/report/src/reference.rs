@@ -3,7 +3,10 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::status::duration;
-use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped, memory_size, object};
+use crate::warnings::{warning_texts, warnings_section};
+use asperity_data::{
+    AxisScale, Table, Warning, format_quantity, format_rounded, grouped, memory_size, object,
+};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
 use asperity_study::Statistics;
@@ -21,6 +24,8 @@ pub struct ReferenceReport<'a> {
     pub scene: &'a Scene,
     /// Results of both computations and their ratios.
     pub reference: &'a Reference,
+    /// Premises of the model that the scene does not meet.
+    pub warnings: &'a [Warning],
 }
 
 /// Writes the ratio of both models with its interval: `0.84 ± 0.05`.
@@ -197,6 +202,7 @@ impl Report for ReferenceReport<'_> {
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         sheet.heading(&self.compared());
+        warnings_section(&mut sheet, self.warnings);
         let header = ["", "line", "three dimensions", "line over three dimensions"].map(String::from);
         let row = |name: String, of: &Compared, unit: &str| {
             let mean = |all: &Statistics| format_rounded(all.mean, 3, unit);
@@ -244,6 +250,7 @@ impl Report for ReferenceReport<'_> {
         let ratio = |of: &Compared| object! { "value": of.ratio, "error": of.error };
         Some(Box::new(object! {
             "scene": self.scene,
+            "warnings": warning_texts(self.warnings),
             "cells": reference.options.cells,
             "maps": reference.options.maps,
             "lines": reference.options.lines,
@@ -331,7 +338,8 @@ mod tests {
         let options = ReferenceOptions { cells: 32, maps: 1, lines: 1 };
         let simulation = (Simulation::default(), 1);
         let found = Reference::of(document.scene(), options, simulation, &|| false, &mut |_| ()).unwrap();
-        let report = ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found };
+        let report =
+            ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found, warnings: &[] };
         let figure = report.figure().unwrap();
         assert_eq!(figure.size, Figure::WIDE);
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();

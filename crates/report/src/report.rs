@@ -289,7 +289,7 @@ mod tests {
                 let staircase = Staircase::find(scene, &preloads, &mut simulation, &|| false, &mut |_| ());
                 let staircase = staircase.ok();
                 let (preloads, staircase) = (Some(&results), staircase.as_ref());
-                let report = ReversalReport { title, scene, map: &map, preloads, staircase };
+                let report = ReversalReport { title, scene, map: &map, preloads, staircase, warnings: &[] };
                 figures.extend(report.figure());
                 let report =
                     PreloadReport { title, choice: None, results: &results, staircase, curves: false };

@@ -3,7 +3,8 @@
 use crate::preloads::{preload_chart, preload_table, unloadings};
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use asperity_data::{AxisScale, Table, grouped, object};
+use crate::warnings::{warning_texts, warnings_section};
+use asperity_data::{AxisScale, Table, Warning, grouped, object};
 use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use asperity_scene::Scene;
 use asperity_scene::theory::ReversalMap;
@@ -29,6 +30,8 @@ pub struct ReversalReport<'a> {
     pub preloads: Option<&'a Results>,
     /// Adhesion force of one profile as a function of the preload, for the figure; `None` leaves it out.
     pub staircase: Option<&'a Staircase>,
+    /// Premises of the model that the deepest loading does not meet.
+    pub warnings: &'a [Warning],
 }
 
 impl Report for ReversalReport<'_> {
@@ -51,6 +54,7 @@ impl Report for ReversalReport<'_> {
         let all = (0..reversals.len()).flat_map(|turn| points.clone().map(move |point| (turn, point)));
         let everett = all.filter_map(|(turn, point)| map.everett(turn, point)).reduce(f64::max);
         sheet.quantity("largest Everett value", everett, "N");
+        warnings_section(&mut sheet, self.warnings);
         Some(sheet.into_text())
     }
 
@@ -63,6 +67,7 @@ impl Report for ReversalReport<'_> {
         };
         Some(Box::new(object! {
             "scene": scene,
+            "warnings": warning_texts(self.warnings),
             "preloads": preloads.map_or_else(
                 || Table::of(std::iter::empty::<()>).done(),
                 |results| preload_table(results, 0..1, false),

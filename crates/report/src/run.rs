@@ -3,9 +3,10 @@
 use crate::ensemble::{caption, ensemble_value};
 use crate::loop_chart::{LoopUnits, force_figure};
 use crate::report::{Json, Report};
-use crate::summary::{summary, warning};
+use crate::summary::summary;
+use crate::warnings::warning_texts;
 use asperity_contact::{CurvePoint, Move};
-use asperity_data::{Table, TableOf, object};
+use asperity_data::{Table, TableOf, Warning, object};
 use asperity_plot::Figure;
 use asperity_scene::discretisation::Choice;
 use asperity_scene::instrument::displacements;
@@ -33,13 +34,29 @@ pub struct RunReport<'a> {
     pub deviation: Option<f64>,
 }
 
+impl RunReport<'_> {
+    /// Returns the estimate of the error; `None` if a premise does not hold, so that no error is known.
+    fn known_estimate(&self) -> Option<&Estimate> {
+        let is_known = !self.outcome.warnings.iter().any(Warning::leaves_errors_unknown);
+        self.estimate.filter(|_| is_known)
+    }
+}
+
 impl Report for RunReport<'_> {
     fn text(&self) -> Option<String> {
-        Some(summary(self.scene, self.outcome, self.estimate, self.choice, self.ensemble, self.deviation))
+        Some(summary(
+            self.scene,
+            self.outcome,
+            self.known_estimate(),
+            self.choice,
+            self.ensemble,
+            self.deviation,
+        ))
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let RunReport { scene, outcome, choice, estimate, ensemble, .. } = *self;
+        let RunReport { scene, outcome, choice, ensemble, .. } = *self;
+        let estimate = self.known_estimate();
         let Outcome { line, governing, figures, history, .. } = outcome;
         let fragments = scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice());
         Some(Box::new(object! {
@@ -82,7 +99,7 @@ impl Report for RunReport<'_> {
             "steep_waves"?: outcome.steep_waves,
             "criteria": criteria(scene, outcome, ensemble),
             "budget": Budget::of(outcome, estimate, ensemble, self.deviation),
-            "warnings"?: warning(scene, outcome).map(|warning| [warning]),
+            "warnings": warning_texts(&outcome.warnings),
             "curve": self.table(),
             "contacts": &history.contacts,
             "fragments": fragments,

@@ -4,6 +4,7 @@ use crate::ensemble::{NAMES, rounded};
 use crate::loop_chart::{LoopUnits, force_figure, force_panels};
 use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
+use crate::warnings::{counted_texts, sentences_section, warning_texts};
 use asperity_data::{format_quantity, format_range};
 use asperity_plot::{Colours, Figure, figure_text};
 use asperity_scene::{Document, Outcome, Regime};
@@ -77,6 +78,20 @@ impl ScenesReport<'_> {
         if self.panels { force_panels(&scenes) } else { force_figure(&scenes, LoopUnits::default()) }
     }
 
+    /// Returns the warnings of all scenes, each with the letter of its scene.
+    fn warnings(&self) -> Vec<String> {
+        let mut sentences = Vec::new();
+        for (number, scene) in self.scenes.iter().enumerate() {
+            let letter = letter(number);
+            let of_scene = match &scene.ensemble {
+                Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
+                None => warning_texts(&scene.outcome.warnings),
+            };
+            sentences.extend(of_scene.iter().map(|sentence| format!("{letter}: {sentence}")));
+        }
+        sentences
+    }
+
     /// Returns rows of the medians over random profiles, with the quartiles of the adhesion force; none if no scene has
     /// several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
@@ -143,6 +158,7 @@ impl Report for ScenesReport<'_> {
         table.push(std::iter::once("regime".to_owned()).chain(self.scenes.iter().map(regime)).collect());
         sheet.heading(&heading);
         sheet.table(&table);
+        sentences_section(&mut sheet, &self.warnings());
         Some(format!("{}\n{}", sheet.into_text(), figure_text(&self.drawn(true), WIDTH, Colours::None)))
     }
 

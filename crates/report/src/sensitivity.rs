@@ -2,7 +2,10 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use asperity_data::{AxisScale, Kind, Table, format_quantity, format_rounded, grouped, object, one_unit};
+use crate::warnings::{warning_texts, warnings_section};
+use asperity_data::{
+    AxisScale, Kind, Table, Warning, format_quantity, format_rounded, grouped, object, one_unit,
+};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
@@ -23,6 +26,8 @@ pub struct SensitivityReport<'a> {
     pub scene: &'a Scene,
     /// Changes of the results, such as the adhesion force, for each changed number.
     pub sensitivity: &'a Sensitivity,
+    /// Premises of the model that the scene does not meet.
+    pub warnings: &'a [Warning],
 }
 
 /// Writes a relative change: `+12 %`, `×4.2`.
@@ -183,6 +188,7 @@ impl Report for SensitivityReport<'_> {
             sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
+        warnings_section(&mut sheet, self.warnings);
         Some(sheet.into_text())
     }
 
@@ -208,6 +214,7 @@ impl Report for SensitivityReport<'_> {
         let range = self.sensitivity.range;
         Some(Box::new(object! {
             "scene": self.scene,
+            "warnings": warning_texts(self.warnings),
             "step": Sensitivity::STEP,
             "profiles": self.sensitivity.profiles,
             "results": values(self.sensitivity.present),
@@ -304,7 +311,7 @@ mod tests {
         };
         assert_eq!((arrows(Sign::Right), arrows(Sign::Left)), (Some(1), Some(0)));
         let none = Sensitivity { present: [Some(0.0), None, None], ..sensitivity };
-        let report = SensitivityReport { title: "None", scene: &scene, sensitivity: &none };
+        let report = SensitivityReport { title: "None", scene: &scene, sensitivity: &none, warnings: &[] };
         assert!(report.text().unwrap().contains("no pull-off"));
     }
 }

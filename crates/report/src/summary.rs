@@ -1,18 +1,16 @@
 //! The summary of a computed scene for a reader.
 
 use crate::ensemble::{headline, rounded};
-use crate::measured_face::steep;
 use crate::sheet::Sheet;
-use crate::trust::{trust, without_jkr};
+use crate::trust::trust;
+use crate::warnings::{counted_section, warnings_section};
 use asperity_contact::{Move, Work};
 use asperity_data::{format_quantity, grouped};
 use asperity_scene::discretisation::Choice;
 use asperity_scene::loading::loading_text;
 use asperity_scene::stages::Timings;
-use asperity_scene::theory::SteepWaves;
-use asperity_scene::{Estimate, Governing, Outcome, Regime, Scene};
+use asperity_scene::{Estimate, Outcome, Regime, Scene};
 use asperity_study::{Ensemble, Quantity};
-use asperity_surface::Form;
 
 /// Largest number of loading stages, or of repeated groups of stages, that are listed. Further ones are counted.
 const MOST_STAGES: usize = 8;
@@ -30,15 +28,18 @@ pub(crate) fn summary(
     deviation: Option<f64>,
 ) -> String {
     let mut sheet = Sheet::default();
-    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
+    match ensemble {
+        Some(ensemble) => counted_section(&mut sheet, &ensemble.warnings(), ensemble.profiles()),
+        None => warnings_section(&mut sheet, &outcome.warnings),
+    }
     match ensemble {
         Some(ensemble) => headline(&mut sheet, ensemble),
         None if scene.seed().is_none() => sheet.heading(Ensemble::FIXED),
         None => {}
     }
-    line(&mut sheet, scene, outcome);
+    line(&mut sheet, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
     trust(&mut sheet, (scene, outcome), estimate, ensemble, deviation);
@@ -55,7 +56,6 @@ pub(crate) fn summary(
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
-    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
@@ -64,6 +64,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     sheet.row("adhesion force F_a", adhesion_force(outcome));
     sheet.quantity("at first touch F_a(d=0)", outcome.first_touch_adhesion_force, "N");
     dissipated_energy(&mut sheet, outcome);
+    warnings_section(&mut sheet, &outcome.warnings);
     sheet.into_text()
 }
 
@@ -71,12 +72,7 @@ fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
     value.map(|value| format_quantity(value, unit))
 }
 
-/// Returns a warning for a measured surface whose unit may be wrong.
-pub(crate) fn warning(scene: &Scene, outcome: &Outcome) -> Option<String> {
-    scene.measured().and(outcome.governing.amplitude).and_then(|amplitude| steep(amplitude.rms_gradient))
-}
-
-fn line(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
+fn line(sheet: &mut Sheet, outcome: &Outcome) {
     let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
     // The numbers from here on are those of one profile.
     sheet.heading(&facts.seed.map_or("Profile".to_owned(), |seed| format!("Profile of seed {seed}")));
@@ -87,7 +83,11 @@ fn line(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
     }
     sheet.quantity("length L", facts.length, "m");
     sheet.quantity("spacing Δx", facts.spacing, "m");
-    sheet.row_of("modes", facts.modes.map(|(first, last)| format!("{} to {}", first, grouped(last))));
+    if let Some((first, last)) = facts.modes {
+        sheet.row("modes", format!("{} to {}", first, grouped(last)));
+        let [longest, shortest] = [first, last].map(|mode| format_quantity(facts.length / mode as f64, "m"));
+        sheet.row("waves", format!("{longest} to {shortest}"));
+    }
     match amplitude {
         None => sheet.row("roughness", "none"),
         Some(amplitude) => {
@@ -96,7 +96,6 @@ fn line(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
             let dense = quantity(dense, "1")
                 .map_or_else(String::new, |gradient| format!(" (by the integrals of eq. 12: {gradient})"));
             sheet.row("rms gradient ⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1") + &dense);
-            warning(scene, outcome).iter().for_each(|warning| sheet.row("", warning));
         }
     }
 }
@@ -131,11 +130,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("at first touch F_a(d=0)", outcome.first_touch_adhesion_force, "N");
     sheet.quantity("at zero force F_a(F=0)", outcome.zero_force_adhesion_force, "N");
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
-    sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
-    let table =
-        scene.form.as_ref().and_then(Form::table).filter(|_| outcome.governing.adhesive_work().is_some());
-    let falls = table.and_then(|table| table.falls_from(0.5 * scene.length));
-    sheet.row_of("equivalent profile", falls.map(falling));
+    sheet.quantity("λ²/(AR)", outcome.steep_waves.map(|waves| waves.ratio), "1");
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
     if let Some(instrument) = outcome.instrument {
@@ -226,37 +221,8 @@ fn share(
 fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     let energy = outcome.figures.dissipated_energy;
     sheet.quantity("dissipated energy", energy, "J");
-    let number = outcome.tabor_number.filter(|_| energy.is_some());
-    sheet.row_of("Tabor number μ", number.map(tabor_number));
-}
-
-pub(crate) fn tabor_number(number: f64) -> String {
-    let value = format_quantity(number, "1");
-    if number >= Governing::LEAST_TABOR_NUMBER {
-        return value;
-    }
-    format!(
-        "{value}, below {}: attraction of finite range dissipates less than this",
-        Governing::LEAST_TABOR_NUMBER
-    )
-}
-
-fn steep_waves(waves: SteepWaves) -> String {
-    let SteepWaves { ratio, jkr_factor } = waves;
-    format!(
-        "{}, below {}: by the rule of Hess inner springs detach first; by the theory of JKR the edge recedes, and waves \
-         short against the contact pull off at {jkr_factor:.2} times the force of the sphere without waves",
-        format_quantity(ratio, "1"),
-        SteepWaves::LEAST_RATIO,
-    )
-}
-
-/// Returns a warning that the equivalent profile falls beyond a distance from the axis in m.
-fn falling(from: f64) -> String {
-    format!(
-        "falls at {} from the axis: by the rule of Hess inner springs detach first; by the theory of JKR the edge recedes",
-        format_quantity(from, "m"),
-    )
+    // The number shows whether the energy is valid.
+    sheet.quantity("Tabor number μ", outcome.tabor_number.filter(|_| energy.is_some()), "1");
 }
 
 fn adhesion_force(outcome: &Outcome) -> String {

@@ -4,6 +4,7 @@ use crate::measured_face::{MeasuredFace, SurfaceFile};
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
+use crate::warnings::{sentences_section, warning_texts};
 use asperity_contact::Move;
 use asperity_data::{Kind, Table, format_quantity, format_range, grouped, path_name, per_cent};
 use asperity_plot::Figure;
@@ -72,16 +73,12 @@ impl Report for SurfaceReport {
         if let Some((scene, computed)) = &self.adhesion {
             adhesion(&mut sheet, scene, computed.as_ref());
         }
-        let warnings = self.faces.iter().enumerate().flat_map(|(number, face)| {
-            let of_face =
-                move |warning| if number == 0 { warning } else { format!("opposite face: {warning}") };
-            face.warnings().into_iter().map(of_face)
-        });
-        let warnings: Vec<String> = warnings.collect();
-        if !warnings.is_empty() {
-            sheet.heading("Warnings");
-            warnings.iter().for_each(|warning| sheet.row("", warning));
+        let mut warnings = Vec::new();
+        for (number, face) in self.faces.iter().enumerate() {
+            let whose = if number == 0 { "" } else { "opposite face: " };
+            warnings.extend(face.warnings().iter().map(|warning| format!("{whose}{warning}")));
         }
+        sentences_section(&mut sheet, &warnings);
         Some(sheet.into_text())
     }
 
@@ -313,7 +310,7 @@ impl<'a> FaceJson<'a> {
             spectrum: analysis.isotropic.nodes().collect(),
             profile_spectra: analysis.spectra.iter().map(spectrum).collect(),
             ends_inside_scan: analysis.ends_inside,
-            warnings: face.warnings(),
+            warnings: warning_texts(&face.warnings()),
             opposite: None,
         }
     }

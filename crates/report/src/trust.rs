@@ -1,21 +1,10 @@
 //! How far an adhesion force can be trusted: criteria of other theories, and errors by their sources.
 
 use crate::sheet::Sheet;
-use asperity_data::per_cent;
+use asperity_data::{Warning, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::trust::{Budget, Criterion, criteria};
-
-/// Returns a warning if the Tabor number of a computed scene is below 1, where JKR theory does not apply; otherwise `None`.
-pub fn without_jkr(outcome: &Outcome) -> Option<String> {
-    let number = outcome.tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
-    let number = asperity_data::format_rounded(number, 2, "1");
-    Some(format!(
-        "JKR theory and the rule of Hess do not apply: the Tabor number {number} is below {}, so \
-         that the attraction reaches beyond the contact. DMT theory applies, by which a loop dissipates next to nothing.",
-        Criterion::LEAST_TABOR_NUMBER
-    ))
-}
 
 /// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their sources.
 pub(crate) fn trust(
@@ -26,7 +15,8 @@ pub(crate) fn trust(
     deviation: Option<f64>,
 ) {
     let budget = Budget::of(outcome, estimate, ensemble, deviation);
-    let errors = budget.map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble));
+    let errors =
+        budget.map_or_else(Vec::new, |budget| error_rows(scene, outcome, estimate, &budget, ensemble));
     for (heading, rows) in [
         ("Adhesion without a preload, by several theories", theory_rows(scene, outcome, ensemble)),
         ("Errors of F_a by their sources", errors),
@@ -61,6 +51,7 @@ pub fn theory_rows(
 /// A row has a source and its relative error in words. The last row names the largest source.
 pub fn error_rows(
     scene: &Scene,
+    outcome: &Outcome,
     estimate: Option<&Estimate>,
     budget: &Budget,
     ensemble: Option<&Ensemble>,
@@ -75,6 +66,7 @@ pub fn error_rows(
         }
         grid => grid.unwrap_or_else(|| "not known".to_owned()),
     };
+    let is_exceeded = outcome.warnings.iter().any(Warning::exceeds_errors);
     let is_random = scene.seed().is_some();
     let profiles = ensemble.map_or(1, Ensemble::computed);
     let sample = match share(budget.sample) {
@@ -95,9 +87,11 @@ pub fn error_rows(
         (None, Some(_)) => {
             "not known: the MDR is a model for rough bodies, whose adhesion is disputed".into()
         }
+        (None, None) if is_exceeded => "not known: a premise does not hold (Warnings)".into(),
         (None, None) => "none for bodies of revolution whose equivalent profile rises everywhere".into(),
     };
     let largest = match budget.largest {
+        None if is_exceeded => "not known: a premise does not hold (Warnings)",
         Some("grid") => "grid: more springs reduce it (--tolerance)",
         Some("sample") => "sample of profiles: more profiles reduce it (--profiles)",
         Some("model") => "model: more springs do not help",
@@ -126,15 +120,55 @@ mod tests {
     }
 
     #[test]
-    fn a_summary_begins_with_the_theory_that_does_not_apply() {
+    fn a_summary_names_the_theory_that_does_not_apply() {
         let hard = scene(&[("material", "(effective_modulus: 2.0e11)"), ("adhesion", "(work: 0.05)")]);
         let outcome = run(&hard).unwrap();
         let text = crate::summary::brief_summary(hard.scene(), &outcome);
         assert!(
-            text.starts_with("JKR theory and the rule of Hess do not apply: the Tabor number 0."),
+            text.contains("* JKR theory and the rule of Hess do not apply: the Tabor number 0."),
             "{text}"
         );
-        assert_eq!(without_jkr(&run(&scene(&[])).unwrap()), None);
+        assert_eq!(run(&scene(&[("roughness.modes", "(4, 256)")])).unwrap().warnings, []);
+    }
+
+    /// No error is stated for a contact that reaches the ends of its profile, and none is named as the largest one.
+    #[test]
+    fn no_error_is_stated_where_the_contact_reaches_the_ends() {
+        let fields = [("length", "2.0e-5"), ("material", "(effective_modulus: 1.0e6)")];
+        let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("jkr-sphere").unwrap().set_all(&fields).unwrap();
+        let outcome = run(&document).unwrap();
+        let own = asperity_scene::estimate(document.scene(), std::path::Path::new(""), &outcome, &|| false);
+        assert_eq!(own, None);
+        // Also if somebody states one.
+        let evidence = asperity_scene::discretisation::Evidence::ClosedForm;
+        let target = asperity_scene::discretisation::Target::AdhesionForce;
+        let stated = Estimate { target, error: 7e-4, near_step: false, evidence };
+        let budget = Budget::of(&outcome, Some(&stated), None, None).unwrap();
+        assert_eq!(budget.largest, None);
+        let rows = error_rows(document.scene(), &outcome, own.as_ref(), &budget, None);
+        assert!(
+            rows[3].1.starts_with("not known: a premise") && rows[4].1.starts_with("not known: a premise")
+        );
+        let report = crate::RunReport {
+            title: "",
+            scene: document.scene(),
+            outcome: &outcome,
+            choice: None,
+            estimate: Some(&stated),
+            ensemble: None,
+            deviation: None,
+        };
+        use crate::report::Report;
+        let text = report.text().unwrap();
+        assert!(text.contains("error unknown") && !text.contains("grid ±"), "{text}");
+        let mut json = Vec::new();
+        report.json().unwrap().write_json(&mut json, &[]).unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+        assert_eq!(json["adhesion_force_error"], serde_json::Value::Null);
+        assert!(
+            json["warnings"][0].as_str().unwrap().starts_with("The contact reaches an end of the profile")
+        );
     }
 
     #[test]
@@ -145,7 +179,7 @@ mod tests {
         let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_, _| ()).unwrap();
         let rows = |ensemble: Option<&Ensemble>| {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
-            error_rows(scene, None, &budget, ensemble)
+            error_rows(scene, &outcome, None, &budget, ensemble)
         };
         let words = |rows: Vec<(&str, String)>| rows.into_iter().map(|row| row.1).collect::<Vec<_>>();
         let alone = words(rows(None));

@@ -7,8 +7,8 @@ use crate::scene::checked::CheckedScene;
 use crate::scene::measured::Measured;
 use crate::scene::model::{Material, Numerics, Roughness, SPRINGS_PER_WAVE, Scene};
 use crate::simulation::outcome::{Outcome, RunError};
-use crate::simulation::stages::Simulation;
-use asperity_contact::{ContactError, Modulus, Move, Profile};
+use crate::simulation::stages::{Simulation, nominal_form, profile_of};
+use asperity_contact::{ContactError, Modulus, Move, NominalForm, Profile};
 use asperity_surface::lines::{Line, MeasuredRoughness};
 use asperity_surface::{EquivalentLine, Form};
 use std::sync::Arc;
@@ -206,7 +206,9 @@ impl ProfileBuilder {
             return value(format!("height with index {index}"), heights[index], "from -1e50 to 1e50 m");
         }
         let line = Line::from_roughness(heights, self.length, scene.form.as_ref(), 1.0);
-        Ok(crate::simulation::stages::profile_of(&line.map_err(RunError::from)?)?)
+        // Without a form the heights may be those of the form.
+        let form = if self.form.is_none() { NominalForm::Unstated } else { nominal_form(&scene) };
+        Ok(profile_of(&line.map_err(RunError::from)?, form)?)
     }
 
     /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`] changes its other fields.

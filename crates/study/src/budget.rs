@@ -2,7 +2,7 @@
 
 use super::ensemble::Ensemble;
 use super::quantity::Quantity;
-use asperity_data::quantile;
+use asperity_data::{Warning, quantile};
 use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
 use std::ops::Range;
@@ -27,7 +27,8 @@ pub struct Budget {
     /// Error of the model: relative difference between the mean adhesion force on one-dimensional profiles and the mean of the
     /// same bodies in three dimensions.
     pub model: Option<f64>,
-    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`; `None` if no error is known.
+    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`; `None` if no error is known, or
+    /// if a premise of the model does not hold, which may cause a larger error.
     pub largest: Option<&'static str>,
 }
 
@@ -53,6 +54,8 @@ impl Budget {
         let known = [("grid", grid), ("sample", sample), ("surface", surface)];
         let known = known.into_iter().filter_map(|(name, share)| Some((name, share?)));
         let largest = known.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(name, _)| name);
+        // A premise that does not hold may cause a larger error than all that are known.
+        let largest = largest.filter(|_| !outcome.warnings.iter().any(Warning::exceeds_errors));
         Some(Budget { grid, sample, surface, model: None, largest })
     }
 

@@ -1,6 +1,8 @@
 //! The outcome of one loading on one profile, from which all recorded quantities follow.
 
-use asperity_contact::{Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Reversal};
+use asperity_contact::{
+    Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal, Warning,
+};
 use asperity_scene::{Governing, Regime, Scene};
 
 /// Outcome of one loading on one profile. A figure that it does not have is `None`.
@@ -19,33 +21,40 @@ pub(super) struct CaseOutcome<'o> {
     pub smooth: Option<f64>,
     /// Outcome of the loading.
     pub loading: LoadingOutcome,
+    /// Premises of the model that the case does not meet.
+    pub warnings: Vec<Warning>,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct LoadingOutcome {
     pub figures: Figures,
     /// Largest contact length, m.
     pub contact_length: Option<f64>,
     /// Point of the force curve at the preload.
     pub preload: Option<CurvePoint>,
+    /// Premises of the model that the loading does not meet.
+    pub warnings: Vec<Warning>,
 }
 
 impl LoadingOutcome {
-    /// Collects the outcome of a loading with these stages.
-    pub fn of_legs(legs: Vec<LegRecord>) -> Self {
+    /// Collects the outcome of a loading of a profile with these stages.
+    pub fn of_legs(legs: Vec<LegRecord>, profile: &Profile) -> Self {
         let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
         let preload = Branch::preload(&legs).map(|(_, point)| point);
-        let figures = Figures::of(&History { legs, ..History::default() });
-        LoadingOutcome { figures, contact_length, preload }
+        let history = History { legs, ..History::default() };
+        let warnings = history.warnings(profile);
+        LoadingOutcome { figures: Figures::of(&history), contact_length, preload, warnings }
     }
 
-    /// Collects the outcome of a loading from separation to `leg`, the turning point of `reversal`, and back to separation.
-    pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
+    /// Collects the outcome of a loading of a profile from separation to `leg`, the turning point of `reversal`, and back to
+    /// separation.
+    pub fn of_reversal(leg: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
             contact_length: Some(reversal.turn.contact_length),
             preload: Some(reversal.turn),
+            warnings: reversal.warnings(profile),
         }
     }
 }

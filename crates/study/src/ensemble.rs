@@ -3,7 +3,7 @@
 use super::error::StudyError;
 use super::profiles::Stop;
 use super::quantity::Quantity;
-use super::results::Results;
+use super::results::{CountedWarning, Results};
 use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::Control;
 use asperity_scene::{Document, Scene, Simulation, Solver};
@@ -106,6 +106,11 @@ impl Ensemble {
     /// value.
     pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
+    }
+
+    /// Returns the premises of the model that profiles of the ensemble do not meet, each with the number of these profiles.
+    pub fn warnings(&self) -> Vec<CountedWarning> {
+        self.results.warnings(0)
     }
 
     /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for

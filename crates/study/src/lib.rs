@@ -17,6 +17,7 @@
 //! Programs with figures and tables use further names in the modules [`folders`], [`maps`], [`checks`], [`half_space`] and
 //! [`trust`].
 
+mod answer_warnings;
 mod axis;
 mod boundary;
 mod budget;
@@ -61,6 +62,7 @@ mod store;
 mod study_map;
 mod tables;
 
+pub use answer_warnings::warnings_of;
 pub use axis::{Axis, Spacing};
 pub use compute::compute;
 pub use ensemble::{Ensemble, ensemble};
@@ -73,7 +75,7 @@ pub use preloads::Staircase;
 pub use profiles::Stop;
 pub use quantity::Quantity;
 pub use question::{Answer, Question};
-pub use results::Results;
+pub use results::{CountedWarning, Results};
 pub use run::{StudyProgress, run_study};
 pub use sensitivity::{Changed, Influence, Sensitivity};
 pub use shard::Shard;

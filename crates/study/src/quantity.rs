@@ -161,6 +161,10 @@ quantities! {
         name: "regime_after_zero_force", meaning: "regime of adhesion that follows from F_a(F=0)",
         unit: "", of: |case| case.regime(case.zero_force),
     }
+    Warnings {
+        name: "warnings", meaning: "number of premises of the model that the case does not meet",
+        of: |case| Some(case.warnings.len() as f64),
+    }
     StiffnessExponent {
         name: "stiffness_exponent",
         meaning: "exponent α of the stiffness k without adhesion, k ∝ F^α",

@@ -4,7 +4,7 @@ use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Streak;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
-use asperity_contact::{ContactError, Move};
+use asperity_contact::{ContactError, Move, Warning};
 use asperity_data::{printable, slope};
 use asperity_scene::{CheckedScene, Governing, Outcome, Roughness, RunError, Simulation, Solver};
 use asperity_surface::SurfaceError;
@@ -23,13 +23,20 @@ pub(super) struct Recorder<'p> {
     pub simulation: Simulation,
     /// Properties of the last profile, with its scene without adhesion and loading.
     profile: Option<(CheckedScene, ProfileRecord)>,
+    /// Premises that recorded cases do not meet, with the numbers of the cells.
+    warnings: Vec<(u64, Vec<Warning>)>,
     stop: &'p dyn Fn() -> bool,
 }
 
 impl<'p> Recorder<'p> {
     /// Creates a recorder that stops within a case as soon as `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
-        Recorder { plan, simulation, profile: None, stop }
+        Recorder { plan, simulation, profile: None, warnings: Vec::new(), stop }
+    }
+
+    /// Returns the premises that the cases recorded so far do not meet, each list with the number of the cell, and forgets them.
+    pub fn take_warnings(&mut self) -> Vec<(u64, Vec<Warning>)> {
+        take(&mut self.warnings)
     }
 
     /// Computes a streak. A cell that cannot be computed gets the reason in place of its values.
@@ -90,16 +97,30 @@ impl<'p> Recorder<'p> {
         let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
         each.truncate(count);
         each.resize((streak.cells.end - streak.cells.start) as usize, LoadingOutcome::default());
-        let values = |loading: LoadingOutcome| {
+        let of_scene = self.simulation.warnings(&scene)?;
+        let mut records = Vec::with_capacity(each.len());
+        for (loading, cell) in each.into_iter().zip(streak.cells.clone()) {
             let smooth = match touch_regime || regime {
                 true => self.simulation.smooth_adhesion_force(&scene, &governing, &loading.figures)?,
                 false => None,
             };
-            let case =
-                CaseOutcome { governing, profile, scene: &scene, first_touch, zero_force, smooth, loading };
-            Ok(plan.record.iter().map(|quantity| quantity.of(&case)).collect())
-        };
-        each.into_iter().map(values).collect()
+            let warnings = [&loading.warnings[..], &of_scene].concat();
+            let case = CaseOutcome {
+                governing,
+                profile,
+                scene: &scene,
+                first_touch,
+                zero_force,
+                smooth,
+                loading,
+                warnings,
+            };
+            records.push(plan.record.iter().map(|quantity| quantity.of(&case)).collect());
+            if !case.warnings.is_empty() {
+                self.warnings.push((cell, case.warnings));
+            }
+        }
+        Ok(records)
     }
 
     /// Returns the outcomes of loadings that each begin at separation, and F_a(d=0) in N.
@@ -120,8 +141,9 @@ impl<'p> Recorder<'p> {
             // One loading serves all reversals.
             let ends = [&[Move::ToTouch], turned.as_slice()].concat();
             let mut each = vec![LoadingOutcome::default(); ends.len()];
+            let own_profile = self.simulation.profile(scene)?;
             self.simulation.reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
-                each[index] = LoadingOutcome::of_reversal(ends[index], &reversal);
+                each[index] = LoadingOutcome::of_reversal(ends[index], &reversal, &own_profile);
                 Ok(())
             })?;
             let at_touch = each.remove(0).figures.adhesion_force;
@@ -132,7 +154,8 @@ impl<'p> Recorder<'p> {
         for one in loops {
             let outcome = self.run(&scene.with(|scene| scene.loading = one)?)?;
             first_touch = first_touch.or(outcome.first_touch_adhesion_force);
-            each.push(LoadingOutcome::of_legs(outcome.history.legs));
+            let own_profile = self.simulation.profile(scene)?;
+            each.push(LoadingOutcome::of_legs(outcome.history.legs, &own_profile));
         }
         Ok((each, first_touch))
     }

@@ -10,7 +10,7 @@ use super::quantity::{Quantity, regime_of};
 use super::recorder::{Recorded, Recorder, with_recorder};
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
-use asperity_data::AxisScale;
+use asperity_data::{AxisScale, Warning};
 use asperity_scene::{Regime, RunError, Scene, Simulation, Solver};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -26,6 +26,18 @@ pub struct Results {
     done: Vec<bool>,
     /// Reasons of the records that cannot be computed, by the index of the record.
     failed: BTreeMap<u64, String>,
+    /// Premises that records computed in memory do not meet, by the index of the record.
+    warnings: BTreeMap<u64, Vec<Warning>>,
+}
+
+/// A premise of the model that some profiles of a study do not meet.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CountedWarning {
+    /// The premise, with the values of the first profile that does not meet it.
+    pub warning: Warning,
+    /// Number of profiles that do not meet it.
+    pub profiles: u64,
 }
 
 /// What [`merge`](crate::merge) found in the files of a study. A record has the values of one [cell](Plan) on one random
@@ -75,6 +87,14 @@ fn same(one: &[f64], other: &[f64]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(equal)
 }
 
+/// Counts a warning of one more profile.
+fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
+    match counted.iter_mut().find(|known| known.warning.name() == warning.name()) {
+        Some(known) => known.profiles += 1,
+        None => counted.push(CountedWarning { warning: warning.clone(), profiles: 1 }),
+    }
+}
+
 fn same_record(one: &Recorded, other: &Recorded) -> bool {
     match (one, other) {
         (Ok(one), Ok(other)) => same(one, other),
@@ -92,7 +112,13 @@ impl Results {
         let count = records as usize * plan.record.len();
         values.try_reserve_exact(count).map_err(|_| StudyError::TooManyRecords(records))?;
         values.resize(count, f64::NAN);
-        Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
+        Ok(Results {
+            plan,
+            values,
+            done: vec![false; records as usize],
+            failed: BTreeMap::new(),
+            warnings: BTreeMap::new(),
+        })
     }
 
     /// Makes a study in memory that has no values yet. It is a checked scene on `lines` random profiles, with the recorded
@@ -174,10 +200,15 @@ impl Results {
         let missing: Vec<u64> = (0..plan.lines).filter(|line| !self.has(0, *line)).collect();
         let solve = |simulation: &mut Simulation, line| {
             let streak = Streak { cells: 0..plan.cells(), line };
-            with_recorder(&plan, simulation, stop, |recorder| record(recorder, &streak))
+            with_recorder(&plan, simulation, stop, |recorder| {
+                Ok((record(recorder, &streak)?, recorder.take_warnings()))
+            })
         };
-        on_profiles(&plan, &missing, workers, solve, &mut |line, records| {
+        on_profiles(&plan, &missing, workers, solve, &mut |line, (records, warnings)| {
             (0..).zip(records).for_each(|(cell, one)| self.set_record(cell * plan.lines + line, one));
+            for (cell, of_cell) in warnings {
+                self.warnings.insert(cell * plan.lines + line, of_cell);
+            }
             report(self);
         })
     }
@@ -285,6 +316,35 @@ impl Results {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let reasons = || self.failed.range(places.clone()).map(|(_, reason)| reason.as_str());
         (reasons().count() as u64 == self.plan.lines).then(|| reasons().next()).flatten()
+    }
+
+    /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with the number of these
+    /// profiles. Results that were read from files have no such list; their column [`Quantity::Warnings`] has the number of
+    /// premises.
+    pub fn warnings(&self, cell: u64) -> Vec<CountedWarning> {
+        let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
+        let mut counted: Vec<CountedWarning> = Vec::new();
+        for warning in self.warnings.range(places).flat_map(|(_, warnings)| warnings) {
+            count(&mut counted, warning);
+        }
+        counted
+    }
+
+    /// Returns the premises of the model that profiles do not meet in any [cell](Plan), each with the number of these profiles.
+    pub fn all_warnings(&self) -> Vec<CountedWarning> {
+        let mut counted: Vec<CountedWarning> = Vec::new();
+        for line in 0..self.plan.lines {
+            let places = (0..self.plan.cells()).map(|cell| cell * self.plan.lines + line);
+            let of_profile: Vec<&Warning> =
+                places.filter_map(|place| self.warnings.get(&place)).flatten().collect();
+            let mut names = BTreeSet::new();
+            for warning in of_profile {
+                if names.insert(warning.name()) {
+                    count(&mut counted, warning);
+                }
+            }
+        }
+        counted
     }
 
     /// Returns the plan of the study.

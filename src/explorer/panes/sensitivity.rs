@@ -42,7 +42,9 @@ pub static ROW: PaneRow = PaneRow {
 fn report(app: &App) -> Exported<'_> {
     let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
     let sensitivity = app.studies.value().filter(|_| app.studies.is_done::<Sensitivity>())?;
-    Some(("asperity sensitivity".into(), Box::new(SensitivityReport { title, scene, sensitivity })))
+    let warnings = app.current().map_or(&[][..], |computed| &computed.outcome.warnings);
+    let report = SensitivityReport { title, scene, sensitivity, warnings };
+    Some(("asperity sensitivity".into(), Box::new(report)))
 }
 
 fn panel(app: &App, size: Size) -> Panel {

@@ -37,6 +37,14 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         })
     }
 
+    /// Returns the springs of the leftmost and of the rightmost patch at an indentation in m.
+    pub fn outermost(&self, indentation: f64) -> [Option<Span>; 2] {
+        // Of two separate runs the right one comes first.
+        let rightmost = self.runs.iter().find(|run| run.is_at(indentation));
+        let leftmost = self.runs.iter().rfind(|run| run.is_at(indentation));
+        [leftmost, rightmost].map(|run| run.map(|run| self.ground.span_at(run, indentation)))
+    }
+
     /// Returns for each spring of the profile the smallest indentation in m at which it is in contact: −∞ for always, +∞ for
     /// never.
     pub fn thresholds(&self) -> Vec<f64> {

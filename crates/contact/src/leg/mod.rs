@@ -242,6 +242,23 @@ impl Leg {
         }
     }
 
+    /// Returns true if an outermost spring of the profile is in contact at an indentation in m.
+    pub fn reaches_ends(&self, indentation: f64) -> bool {
+        match &self.patches {
+            Patches::Springs(thresholds) => {
+                let outermost = [thresholds.first(), thresholds.last()];
+                outermost.into_iter().flatten().any(|&threshold| threshold <= indentation)
+            }
+            Patches::Runs(tree, runs) => {
+                let last_spring = self.contact.gaps().len() - 1;
+                let [leftmost, rightmost] =
+                    along_runs!(self, tree, runs, along => along.outermost(indentation));
+                leftmost.is_some_and(|span| span.first == 0)
+                    || rightmost.is_some_and(|span| span.last == last_spring)
+            }
+        }
+    }
+
     /// Returns the indentations above `low` and up to `high` (m) at which the force jumps by about `least` (N) or more, in
     /// ascending order.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {

@@ -14,6 +14,7 @@ mod large_lines;
 mod levels;
 mod memory;
 mod patches;
+mod premises;
 mod refinement;
 mod refusals;
 mod reversals;

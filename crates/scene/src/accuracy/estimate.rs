@@ -4,7 +4,7 @@ use super::solution::{Errors, FEWEST, Runs, Solution, Target, loaded, refined, r
 use crate::scene::checked::CheckedScene;
 use crate::simulation::outcome::Outcome;
 use asperity_contact::Edges;
-use asperity_data::per_cent;
+use asperity_data::{Warning, per_cent};
 use serde::Serialize;
 use std::array;
 use std::path::Path;
@@ -88,7 +88,8 @@ pub enum Evidence {
 /// numbers of springs, and the true error exceeds it in about 5 of 100 cases.
 ///
 /// Returns `None` if there is neither an adhesion force nor a force curve, if `stop` returns true, or if one of the two
-/// further solutions fails.
+/// further solutions fails. Also returns `None` if the contact reaches the ends of the profile of a curved body: more springs
+/// would not come nearer to the forces of this body.
 ///
 /// ```
 /// use asperity_contact::{Modulus, Move};
@@ -109,6 +110,9 @@ pub fn estimate(
     outcome: &Outcome,
     stop: &dyn Fn() -> bool,
 ) -> Option<Estimate> {
+    if outcome.warnings.iter().any(Warning::leaves_errors_unknown) {
+        return None;
+    }
     let own = Solution::of(scene, outcome);
     let target = Target::of(&own);
     if let (Some(exact), Some(force)) = (own.closed_form, own.adhesion_force) {

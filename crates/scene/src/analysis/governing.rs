@@ -6,6 +6,7 @@
 use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
 use crate::scene::model::{Roughness, Scene};
 use asperity_contact::{Contact, ContactBuilder, ContactError, Modulus, Profile};
+use asperity_data::Warning;
 use asperity_surface::{Amplitude, Form};
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -43,7 +44,7 @@ pub struct Governing {
 
 impl Governing {
     /// Tabor number ([`Self::tabor_number`]) below which the model overestimates the dissipated energy.
-    pub const LEAST_TABOR_NUMBER: f64 = 5.0;
+    pub const LEAST_TABOR_NUMBER: f64 = Warning::JKR_TABOR_NUMBER;
 
     /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`] of its profile when scaled
     /// to an rms height of 1 m. A measured roughness needs `measured`, the amplitude of the surface.
@@ -195,7 +196,7 @@ pub struct SteepWaves {
 
 impl SteepWaves {
     /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere.
-    pub const LEAST_RATIO: f64 = 12.391;
+    pub const LEAST_RATIO: f64 = Warning::LEAST_WAVE_RATIO;
 
     /// Returns the steep waves of a scene; `None` if the scene has no such waves or no adhesion.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {

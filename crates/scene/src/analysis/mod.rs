@@ -2,5 +2,6 @@
 
 pub(crate) mod governing;
 pub(crate) mod instrument;
+pub(crate) mod premises;
 pub(crate) mod regime;
 pub(crate) mod reversal_map;

@@ -60,7 +60,14 @@ mod tests {
             let at = points[below + turn];
             let forces = points[..=below + turn].iter().map(|&point| force(at, point)).collect();
             let turn = CurvePoint { indentation: at, force: force(at, at), ..CurvePoint::default() };
-            Reversal { turn, smallest: turn, separation: -0.5, dissipated_energy: 1.0, forces }
+            Reversal {
+                turn,
+                smallest: turn,
+                separation: -0.5,
+                dissipated_energy: 1.0,
+                reaches_ends: false,
+                forces,
+            }
         };
         ReversalMap { reversals: (0..12).map(reversal).collect(), points, below }
     }

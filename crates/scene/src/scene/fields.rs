@@ -77,7 +77,7 @@ pub const FIELDS: &[Field] = &[
     row("material.effective_modulus", Range::closed(1.0, 1e13)).quantity("effective modulus", "E*", "Pa")
         .default("None").meaning("effective modulus E/(1 − ν²), in place of E and ν"),
     row("length", Range::closed(1e-9, 10.0)).quantity("apparent diameter", "L", "m")
-        .meaning("length of the profile: apparent diameter of the contact"),
+        .meaning("width of the real contact: above a tip's contact diameter; of a pad its width, which raises F_a/F_a,max"),
     row("form", FORMS).default("None").read(read_form)
         .meaning("macroscopic shape of the rigid body; nominally flat if left out"),
     row("form.radius", Range::above(0.0, 1e9)).of("Paraboloid").quantity("radius of curvature", "R", "m")

@@ -6,6 +6,7 @@ use super::adhesion::Adhesion;
 use super::fields::{SCENE_VERSION, default_of};
 use super::measured::Measured;
 use asperity_contact::{ContactError, Edges, Modulus, Move};
+use asperity_data::Warning;
 use asperity_surface::lines::MeasuredOptions;
 use asperity_surface::{Form, SelfAffine};
 use serde::{Deserialize, Serialize};
@@ -17,7 +18,7 @@ use strum::IntoStaticStr;
 pub const FEW_SAMPLES: u64 = 2;
 /// Recommended number of springs on the shortest wave. With this number the adhesion force of a rough profile has an error of
 /// about one per cent (docs/accuracy.md).
-pub const SPRINGS_PER_WAVE: u64 = 4;
+pub const SPRINGS_PER_WAVE: u64 = Warning::LEAST_SPRINGS_PER_WAVE;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -192,37 +193,6 @@ impl Scene {
             modes.or(wavelengths.map(|(longest, shortest)| (mode(longest), mode(shortest))))?;
         let roll_off_mode = roll_off.map_or(0.0, |wavelength| self.length / wavelength);
         Some(SelfAffine { hurst, first, last, roll_off_mode })
-    }
-
-    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs, otherwise `None`.
-    ///
-    /// ```
-    /// use asperity_contact::{Modulus, Move};
-    /// use asperity_scene::ProfileBuilder;
-    ///
-    /// let coarse = ProfileBuilder::new(1.0e-4, 256).self_affine(0.7).rms_height(1.0e-7).modes(1, 100);
-    /// let scene = coarse.scene(Modulus::effective(1.0e6)?, None, &[Move::ToTouch])?;
-    /// assert!(scene.warning().unwrap().starts_with("roughness.modes: the shortest wave has 2.5 springs"));
-    /// # Ok::<(), asperity_scene::Error>(())
-    /// ```
-    pub fn warning(&self) -> Option<String> {
-        let (path, springs) = match self.roughness.as_ref()? {
-            Roughness::SelfAffine { modes, .. } => {
-                let path = if modes.is_some() { "roughness.modes" } else { "roughness.wavelengths" };
-                (path, self.numerics.points as f64 / self.spectrum()?.last as f64)
-            }
-            Roughness::Measured(measured) => {
-                ("roughness.continue_to", measured.continue_to? / self.spacing())
-            }
-        };
-        (springs < SPRINGS_PER_WAVE as f64).then(|| {
-            // Rounded down: never to the least number.
-            let springs = (10.0 * springs).floor() / 10.0;
-            format!(
-                "{path}: the shortest wave has {springs} springs, a resolved one at least {SPRINGS_PER_WAVE}: more \
-                 points or longer waves"
-            )
-        })
     }
 
     /// Returns the measured surface, if the scene has one.

@@ -6,7 +6,7 @@ use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::errors::SceneErrors;
 use asperity_contact::{ContactError, Figures, History, Patch};
-use asperity_data::{format_quantity, rounded_up};
+use asperity_data::{Warning, format_quantity, rounded_up};
 use asperity_surface::SurfaceError;
 use asperity_surface::lines::Histogram;
 use serde::Serialize;
@@ -53,6 +53,9 @@ pub struct Outcome {
     /// Histogram of the heights of the profile; `None` unless the scene has
     /// [`Observer::HeightHistogram`](crate::Observer::HeightHistogram).
     pub histogram: Option<Histogram>,
+    /// Premises of the model that the scene and its results do not meet; empty if all hold. Each [`Warning`] says what follows
+    /// for the results.
+    pub warnings: Vec<Warning>,
     /// Times that the parts of the computation have taken.
     pub timings: Timings,
 }

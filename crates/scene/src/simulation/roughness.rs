@@ -1,6 +1,7 @@
 //! Heights of the roughness of a scene, random or measured.
 
 use super::outcome::RunError;
+use crate::analysis::premises::MeasuredFacts;
 use crate::scene::fields::MOST_POINTS;
 use crate::scene::model::{SPRINGS_PER_WAVE, Scene};
 use asperity_surface::lines::{MeasuredOptions, MeasuredRoughness, Synthesizer, read_faces};
@@ -8,6 +9,9 @@ use asperity_surface::{Amplitude, EquivalentLine, SelfAffine, SurfaceError};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Share of the squared height that the longest waves of a measured spectrum carry together.
+const LONG_WAVES: f64 = 0.1;
 
 /// Everything that determines the heights of a roughness.
 #[derive(Clone, PartialEq)]
@@ -41,6 +45,8 @@ pub(super) struct Rough {
     pub measured: Option<Amplitude>,
     /// First and last mode of a random profile.
     pub modes: Option<(u64, u64)>,
+    /// Facts about a measured surface and the profile made from it.
+    pub facts: Option<MeasuredFacts>,
 }
 
 /// Maker of heights. It keeps what several roughnesses share.
@@ -81,16 +87,34 @@ impl RoughnessMaker {
                 let heights = self.synthesizer.synthesize(*spectrum, seed, points, shift, memory)?;
                 self.phases_drawn += spectrum.last + 1 - spectrum.first;
                 let (unit, modes) = (spectrum.unit_amplitude(1.0), (spectrum.first, spectrum.last));
-                return Ok(Rough { key, heights, unit: Some(unit), measured: None, modes: Some(modes) });
+                return Ok(Rough {
+                    key,
+                    heights,
+                    unit: Some(unit),
+                    measured: None,
+                    modes: Some(modes),
+                    facts: None,
+                });
             }
             Source::Measured { faces, options, length } => (faces, options, *length),
         };
         let file = faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path);
         let refused = |error: SurfaceError| error.in_measured(file);
         let surface = self.surface(faces, options)?;
-        let (heights, amplitude, modes) = match &*surface {
+        match &*surface {
             MeasuredRoughness::Profile(profile) => {
-                (profile.sample(length, points, shift).map_err(refused)?, profile.amplitude()?, None)
+                let heights = profile.sample(length, points, shift).map_err(refused)?;
+                let amplitude = profile.amplitude()?;
+                let rms_heights = [amplitude.rms_height, root_mean_square_about_mean(&heights)];
+                let facts = MeasuredFacts { scan: profile.length(), rms_heights, long_waves: None };
+                Ok(Rough {
+                    key,
+                    heights,
+                    unit: None,
+                    measured: Some(amplitude),
+                    modes: None,
+                    facts: Some(facts),
+                })
             }
             MeasuredRoughness::Equivalent(line) => {
                 let modes = line.modes(length, points).map_err(refused)?;
@@ -98,10 +122,22 @@ impl RoughnessMaker {
                 let heights =
                     self.synthesizer.synthesize_waves(&of_mode, modes, seed, points, shift, memory)?;
                 self.phases_drawn += modes.1 + 1 - modes.0;
-                (heights, line.amplitude_of_modes(length, modes), Some(modes))
+                let amplitude = line.amplitude_of_modes(length, modes);
+                let facts = MeasuredFacts {
+                    scan: TAU / line.range()[0],
+                    rms_heights: [line.moments().rms_height.value, amplitude.rms_height],
+                    long_waves: Some(long_waves(line, length, modes, amplitude.rms_height)),
+                };
+                Ok(Rough {
+                    key,
+                    heights,
+                    unit: None,
+                    measured: Some(amplitude),
+                    modes: Some(modes),
+                    facts: Some(facts),
+                })
             }
-        };
-        Ok(Rough { key, heights, unit: None, measured: Some(amplitude), modes })
+        }
     }
 
     /// Returns the measured surface of the faces: the given one, the spectrum kept from the last call, or a new one.
@@ -127,4 +163,24 @@ impl RoughnessMaker {
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)
+}
+
+/// Returns the mode whose wave and all longer waves carry a tenth of the squared height of a profile of this length in m, with
+/// these first and last modes and this rms height in m.
+fn long_waves(line: &EquivalentLine, length: f64, (first, last): (u64, u64), rms_height: f64) -> f64 {
+    let mut squared_height = 0.0;
+    for mode in first..=last {
+        squared_height += 0.5 * line.amplitude(mode, length).powi(2);
+        if squared_height >= LONG_WAVES * rms_height * rms_height {
+            return mode as f64;
+        }
+    }
+    last as f64
+}
+
+/// Returns the root mean square of heights in m about their mean.
+fn root_mean_square_about_mean(heights: &[f64]) -> f64 {
+    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+    let squares: f64 = heights.iter().map(|height| (height - mean) * (height - mean)).sum();
+    (squares / heights.len() as f64).sqrt()
 }

@@ -9,7 +9,7 @@ use crate::scene::checked::CheckedScene;
 use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::Scene;
 use asperity_contact::motion::Body;
-use asperity_contact::{Figures, Move, Profile, Reversal};
+use asperity_contact::{Figures, Move, NominalForm, Profile, Reversal};
 use asperity_surface::Form;
 use asperity_surface::lines::Line;
 
@@ -58,7 +58,7 @@ impl Simulation {
         }
         self.smooth = None;
         let line = Line::new(length, points as usize, Some(form), None, 0.0)?;
-        let profile = profile_of(&line)?;
+        let profile = profile_of(&line, NominalForm::Curved)?;
         self.smooth = Some(SmoothProfile { form: form.clone(), length, points, profile: profile.clone() });
         Ok(profile)
     }

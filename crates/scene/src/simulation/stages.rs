@@ -11,9 +11,9 @@ use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::motion::{Body, ContactTree, Leg, MovingBody, Stepwise, load_body};
 use asperity_contact::{
-    ClosedForm, Contact, ContactError, Edges, Figures, History, LegRecord, Move, Patch, Profile,
+    ClosedForm, Contact, ContactError, Edges, Figures, History, LegRecord, Move, NominalForm, Patch, Profile,
 };
-use asperity_data::{check_room, emptied};
+use asperity_data::{Warning, check_room, emptied};
 use asperity_surface::lines::{Histogram, Line, MeasuredRoughness, Synthesizer};
 use asperity_surface::{EquivalentLine, Form, SurfaceError};
 use std::mem::take;
@@ -89,6 +89,8 @@ pub(super) struct Prepared {
     heights_binned: u64,
     /// Times in s for the profile and the tree.
     timings: Timings,
+    /// Premises that the scene does not meet, before its loading.
+    warnings: Vec<Warning>,
 }
 
 /// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, its force curve
@@ -168,7 +170,7 @@ impl Simulation {
         let key = LineKey { roughness, scale, length, points, form: scene.form.clone() };
         if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
             let line = self.lay_line(scene, &key)?;
-            self.profile = Some(profile_of(&line)?);
+            self.profile = Some(profile_of(&line, nominal_form(scene))?);
             self.line = Some((key, line));
         }
         let Some((_, line)) = &self.line else {
@@ -298,7 +300,30 @@ impl Simulation {
 
         let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
         let contact = governing.contact(self.made()?)?.edges(edges).loading_stiffness(stiffness).build()?;
-        Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
+        let warnings = self.warnings_before_loading(scene, &governing)?;
+        Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings, warnings })
+    }
+
+    /// Returns the premises of the model that a scene does not meet before its loading: those of its fields, its measured surface
+    /// and its profile.
+    ///
+    /// # Errors
+    /// Returns the same errors as [`Self::make_line`].
+    pub fn warnings(&mut self, scene: &CheckedScene) -> Result<Vec<Warning>, RunError> {
+        let (.., governing) = self.line_of(scene)?;
+        Ok(self.warnings_before_loading(scene, &governing)?)
+    }
+
+    /// Returns the premises that a scene does not meet before its loading, once its profile is made.
+    fn warnings_before_loading(
+        &self,
+        scene: &Scene,
+        governing: &Governing,
+    ) -> Result<Vec<Warning>, ContactError> {
+        let measured = self.roughness.as_ref().and_then(|rough| rough.facts);
+        let mut warnings: Vec<Warning> = self.made()?.doubt().into_iter().collect();
+        warnings.extend(scene.warnings_of(governing, measured));
+        Ok(warnings)
     }
 
     /// Returns the contact of a scene before its loading, and the governing parameters.
@@ -331,7 +356,15 @@ impl Simulation {
     ) -> Result<Outcome, RunError> {
         let plan = Workload::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
-        let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
+        let Prepared {
+            contact,
+            facts,
+            governing,
+            random_phases,
+            heights_binned,
+            mut timings,
+            warnings: of_scene,
+        } = made;
         reach::check(&contact, &scene.loading)?;
         let on_foundation =
             |patch: Patch| Patch { first: patch.first + facts.first, last: patch.last + facts.first };
@@ -359,6 +392,8 @@ impl Simulation {
         (work.random_phases, work.transforms, work.heights_binned) =
             (random_phases, transforms, heights_binned);
 
+        let mut warnings = history.warnings(contact.profile());
+        warnings.extend(of_scene);
         let figures = Figures::of(&history);
         let [first_touch_adhesion_force, zero_force_adhesion_force] = without_preload;
         let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
@@ -380,15 +415,26 @@ impl Simulation {
             history,
             fragments,
             histogram: self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned(),
+            warnings,
             timings,
         })
     }
 }
 
-/// Returns the profile of a contact on the springs under a line.
-pub(crate) fn profile_of(line: &Line) -> Result<Profile, ContactError> {
+/// Returns the profile of a contact on the springs under a line, with the form of the body.
+pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
-    profile.on_foundation(line.length, line.first)?.with_summit(line.summit)
+    let placed = profile.on_foundation(line.length, line.first)?.with_summit(line.summit)?;
+    Ok(placed.with_nominal_form(nominal_form))
+}
+
+/// Returns the form of the body of a scene. Measured heights that are the profile itself have a form that nobody states.
+pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
+    match &scene.form {
+        Some(form) if form.flat_end().is_none() => NominalForm::Curved,
+        None if scene.measured_as_line() => NominalForm::Unstated,
+        Some(_) | None => NominalForm::Flat,
+    }
 }
 
 /// Loads a contact with the solver of the scene. Returns its history, and F_a(d=0) and F_a(F=0) in N where the contact pulls

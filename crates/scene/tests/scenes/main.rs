@@ -9,6 +9,7 @@ mod closed_forms;
 mod effort;
 mod instrument;
 mod numerics;
+mod premises;
 mod profiles;
 mod scene;
 mod simulation;

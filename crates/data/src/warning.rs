@@ -1,0 +1,558 @@
+//! Premises of the model that a result does not meet: the list of warnings, their conditions and their words.
+//!
+//! This is the only list. A number that is computed although a premise does not hold carries the [`Warning`] of this premise,
+//! and every report prints the same sentence.
+
+use crate::quantity::{format_quantity, format_rounded};
+use std::fmt::{Display, Formatter, Result};
+
+/// A premise of the model that a result does not meet, with the values that show it. `Display` writes one line: what does not
+/// hold, what follows for the numbers, and the step that helps.
+///
+/// ```
+/// use asperity_data::Warning;
+///
+/// assert_eq!(Warning::of_springs_per_wave(4.0), None);
+/// let coarse = Warning::of_springs_per_wave(2.5).unwrap();
+/// assert_eq!(coarse.name(), "few_springs_per_wave");
+/// assert!(coarse.sentence().starts_with("The shortest wave has 2.5 springs, fewer than 4"));
+/// assert!(coarse.to_string().ends_with(&coarse.remedy()));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// An outermost spring of the profile of a curved body was in contact during the loading.
+    ContactAtEnds {
+        /// Length of the profile in m.
+        length: f64,
+    },
+    /// The loading ends in contact before the largest pull of its last unloading.
+    EndsInContact {
+        /// Largest pulling force in N on the rest of the unloading; `None` if it is not known.
+        further: Option<f64>,
+    },
+    /// Fewer than [`Warning::LEAST_SPRINGS_IN_CONTACT`] springs were in contact at any moment of the loading.
+    FewSpringsInContact {
+        /// Largest number of springs in contact.
+        springs: u64,
+    },
+    /// The shortest wave of the roughness has fewer than [`Warning::LEAST_SPRINGS_PER_WAVE`] springs.
+    FewSpringsPerWave {
+        /// Number of springs on the shortest wave.
+        springs: f64,
+    },
+    /// A stated wavelength is not a whole part of the length, and the wave that is used differs by more than
+    /// [`Warning::LARGEST_CHANGE_OF_WAVE`].
+    RoundedWaves {
+        /// Longest and shortest wavelength in m as stated.
+        stated: [f64; 2],
+        /// Longest and shortest wavelength in m as used.
+        used: [f64; 2],
+    },
+    /// A nominally flat random roughness has fewer than [`Warning::LEAST_LONG_WAVES`] of its longest waves on the length.
+    FewLongWaves {
+        /// Number of the longest waves on the length of the profile.
+        waves: f64,
+    },
+    /// The rms gradient of the roughness exceeds [`Warning::LARGEST_GRADIENT`].
+    SteepRoughness {
+        /// Rms gradient of the roughness.
+        rms_gradient: f64,
+        /// True for a measured surface, whose units may be wrong.
+        is_measured: bool,
+    },
+    /// The Tabor number is below [`Warning::LEAST_TABOR_NUMBER`]: neither the theory of JKR nor the rule of Hess applies.
+    LongRangedAttraction {
+        /// Tabor number.
+        tabor_number: f64,
+    },
+    /// The Tabor number is below [`Warning::JKR_TABOR_NUMBER`]: the energy dissipated in a loop is overestimated.
+    FiniteRangedAttraction {
+        /// Tabor number.
+        tabor_number: f64,
+    },
+    /// The heights of a file or an array count as the equivalent profile, and nobody has stated that they are one.
+    HeightsAsProfile,
+    /// Heights that count as the equivalent profile are smooth and curved as a cut through a round body would be.
+    CutLikeHeights {
+        /// Radius in m of the sphere whose cut has these heights.
+        radius: f64,
+    },
+    /// A measured surface is longer than the profile, so that its longest waves are left out.
+    ScanLongerThanLength {
+        /// Length of the scan in m.
+        scan: f64,
+        /// Length of the profile in m.
+        length: f64,
+        /// Rms heights in m of the surface and of the profile.
+        rms_heights: [f64; 2],
+    },
+    /// The waves of a wavy sphere are so steep that the rule of Hess differs from the theory of JKR.
+    SteepWaves {
+        /// Ratio λ²/(AR) of wavelength λ, amplitude A and radius R.
+        ratio: f64,
+        /// Factor by which the waves raise the pull-off force of the sphere by the theory of JKR.
+        jkr_factor: f64,
+    },
+    /// The equivalent profile of a form from a table falls at a distance from the axis, so that the rule of Hess differs from
+    /// the theory of JKR.
+    FallingProfile {
+        /// Distance from the axis in m.
+        from: f64,
+    },
+    /// The file of a measured surface has an unusual property.
+    MeasuredFile {
+        /// Name of the file.
+        file: String,
+        /// The property, with the place in the file where it has one.
+        property: String,
+    },
+    /// Two measured surfaces of one roughness have very different rms heights.
+    SurfacesFarApart {
+        /// Name and rms height in m of the flattest surface.
+        flattest: (String, f64),
+        /// Name and rms height in m of the roughest surface.
+        roughest: (String, f64),
+    },
+    /// Odd rows of a map are displaced against even rows.
+    DisplacedRows {
+        /// Displacement in m.
+        distance: f64,
+    },
+    /// Waves longer than a quarter of the scan carry much of the squared height.
+    LongWavesOfScan {
+        /// Share of these waves in the squared height.
+        share: f64,
+    },
+    /// The moments of a measured surface come from fewer than [`Warning::MANY_PROFILES`] profiles.
+    FewMeasuredProfiles {
+        /// Number of profiles.
+        profiles: u64,
+    },
+    /// The spectrum of a measured surface does not end inside the resolution of the scan.
+    UnresolvedSpectrum,
+    /// Rows or columns of a map are offset against each other.
+    OffsetRows,
+    /// Waves along one axis of a map differ from their neighbours.
+    WavesApart {
+        /// Share of the difference in the squared gradient.
+        share: f64,
+    },
+    /// Short waves of a scan may be artefacts of the tip.
+    TipArtefacts {
+        /// Wavelength in m below which waves are unreliable.
+        wavelength: f64,
+    },
+}
+
+/// Conditions of the warnings.
+impl Warning {
+    /// Smallest number of springs in contact at which a force is accurate.
+    pub const LEAST_SPRINGS_IN_CONTACT: u64 = 20;
+
+    /// Smallest number of springs on the shortest wave. With this number the adhesion force of a rough profile has an error
+    /// of about one per cent (docs/accuracy.md).
+    pub const LEAST_SPRINGS_PER_WAVE: u64 = 4;
+
+    /// Largest relative change by which a wavelength may be rounded to a whole part of the length without a warning.
+    pub const LARGEST_CHANGE_OF_WAVE: f64 = 0.01;
+
+    /// Smallest number of the longest waves on the length of a nominally flat body at which random profiles scatter little
+    /// (docs/learn.md).
+    pub const LEAST_LONG_WAVES: f64 = 4.0;
+
+    /// Largest rms gradient of the roughness for which slopes are small, as linear elasticity assumes.
+    pub const LARGEST_GRADIENT: f64 = 1.0;
+
+    /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the rule of Hess applies.
+    pub const LEAST_TABOR_NUMBER: f64 = 1.0;
+
+    /// Tabor number below which attraction of finite range dissipates less energy than the model computes.
+    pub const JKR_TABOR_NUMBER: f64 = 5.0;
+
+    /// Number of measured profiles whose moments are as accurate as the moments of a map.
+    pub const MANY_PROFILES: u64 = 100;
+
+    /// Share of long waves in the squared height of a scan above which the rms height depends on the length of the scan.
+    pub const MANY_LONG_WAVES: f64 = 0.3;
+
+    /// Share of long waves in the squared height of a scan above which the waves are likely to belong to a body or to a bow
+    /// of the scanner.
+    pub const FORM_OF_SCAN: f64 = 0.9;
+
+    /// Largest ratio of the rms heights of two samples of one roughness.
+    pub const LARGEST_RATIO_OF_HEIGHTS: f64 = 30.0;
+
+    /// Smallest and largest factor by which adhesion near its boundary varies between single measured profiles
+    /// (docs/surface-estimate.md).
+    pub const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
+
+    /// Ratio λ²/(AR) below which the equivalent profile of a wavy sphere falls somewhere.
+    pub const LEAST_WAVE_RATIO: f64 = 12.391;
+
+    /// Returns a warning if a body has few springs in contact. `springs` is the largest number of springs in contact during
+    /// the loading; a body that never touches, with zero springs, has no warning.
+    pub fn of_springs_in_contact(springs: u64) -> Option<Warning> {
+        let is_few = (1..Self::LEAST_SPRINGS_IN_CONTACT).contains(&springs);
+        is_few.then_some(Warning::FewSpringsInContact { springs })
+    }
+
+    /// Returns a warning if the shortest wave of the roughness has few springs.
+    pub fn of_springs_per_wave(springs: f64) -> Option<Warning> {
+        let is_few = springs < Self::LEAST_SPRINGS_PER_WAVE as f64;
+        is_few.then_some(Warning::FewSpringsPerWave { springs })
+    }
+
+    /// Returns a warning if the longest and the shortest wavelength in m that are used differ from those that are stated.
+    pub fn of_waves(stated: [f64; 2], used: [f64; 2]) -> Option<Warning> {
+        let change = |stated: f64, used: f64| (used / stated - 1.0).abs();
+        let largest = change(stated[0], used[0]).max(change(stated[1], used[1]));
+        (largest > Self::LARGEST_CHANGE_OF_WAVE).then_some(Warning::RoundedWaves { stated, used })
+    }
+
+    /// Returns a warning if a nominally flat random roughness has few of its longest waves on the length of the profile.
+    pub fn of_long_waves(waves: f64) -> Option<Warning> {
+        (waves < Self::LEAST_LONG_WAVES).then_some(Warning::FewLongWaves { waves })
+    }
+
+    /// Returns a warning if the slopes of a roughness are not small. `is_measured` is true for a measured surface.
+    pub fn of_gradient(rms_gradient: f64, is_measured: bool) -> Option<Warning> {
+        let is_steep = rms_gradient > Self::LARGEST_GRADIENT;
+        is_steep.then_some(Warning::SteepRoughness { rms_gradient, is_measured })
+    }
+
+    /// Returns a warning if attraction of this Tabor number has too long a range for the model.
+    pub fn of_tabor_number(tabor_number: f64) -> Option<Warning> {
+        if tabor_number < Self::LEAST_TABOR_NUMBER {
+            return Some(Warning::LongRangedAttraction { tabor_number });
+        }
+        let has_finite_range = tabor_number < Self::JKR_TABOR_NUMBER;
+        has_finite_range.then_some(Warning::FiniteRangedAttraction { tabor_number })
+    }
+
+    /// Returns a warning if a scan is longer than the profile, so that the profile has a smaller rms height. `rms_heights` are
+    /// those of the surface and of the profile in m.
+    pub fn of_scan(scan: f64, length: f64, rms_heights: [f64; 2]) -> Option<Warning> {
+        // A profile as long as the scan has the same waves.
+        let is_longer = scan > length * (1.0 + 1e-9);
+        is_longer.then_some(Warning::ScanLongerThanLength { scan, length, rms_heights })
+    }
+
+    /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), and `jkr_factor` the factor by which the
+    /// waves raise the pull-off force by the theory of JKR.
+    pub fn of_wave_ratio(ratio: f64, jkr_factor: f64) -> Option<Warning> {
+        (ratio < Self::LEAST_WAVE_RATIO).then_some(Warning::SteepWaves { ratio, jkr_factor })
+    }
+
+    /// Returns a warning if the rms heights in m of two named surfaces differ too much for samples of one roughness.
+    pub fn of_rms_heights(flattest: (String, f64), roughest: (String, f64)) -> Option<Warning> {
+        let is_far = roughest.1 / flattest.1 > Self::LARGEST_RATIO_OF_HEIGHTS;
+        is_far.then_some(Warning::SurfacesFarApart { flattest, roughest })
+    }
+
+    /// Returns a warning if long waves carry this share of the squared height of a scan.
+    pub fn of_long_waves_of_scan(share: f64) -> Option<Warning> {
+        (share > Self::MANY_LONG_WAVES).then_some(Warning::LongWavesOfScan { share })
+    }
+
+    /// Returns a warning for the moments of this number of measured profiles.
+    pub fn of_measured_profiles(profiles: u64) -> Option<Warning> {
+        (profiles < Self::MANY_PROFILES).then_some(Warning::FewMeasuredProfiles { profiles })
+    }
+}
+
+/// What follows from the warnings for stated errors.
+impl Warning {
+    /// Returns true if the results are not those of the stated body, so that no error of them is known.
+    pub fn leaves_errors_unknown(&self) -> bool {
+        matches!(self, Warning::ContactAtEnds { .. })
+    }
+
+    /// Returns true if forces may be wrong by more than the errors due to the number of springs, the sample of profiles and the
+    /// measured spectrum together.
+    pub fn exceeds_errors(&self) -> bool {
+        matches!(
+            self,
+            Warning::ContactAtEnds { .. }
+                | Warning::SteepRoughness { .. }
+                | Warning::LongRangedAttraction { .. }
+                | Warning::HeightsAsProfile
+                | Warning::CutLikeHeights { .. }
+                | Warning::SteepWaves { .. }
+                | Warning::FallingProfile { .. }
+        )
+    }
+}
+
+/// Words of the warnings.
+impl Warning {
+    /// Returns the name of the premise: a key in `snake_case`, the same in every version, for counting and for tables.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Warning::ContactAtEnds { .. } => "contact_at_ends",
+            Warning::EndsInContact { .. } => "ends_in_contact",
+            Warning::FewSpringsInContact { .. } => "few_springs_in_contact",
+            Warning::FewSpringsPerWave { .. } => "few_springs_per_wave",
+            Warning::RoundedWaves { .. } => "rounded_waves",
+            Warning::FewLongWaves { .. } => "few_long_waves",
+            Warning::SteepRoughness { .. } => "steep_roughness",
+            Warning::LongRangedAttraction { .. } => "long_ranged_attraction",
+            Warning::FiniteRangedAttraction { .. } => "finite_ranged_attraction",
+            Warning::HeightsAsProfile => "heights_as_profile",
+            Warning::CutLikeHeights { .. } => "cut_like_heights",
+            Warning::ScanLongerThanLength { .. } => "scan_longer_than_length",
+            Warning::SteepWaves { .. } => "steep_waves",
+            Warning::FallingProfile { .. } => "falling_profile",
+            Warning::MeasuredFile { .. } => "measured_file",
+            Warning::SurfacesFarApart { .. } => "surfaces_far_apart",
+            Warning::DisplacedRows { .. } => "displaced_rows",
+            Warning::LongWavesOfScan { .. } => "long_waves_of_scan",
+            Warning::FewMeasuredProfiles { .. } => "few_measured_profiles",
+            Warning::UnresolvedSpectrum => "unresolved_spectrum",
+            Warning::OffsetRows => "offset_rows",
+            Warning::WavesApart { .. } => "waves_apart",
+            Warning::TipArtefacts { .. } => "tip_artefacts",
+        }
+    }
+
+    /// Returns a sentence that says what does not hold, and what follows for the numbers.
+    pub fn sentence(&self) -> String {
+        let metres = |value: f64| format_quantity(value, "m");
+        match self {
+            Warning::ContactAtEnds { length } => format!(
+                "The contact reaches an end of the profile of {}, beyond which there are no springs: what the body would touch \
+                 there is missing in all forces and energies, and no stated error contains this.",
+                metres(*length)
+            ),
+            Warning::EndsInContact { further: Some(force) } => format!(
+                "The loading ends in contact, and further unloading would still pull with up to {}: the bodies are not pulled \
+                 off, so there is no adhesion force F_a, no regime and no dissipated energy.",
+                format_quantity(*force, "N")
+            ),
+            Warning::EndsInContact { further: None } => {
+                "The loading ends in contact before the bodies are pulled off, so there is no adhesion force F_a, no regime \
+                 and no dissipated energy."
+                    .to_owned()
+            }
+            Warning::FewSpringsInContact { springs } => format!(
+                "At most {springs} springs are in contact, fewer than {}: forces and energies of so few springs may be wrong \
+                 by several per cent or more.",
+                Self::LEAST_SPRINGS_IN_CONTACT
+            ),
+            Warning::FewSpringsPerWave { springs } => format!(
+                "The shortest wave has {} springs, fewer than {}: the adhesion force of a rough profile with two springs on \
+                 its shortest wave is wrong by 2 % as a median, and by up to 12 %.",
+                // Rounded down: never to the least number.
+                (10.0 * springs).floor() / 10.0,
+                Self::LEAST_SPRINGS_PER_WAVE
+            ),
+            Warning::RoundedWaves { stated, used } => format!(
+                "A random profile has a whole number of each wave on its length, so the waves from {} to {} that are stated \
+                 are computed as waves from {} to {}.",
+                metres(stated[0]),
+                metres(stated[1]),
+                metres(used[0]),
+                metres(used[1])
+            ),
+            Warning::FewLongWaves { waves } => format!(
+                "The longest waves of the roughness fit only {} on the length, fewer than {}: random profiles differ strongly \
+                 in F_a, and the median of F_a/F_a,max depends on the length.",
+                times(*waves),
+                Self::LEAST_LONG_WAVES
+            ),
+            Warning::SteepRoughness { rms_gradient, .. } => format!(
+                "The rms gradient {} is above {}: the theory of small slopes does not hold, and neither do forces and \
+                 energies that follow from it.",
+                format_quantity(*rms_gradient, "1"),
+                Self::LARGEST_GRADIENT
+            ),
+            Warning::LongRangedAttraction { tabor_number } => format!(
+                "JKR theory and the rule of Hess do not apply: the Tabor number {} is below {}, so that the attraction \
+                 reaches beyond the contact. DMT theory applies, by which a loop dissipates next to nothing.",
+                format_rounded(*tabor_number, 2, "1"),
+                Self::LEAST_TABOR_NUMBER
+            ),
+            Warning::FiniteRangedAttraction { tabor_number } => format!(
+                "The Tabor number {} is below {}, between the theories of JKR and DMT: attraction of finite range dissipates \
+                 less energy in a loop than is computed here.",
+                format_rounded(*tabor_number, 2, "1"),
+                Self::JKR_TABOR_NUMBER
+            ),
+            Warning::HeightsAsProfile => {
+                "The heights count as the equivalent profile, and nobody has stated that they are one: heights measured along \
+                 a line on a rough surface have an rms gradient 29 % smaller than its equivalent profile, and adhere too well."
+                    .to_owned()
+            }
+            Warning::CutLikeHeights { radius } => format!(
+                "The heights count as the equivalent profile, and are smooth and curved like the cut x²/2R through a sphere of \
+                 the radius R = {}: if they are this cut, forces are twice too large, because the equivalent profile of a \
+                 sphere is x²/R.",
+                format_rounded(*radius, 3, "m")
+            ),
+            Warning::ScanLongerThanLength { scan, length, rms_heights: [surface, profile] } => format!(
+                "The scan of {} is longer than the profile of {}, which has no waves longer than itself: its rms height is {} \
+                 instead of {}.",
+                metres(*scan),
+                metres(*length),
+                format_rounded(*profile, 3, "m"),
+                format_rounded(*surface, 3, "m")
+            ),
+            Warning::SteepWaves { ratio, jkr_factor } => format!(
+                "The waves of the sphere are steep, λ²/(AR) = {}, below {}: by the rule of Hess inner springs detach first; by \
+                 the theory of JKR the edge recedes, and waves short against the contact pull off at {jkr_factor:.2} times the \
+                 force of the sphere without waves.",
+                format_quantity(*ratio, "1"),
+                Self::LEAST_WAVE_RATIO
+            ),
+            Warning::FallingProfile { from } => format!(
+                "The equivalent profile falls at {} from the axis: by the rule of Hess inner springs detach first; by the \
+                 theory of JKR the edge recedes.",
+                metres(*from)
+            ),
+            measured => measured.sentence_on_measurement(),
+        }
+    }
+
+    /// Returns the sentence of a warning about the measurement of a surface.
+    fn sentence_on_measurement(&self) -> String {
+        match self {
+            Warning::MeasuredFile { file, property } => format!("{file}: {property}."),
+            Warning::SurfacesFarApart { flattest, roughest } => format!(
+                "The rms heights of {} ({}) and {} ({}) are {}-fold apart: the unit of one of them may be wrong, or they are \
+                 no samples of the same roughness.",
+                flattest.0,
+                format_quantity(flattest.1, "m"),
+                roughest.0,
+                format_quantity(roughest.1, "m"),
+                format_quantity(roughest.1 / flattest.1, "1")
+            ),
+            Warning::DisplacedRows { distance } => format!(
+                "Odd rows are displaced by {} along even ones, as trace and retrace are: the gradient is too large.",
+                format_quantity(*distance, "m")
+            ),
+            Warning::LongWavesOfScan { share } => format!(
+                "Waves longer than a quarter of the scan carry {:.0} % of the squared height: rms height and elastic energy \
+                 depend on the length of the scan.",
+                100.0 * share
+            ),
+            Warning::FewMeasuredProfiles { profiles } => {
+                let [low, high] = Self::BOUNDARY_FACTORS;
+                let plural = if *profiles == 1 { "" } else { "s" };
+                format!(
+                    "The surface is known from {profiles} profile{plural}, fewer than {}: adhesion near its boundary is known \
+                     only within a factor of {low} to {high}.",
+                    Self::MANY_PROFILES
+                )
+            }
+            Warning::UnresolvedSpectrum => {
+                "The spectrum does not end inside the scan: shorter waves may be missing, and in \
+                                            samples of points add to the longer ones."
+                    .to_owned()
+            }
+            Warning::OffsetRows => {
+                "Rows or columns are offset against each other, or were levelled one by one: waves along \
+                                    that axis are left out of the fit."
+                    .to_owned()
+            }
+            Warning::WavesApart { share } => format!(
+                "Waves along one axis differ from their neighbours by {:.0} % of the squared gradient: rows or columns are \
+                 offset against each other, or the surface has a lay.",
+                100.0 * share
+            ),
+            Warning::TipArtefacts { wavelength } => format!(
+                "Waves shorter than {} may be artefacts of the tip.",
+                format_rounded(*wavelength, 3, "m")
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// Returns a sentence that names the step that helps, in words of the fields of a scene.
+    pub fn remedy(&self) -> String {
+        let remedy = match self {
+            Warning::ContactAtEnds { .. } => {
+                "A larger length helps, with numerics.points in proportion, until the contact ends inside the profile."
+            }
+            Warning::EndsInContact { .. } => {
+                "The stage ToSeparation at the end of loading pulls the bodies off."
+            }
+            Warning::FewSpringsInContact { .. } => {
+                "More numerics.points help, or a length that is little larger than the contact."
+            }
+            Warning::FewSpringsPerWave { .. } => "More numerics.points help, or a longer shortest wave.",
+            Warning::RoundedWaves { .. } => {
+                "A length that is a multiple of both wavelengths, or roughness.modes, states waves that are used unchanged."
+            }
+            Warning::FewLongWaves { .. } => {
+                "The length is the width of the real contact; if the contact is so small, report median and quartiles of \
+                 many random profiles."
+            }
+            Warning::SteepRoughness { is_measured: false, .. } => {
+                "A smaller roughness.rms_height or rms_gradient, or a longer shortest wave, has smaller slopes."
+            }
+            Warning::SteepRoughness { is_measured: true, .. } => {
+                "If the unit of positions or of heights is wrong, roughness.unit and roughness.height_unit state it."
+            }
+            Warning::LongRangedAttraction { .. } => {
+                "Of the results only the force of contact without adhesion is left; a shorter adhesion.range raises the number."
+            }
+            Warning::FiniteRangedAttraction { .. } => {
+                "The dissipated energy is an upper bound; adhesion.range states the range of the attraction."
+            }
+            Warning::HeightsAsProfile => {
+                "A measured surface without roughness.as_line, or its spectrum, gives random profiles that are equivalent to \
+                 the surface."
+            }
+            Warning::CutLikeHeights { .. } => {
+                "A form, such as Paraboloid, is transformed to its equivalent profile."
+            }
+            Warning::ScanLongerThanLength { .. } => {
+                "A length of at least the scan has all waves; a shorter one is right only if the contact is that small."
+            }
+            Warning::SteepWaves { .. } => {
+                "A smaller form.amplitude, or a longer form.wavelength, has waves that are not steep."
+            }
+            Warning::FallingProfile { .. } => {
+                "A smaller length ends where the equivalent profile still rises."
+            }
+            Warning::MeasuredFile { .. } => "These points of the file need a look.",
+            Warning::SurfacesFarApart { .. } => {
+                "roughness.unit and roughness.height_unit state the units of a file."
+            }
+            Warning::DisplacedRows { .. } => "Rows of one direction alone are not displaced.",
+            Warning::LongWavesOfScan { share } if *share > Self::FORM_OF_SCAN => {
+                "Where they are the form of a curved body or a bow of the scanner, roughness.detrend: Curvature removes it."
+            }
+            Warning::LongWavesOfScan { .. } => {
+                "A longer scan, or several, shows how the rms height depends on the length."
+            }
+            Warning::FewMeasuredProfiles { .. } => "100 profiles or a map are better.",
+            Warning::UnresolvedSpectrum => "roughness.continue_to continues it as a power law.",
+            Warning::OffsetRows => "Rows that are not levelled one by one keep these waves.",
+            Warning::WavesApart { .. } => "Level the rows before, or choose one by roughness.row.",
+            Warning::TipArtefacts { .. } => {
+                "A sharper tip resolves them; the radius of the tip is stated by roughness.tip_radius."
+            }
+        };
+        remedy.to_owned()
+    }
+}
+
+impl Display for Warning {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
+        write!(formatter, "{} {}", self.sentence(), self.remedy())
+    }
+}
+
+/// A warning is written as its text.
+#[cfg(feature = "files")]
+impl serde::Serialize for Warning {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// Writes how many times a wave fits: `once`, `2.5 times`.
+fn times(waves: f64) -> String {
+    if waves == 1.0 { "once".to_owned() } else { format!("{} times", format_rounded(waves, 2, "1")) }
+}

@@ -1,0 +1,107 @@
+//! Premises of the model that a scene does not meet.
+
+use super::governing::{Governing, SteepWaves};
+use crate::scene::model::{Roughness, Scene};
+use asperity_data::Warning;
+use asperity_surface::Form;
+
+/// What is known of the profile of a scene beyond its fields.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct MeasuredFacts {
+    /// Length of the scan in m.
+    pub scan: f64,
+    /// Rms height of the surface, and rms height of the profile made from it, in m.
+    pub rms_heights: [f64; 2],
+    /// Number of the longest waves on the profile; `None` for a profile that is not random.
+    pub long_waves: Option<f64>,
+}
+
+impl Scene {
+    /// Returns the premises of the model that this scene does not meet, as far as they are known without computing it. The
+    /// list [`Outcome::warnings`](crate::Outcome::warnings) has these premises and those that depend on the results, such as
+    /// a contact that ends inside the profile. What depends on a measured surface is known only from an outcome.
+    ///
+    /// ```
+    /// use asperity_contact::{Modulus, Move};
+    /// use asperity_scene::ProfileBuilder;
+    ///
+    /// let coarse = ProfileBuilder::new(1.0e-4, 256).self_affine(0.7).rms_height(1.0e-7).modes(8, 100);
+    /// let scene = coarse.scene(Modulus::effective(1.0e6)?, None, &[Move::ToTouch])?;
+    /// let warnings = scene.warnings();
+    /// assert_eq!((warnings.len(), warnings[0].name()), (1, "few_springs_per_wave"));
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
+    pub fn warnings(&self) -> Vec<Warning> {
+        let unit = self.spectrum().map(|spectrum| spectrum.unit_amplitude(self.length));
+        self.warnings_of(&Governing::of(self, unit, None), None)
+    }
+
+    /// Returns the premises that this scene does not meet, with its governing parameters and what is known of its measured
+    /// surface.
+    pub(crate) fn warnings_of(&self, governing: &Governing, measured: Option<MeasuredFacts>) -> Vec<Warning> {
+        let adheres = governing.adhesive_work().is_some();
+        let gradient = governing.amplitude.map(|amplitude| amplitude.rms_gradient);
+        let scan = measured.and_then(|facts| Warning::of_scan(facts.scan, self.length, facts.rms_heights));
+        let found = [
+            self.heights_as_profile(),
+            governing.tabor_number(self).and_then(Warning::of_tabor_number),
+            gradient.and_then(|gradient| Warning::of_gradient(gradient, self.measured().is_some())),
+            SteepWaves::of(self, governing)
+                .and_then(|waves| Warning::of_wave_ratio(waves.ratio, waves.jkr_factor)),
+            self.falling_profile().filter(|_| adheres),
+            scan,
+            self.rounded_waves(),
+            self.long_waves(measured).and_then(Warning::of_long_waves),
+            self.springs_per_wave().and_then(Warning::of_springs_per_wave),
+        ];
+        found.into_iter().flatten().collect()
+    }
+
+    /// Returns the doubt about measured heights that are used as the profile itself. A doubt that depends on the heights is
+    /// that of [`Profile::doubt`](asperity_contact::Profile::doubt).
+    fn heights_as_profile(&self) -> Option<Warning> {
+        let has_form = self.form.is_some();
+        (self.measured_as_line() && has_form).then_some(Warning::HeightsAsProfile)
+    }
+
+    fn falling_profile(&self) -> Option<Warning> {
+        let table = self.form.as_ref().and_then(Form::table)?;
+        let from = table.falls_from(0.5 * self.length)?;
+        Some(Warning::FallingProfile { from })
+    }
+
+    /// Returns a warning if the waves used differ from the wavelengths stated.
+    fn rounded_waves(&self) -> Option<Warning> {
+        let Some(Roughness::SelfAffine { wavelengths: Some((longest, shortest)), modes: None, .. }) =
+            self.roughness
+        else {
+            return None;
+        };
+        let spectrum = self.spectrum()?;
+        let used = [spectrum.first, spectrum.last].map(|mode| self.length / mode as f64);
+        Warning::of_waves([longest, shortest], used)
+    }
+
+    /// Returns the number of the longest waves of a random roughness on the flat face of a body; `None` for a body that is not
+    /// nominally flat.
+    fn long_waves(&self, measured: Option<MeasuredFacts>) -> Option<f64> {
+        let share_of_length = match &self.form {
+            None => 1.0,
+            Some(form) => 2.0 * form.flat_end()? / self.length,
+        };
+        let waves = match self.spectrum() {
+            // Above the roll-off the waves of the profile are lower the longer they are.
+            Some(spectrum) => (spectrum.first as f64).max(spectrum.roll_off_mode),
+            None => measured?.long_waves?,
+        };
+        Some(waves * share_of_length)
+    }
+
+    /// Returns the number of springs on the shortest wave of a random roughness; `None` where it is not stated.
+    fn springs_per_wave(&self) -> Option<f64> {
+        match self.roughness.as_ref()? {
+            Roughness::SelfAffine { .. } => Some(self.numerics.points as f64 / self.spectrum()?.last as f64),
+            Roughness::Measured(measured) => Some(measured.continue_to? / self.spacing()),
+        }
+    }
+}
