@@ -19,7 +19,7 @@ use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::{LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
-use asperity_report::{LoopQuantities, Section};
+use asperity_report::{LoopQuantities, Section, counted_texts, warning_texts};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Outcome};
 use asperity_study::maps::{Grid, GridPlace};
@@ -221,6 +221,16 @@ impl App {
     /// The computed scene, if it is the present one.
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
         self.solved.as_ref().filter(|computed| computed.generation == self.edit.generation)
+    }
+
+    /// The premises of the model that the present result does not meet, in the words of all reports: on the random profiles
+    /// as far as they are computed, otherwise on the profile of the scene.
+    pub fn warnings(&self) -> Vec<String> {
+        let Some(computed) = self.current() else { return Vec::new() };
+        match self.studies.value::<Ensemble>().filter(|ensemble| ensemble.computed() > 0) {
+            Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.computed()),
+            None => warning_texts(&computed.outcome.warnings),
+        }
     }
 
     /// Returns true while a newer scene than the shown one is being computed.

@@ -10,7 +10,7 @@ use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
 use asperity_data::{format_rounded, grouped, per_cent};
 use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
-use asperity_report::{CostReport, error_rows, theory_rows, warning_texts, work_precision};
+use asperity_report::{CostReport, error_rows, theory_rows, work_precision};
 use asperity_scene::Estimate;
 use asperity_scene::discretisation::{CostTable, Knob, Progress, measure};
 use asperity_study::Ensemble;
@@ -83,8 +83,9 @@ const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
     let theme = app.view.appearance.theme;
-    let warnings = app.current().map_or_else(Vec::new, |computed| warning_texts(&computed.outcome.warnings));
-    let head = wrapped(&Line::styled(warnings.join(" "), theme.style(Meaning::Error)), size.width);
+    let style = theme.style(Meaning::Error);
+    let warnings = app.warnings().into_iter();
+    let head: Vec<_> = warnings.flat_map(|text| wrapped(&Line::styled(text, style), size.width)).collect();
     let room = usize::from(size.height).saturating_sub(head.len());
     let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
     let cost = filled(sentence(app, table), "  ", size.width.into());

@@ -16,7 +16,6 @@ use asperity_data::{format_quantity, format_range, format_rounded, grouped};
 use asperity_experiment::FitResult;
 use asperity_report::square_loops_words;
 use asperity_scene::Estimate;
-use asperity_scene::theory::SteepWaves;
 use asperity_study::half_space::SquareLoops;
 use asperity_study::{Ensemble, Quantity};
 use ratatui::text::{Line, Span};
@@ -187,12 +186,8 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         };
         facts.push((format!("{}: {state}", measured.name), Meaning::Title));
     }
+    add_warning(&mut facts, &app.warnings(), width);
     facts.extend(regime);
-    if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
-        let least = SteepWaves::LEAST_RATIO;
-        let warning = format!("λ²/AR {ratio:.2} < {least}: JKR pulls {jkr_factor:.2} × the smooth sphere");
-        facts.push((warning, Meaning::Error));
-    }
     let share = app.median_share_in_words().or_else(|| app.adhesion_share_in_words());
     facts.extend(share.map(|share| (share, Meaning::Title)));
     if let Some(coefficient) = figures.adhesion_coefficient {
@@ -202,6 +197,29 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         facts.push((format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
     }
     facts
+}
+
+/// Smallest width, columns, in which the beginning of a warning can be understood.
+const LEAST_WARNING: usize = 30;
+
+/// Adds the number of warnings and the first of them, as far as there is room; without room, the number alone after the
+/// first fact.
+fn add_warning(facts: &mut Vec<(String, Meaning)>, warnings: &[String], width: usize) {
+    let Some(first) = warnings.first() else { return };
+    let before: usize = facts.iter().map(|(text, _)| text.chars().count() + " · ".len()).sum();
+    let room = width.saturating_sub(before);
+    let count = warnings.len();
+    let text = if count == 1 { format!("! {first}") } else { format!("! 1 of {count} (A): {first}") };
+    if text.chars().count() <= room {
+        facts.push((text, Meaning::Error));
+    } else if room >= LEAST_WARNING {
+        let beginning: String = text.chars().take(room - 1).collect();
+        facts.push((format!("{}…", beginning.trim_end()), Meaning::Error));
+    } else {
+        let number =
+            if count == 1 { "! 1 warning (A)".to_owned() } else { format!("! {count} warnings (A)") };
+        facts.insert(facts.len().min(1), (number, Meaning::Error));
+    }
 }
 
 /// What is known of the loops of random squares in three dimensions, and their difference from the line.
