@@ -359,7 +359,7 @@ mod tests {
             let preload = found.values()[0].unwrap();
             assert!((preload * ratio / force - 1.0).abs() < 1e-12, "{ratio}: {preload}");
             let there = alone(&sphere, 0, Move::ToForce(preload), Quantity::AdhesionCoefficient);
-            assert!((there / ratio - 1.0).abs() < 1e-12, "{there}");
+            assert!((there / ratio - 1.0).abs() < WITHIN, "{there}");
         }
         // Beyond the range on either side.
         let range = |ends| asked(&sphere, "preload", "F_a/F_n = 100", 1, Some(ends), 1).unwrap();
