@@ -154,14 +154,16 @@ impl Found {
     }
 
     /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. A profile without a
-    /// value counts as beyond the searched range. `None` if the quantile lies beyond the searched range.
+    /// value counts as beyond the searched range. Of a whole number, or of a number of whole waves, the nearest such value is
+    /// returned. `None` if the quantile lies beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let places = self.ascending();
         let place = share * places.len().checked_sub(1)? as f64;
         let [low, high] = [place.floor(), place.ceil()].map(|index| places[index as usize]);
         // No interpolation towards a number beyond the range.
         let value = if low == high { low } else { between(low, high, place.fract()) };
-        Some(value).filter(|value| value.is_finite())
+        // Between two whole numbers there is none.
+        Some(value).filter(|value| value.is_finite()).map(|value| self.question.allowed().nearest(value))
     }
 
     /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile has a value.
