@@ -208,7 +208,7 @@ mod tests {
     fn both_spreads_are_those_of_separate_runs() {
         let (scene, line) = scene_and_line("(work: 0.05)");
         let found = MeasuredAdhesion::of_line(&scene, &line, 6, 1, &|_| ()).unwrap();
-        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 6, 3).unwrap(), found);
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 6, 3, &|_| ()).unwrap(), found);
         let force = |line: EquivalentLine, seed: u64| {
             let scene = scene.with_seed(seed);
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
@@ -258,13 +258,13 @@ mod tests {
     #[test]
     fn a_given_kappa_is_that_of_the_fitted_spectrum() {
         let (scene, line) = scene_and_line("(kappa: 1.5)");
-        let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap();
+        let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap();
         let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
         let mut simulation = Simulation::default().with_measured(measured);
         let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let work = outcome.governing.work_of_adhesion.unwrap();
         let with_work = |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
         let scene = scene.with(with_work).unwrap();
-        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap(), by_kappa);
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap(), by_kappa);
     }
 }
