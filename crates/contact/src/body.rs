@@ -14,9 +14,6 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// Most points that events add to the points of a force curve: jumps at both ends, the pull-off, and the loss of contact.
-const POINTS_OF_EVENTS: usize = 6;
-
 /// Rigid body that the exact solver moves. The body has its present indentation, and as a [`Leg`] the contact at all
 /// indentations of its present motion.
 ///
@@ -200,10 +197,7 @@ impl Body {
         };
         let chosen = sampled.iter().enumerate();
         let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
-        // A curve that grew point by point would take up to twice the memory, for as long as the history is kept.
-        let most_points = sampled.len() / stride + 2 + POINTS_OF_EVENTS;
-        let mut curve: Vec<CurvePoint> = Vec::with_capacity(most_points);
-        curve.extend(chosen.map(|(_, &state)| self.point_of(state)));
+        let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
         loosest.into_iter().for_each(|point| LegRecord::insert(&mut curve, point));
         let work = &mut self.work;
         let extremes = if loads {

@@ -179,3 +179,32 @@ fn a_tolerance_out_of_reach_changes_nothing() {
     let mut driver = Driver::open(rough());
     driver.answers("%", "still being computed");
 }
+
+#[test]
+fn the_first_warning_is_in_the_status_line_and_all_are_in_the_pane() {
+    let mut driver = Driver::start(changed(&rough(), &[("roughness.modes", "(2, 400)")]));
+    driver.press("Space");
+    let warnings = asperity_report::warning_texts(&driver.outcome().warnings);
+    let [first, _, ..] = &warnings[..] else { panic!("two warnings: {warnings:?}") };
+    let beginning: String = first.chars().take(12).collect();
+    driver.resize((160, 40));
+    driver.states(format!("! 1 of {} (A): {beginning}", warnings.len()));
+    // Where there is no room for words, their number comes before other facts.
+    for size in SIZES.into_iter().filter(|(columns, _)| *columns >= 40) {
+        driver.resize(size);
+        let status = driver.status();
+        let number = warnings.len();
+        let has_number = status.contains(&format!("! 1 of {number} (A): "))
+            || status.contains(&format!("! {number} warnings (A)"));
+        assert!(has_number, "{size:?}: {status}");
+    }
+    driver.resize((160, 40));
+    driver.press("A");
+    let shown = driver.pane(Pane::Trust).join(" ");
+    let shown = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+    for warning in &warnings {
+        assert!(shown.contains(warning), "{warning}\n{}", driver.text());
+    }
+    let driver = Driver::start(smooth());
+    assert_eq!(driver.status().contains("! "), !driver.outcome().warnings.is_empty(), "{}", driver.status());
+}

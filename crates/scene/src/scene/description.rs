@@ -133,7 +133,7 @@ mod tests {
                 before.set("length", &twice),
                 before.set("numerics.edges", "Grid"),
                 before.set("observe", "[Fragments]").unwrap().set("length", &twice),
-                before.with_stages(&[stages.clone(), stages].concat()),
+                before.with_stages(&[stages, stages].concat()),
             ] {
                 let Ok(changed) = changed else { continue };
                 let title = format!("{}, changed", preset.name);
