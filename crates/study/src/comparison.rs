@@ -24,13 +24,44 @@ const EVENTS_OF_PROFILES: u64 = 100;
 /// Share of the length that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
+impl Reference {
+    /// Compares the contact of a checked scene on random profiles with its contact on random squares in three dimensions.
+    /// `simulation` knows the folder of the measured files of the scene. `jobs` is the number of threads, on which only the
+    /// computing times depend. `report` receives each event.
+    ///
+    /// # Errors
+    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of grid cells is
+    /// not allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, if too
+    /// few grid cells are in contact for any comparison, or if `stop` returned true.
+    pub fn of(
+        scene: &CheckedScene,
+        options: ReferenceOptions,
+        simulation: Simulation,
+        jobs: usize,
+        stop: &Stop<'_>,
+        report: &mut dyn FnMut(ReferenceEvent),
+    ) -> Result<Reference, StudyError> {
+        if options.maps == 0 || options.lines == 0 {
+            return Err(StudyError::refused(None, "no profiles", "at least one"));
+        }
+        let mut simulation = simulation;
+        let resolved = Resolved::of(scene, options.cells, &mut simulation)?;
+        let seed = scene.seed();
+        let options = match seed {
+            Some(_) => options,
+            None => ReferenceOptions { maps: 1, lines: 1, ..options },
+        };
+        Comparison { resolved, options, seed: seed.unwrap_or(0), stop }.run(jobs, report)
+    }
+}
+
 /// Comparison of profiles with squares, before it is computed.
-pub(super) struct Comparison<'a> {
-    pub resolved: Resolved,
-    pub options: ReferenceOptions,
+struct Comparison<'a> {
+    resolved: Resolved,
+    options: ReferenceOptions,
     /// Seed of the first profile and of the first square.
-    pub seed: u64,
-    pub stop: &'a Stop<'a>,
+    seed: u64,
+    stop: &'a Stop<'a>,
 }
 
 /// Loading of the scene, on the profile with its own seed.
@@ -80,7 +111,7 @@ struct SquareResult {
 }
 
 impl Comparison<'_> {
-    pub fn run(&self, jobs: usize, report: &mut dyn FnMut(ReferenceEvent)) -> Result<Reference, StudyError> {
+    fn run(&self, jobs: usize, report: &mut dyn FnMut(ReferenceEvent)) -> Result<Reference, StudyError> {
         let threads = self.threads_for_squares(jobs)?;
         let begun = Instant::now();
         let own = self.own_loading()?;

@@ -5,14 +5,10 @@
 //! three dimensions.
 
 use super::compared::Compared;
-use super::comparison::Comparison;
-use super::error::StudyError;
-use super::profiles::Stop;
 use super::reference_budget::ReferenceBudget;
-use super::resolved::Resolved;
 use super::shells::ComparedRoughness;
 use asperity_contact::Move;
-use asperity_scene::{CheckedScene, Scene, Simulation};
+use asperity_scene::Scene;
 use serde::Serialize;
 
 /// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells along the side of a square.
@@ -182,41 +178,13 @@ impl Reference {
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
     }
-
-    /// Compares the contact of a checked scene on random profiles with its contact on random squares in three dimensions.
-    /// `simulation` knows the folder of the measured files of the scene. `jobs` is the number of threads, on which only the
-    /// computing times depend. `report` receives each event.
-    ///
-    /// # Errors
-    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of grid cells is
-    /// not allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, if too
-    /// few grid cells are in contact for any comparison, or if `stop` returned true.
-    pub fn of(
-        scene: &CheckedScene,
-        options: ReferenceOptions,
-        simulation: Simulation,
-        jobs: usize,
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(ReferenceEvent),
-    ) -> Result<Reference, StudyError> {
-        if options.maps == 0 || options.lines == 0 {
-            return Err(StudyError::refused(None, "no profiles", "at least one"));
-        }
-        let mut simulation = simulation;
-        let resolved = Resolved::of(scene, options.cells, &mut simulation)?;
-        let seed = scene.seed();
-        let options = match seed {
-            Some(_) => options,
-            None => ReferenceOptions { maps: 1, lines: 1, ..options },
-        };
-        Comparison { resolved, options, seed: seed.unwrap_or(0), stop }.run(jobs, report)
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{Document, Roughness, open};
+    use crate::error::StudyError;
+    use asperity_scene::{CheckedScene, Document, Roughness, Simulation, open};
 
     const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/");
 
