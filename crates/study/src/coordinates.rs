@@ -36,7 +36,7 @@ impl Allowed {
         }
     }
 
-    /// Returns the whole number that stands for a value: the number of waves. `None` if any value is allowed.
+    /// Returns the whole number that belongs to a value: the number of waves. `None` if any value is allowed.
     pub fn count(self, number: f64) -> Option<f64> {
         match self {
             Allowed::Any => None,
@@ -46,7 +46,7 @@ impl Allowed {
         }
     }
 
-    /// Returns the value for which a whole number stands.
+    /// Returns the value to which a whole number belongs.
     fn of_count(self, count: f64) -> f64 {
         match self {
             Allowed::Any | Allowed::Whole => count,

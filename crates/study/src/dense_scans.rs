@@ -181,7 +181,7 @@ impl Counts {
         }
         self.crossed += usize::from(first.is_some());
         let given = found.values()[0];
-        // An answer at the lower end stands for a target that is reached there.
+        // A target that is reached at the lower end has this end as its answer.
         let is_missed = first.is_some_and(|first| given.is_none_or(|given| given > first * (1.0 + 1e-9)));
         if is_missed && answer.may_miss {
             self.missed_as_stated += 1;

@@ -49,7 +49,8 @@ fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
     driver.press("Enter Ctrl+u `50 µm, 1 µm` Enter");
     assert_eq!((waves(&driver).first, waves(&driver).last), (2, 100));
     driver.shows("50 µm, 1 µm");
-    driver.sees("Right", "50 µm, 1.12 µm");
+    // 89 waves: the nearest whole number to 1.12 µm.
+    driver.sees("Right", "50 µm, 1.124 µm");
     driver.select("roughness.roll_off");
     driver.press("Left");
     assert_eq!(waves(&driver).roll_off_mode, 1e-4 / 4.5e-5);
