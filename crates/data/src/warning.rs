@@ -78,7 +78,8 @@ pub enum Warning {
         /// Radius in m of the sphere whose cut has these heights.
         radius: f64,
     },
-    /// A measured surface is longer than the profile, so that its longest waves are left out.
+    /// A measured surface is longer than the profile, so that its longest waves are left out, and the rms height changes by more
+    /// than [`Warning::LARGEST_CHANGE_OF_HEIGHT`].
     ScanLongerThanLength {
         /// Length of the scan in m.
         scan: f64,
@@ -156,6 +157,9 @@ impl Warning {
 
     /// Largest relative change by which a wavelength may be rounded to a whole part of the length without a warning.
     pub const LARGEST_CHANGE_OF_WAVE: f64 = 0.01;
+
+    /// Largest relative change of the rms height by which a profile may be shorter than a scan without a warning.
+    pub const LARGEST_CHANGE_OF_HEIGHT: f64 = 0.01;
 
     /// Smallest number of the longest waves on the length of a nominally flat body at which random profiles scatter little
     /// (docs/learn.md).
@@ -235,7 +239,9 @@ impl Warning {
     pub fn of_scan(scan: f64, length: f64, rms_heights: [f64; 2]) -> Option<Warning> {
         // A profile as long as the scan has the same waves.
         let is_longer = scan > length * (1.0 + 1e-9);
-        is_longer.then_some(Warning::ScanLongerThanLength { scan, length, rms_heights })
+        let [surface, profile] = rms_heights;
+        let has_other_height = (profile / surface - 1.0).abs() > Self::LARGEST_CHANGE_OF_HEIGHT;
+        (is_longer && has_other_height).then_some(Warning::ScanLongerThanLength { scan, length, rms_heights })
     }
 
     /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), and `jkr_factor` the factor by which the
@@ -335,7 +341,7 @@ impl Warning {
                     .to_owned()
             }
             Warning::FewSpringsInContact { springs } => format!(
-                "At most {springs} springs are in contact, fewer than {}: forces and energies of so few springs may be wrong \
+                "The largest number of springs in contact is {springs}, fewer than {}: forces and energies of so few springs may be wrong \
                  by several per cent or more.",
                 Self::LEAST_SPRINGS_IN_CONTACT
             ),

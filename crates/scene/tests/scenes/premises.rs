@@ -165,7 +165,8 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             whole = Scene { form: Some(Form::Paraboloid { radius }), roughness: None, ..broken.clone() };
         }
         "scan_longer_than_length" => {
-            let (scene, scan) = measured(random, folder, |x| 1e-8 * ((1e6 * x).sin() + (2.3e6 * x).cos()));
+            let long_wave = |x: f64| 3e-8 * (2.5e5 * x).cos();
+            let (scene, scan) = measured(random, folder, |x| long_wave(x) + 1e-8 * (2.3e6 * x).cos());
             whole = Scene { form: Some(Form::Paraboloid { radius: scan }), ..scene };
             whole.length = 1.01 * scan;
             broken = Scene { length: scan * random.between(0.5, 0.9), ..whole.clone() };
