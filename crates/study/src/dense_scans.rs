@@ -276,7 +276,7 @@ fn first_crossings_are_those_of_dense_scans() {
 #[test]
 #[ignore = "takes minutes: a hundred thousand runs; .ci/run runs it"]
 fn first_crossings_of_many_questions_are_those_of_dense_scans() {
-    for seed in [3, 4] {
+    for seed in [5, 6] {
         check(&compared(seed, 250));
     }
 }

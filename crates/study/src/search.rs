@@ -129,8 +129,10 @@ impl Search<'_> {
             Ok(self.compute(numbers)?.iter().map(|values| values[0]).collect())
         })?;
         answer.is_proven = scan.is_complete();
-        // The number of patches and the place of the smallest force jump without a warning.
-        let jumps = matches!(self.question.quantity, Quantity::Fragments | Quantity::PullOffIndentation);
+        // The number of patches and the place of the smallest force jump without a warning, and profiles with other numbers of
+        // waves are other profiles.
+        let jumps = coordinates.is_discrete()
+            || matches!(self.question.quantity, Quantity::Fragments | Quantity::PullOffIndentation);
         answer.may_miss = scan.may_miss() || (jumps && !scan.is_complete());
         // The first number may have the target itself.
         let first = scan.tried.first().filter(|first| first.value == target);
