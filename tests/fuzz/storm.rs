@@ -100,7 +100,9 @@ fn overrides_of_presets() {
     let names: Vec<&str> = asperity::scene::presets().iter().map(|preset| preset.name).collect();
     let drawn = [Drawn::default(), Drawn::default().with_mistakes()].map(|drawn| drawn.overrides(3));
     proptest!(draws(1250), |(name in prop::sample::select(names), set in Union::new(drawn))| {
-        let document = asperity::scene::open(name).unwrap();
+        // The words of a built-in scene belong to its values alone, those of another file stay.
+        let text = asperity::scene::open(name).unwrap().text().replace("title: \"", "title: \"Own ");
+        let document = Document::parse(&text, name).unwrap();
         for (path, value) in &set {
             if let Ok(changed) = document.set(path, value) {
                 assert_one_field(path, &document, &changed);
