@@ -166,8 +166,9 @@ mod tests {
                 ];
                 let mut reversed = vec![None; presses.len()];
                 let mut simulation = Simulation::new(document.resolve(""));
+                let profile = simulation.profile(&scene).unwrap();
                 let see: &mut dyn FnMut(usize, Reversal) -> _ = &mut |index, reversal| {
-                    reversed[index] = Some(LoadingOutcome::of_reversal(presses[index], &reversal));
+                    reversed[index] = Some(LoadingOutcome::of_reversal(presses[index], &reversal, &profile));
                     Ok(())
                 };
                 simulation.reverse(&scene, (&presses, &[]), &|| false, see).unwrap();
@@ -175,7 +176,7 @@ mod tests {
                     let loading = vec![press, Move::ToSeparation];
                     let scene = scene.with(|scene| scene.loading = loading).unwrap();
                     let run = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-                    let legs = LoadingOutcome::of_legs(run.history.legs);
+                    let legs = LoadingOutcome::of_legs(run.history.legs, &profile);
                     assert_eq!(reversed, Some(legs), "{name}, {edges:?}, {press:?}");
                 }
             }
