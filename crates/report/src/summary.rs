@@ -360,7 +360,8 @@ mod tests {
         let of_curve = with(Target::Curve, 2e-3);
         assert!(row(&of_curve).ends_with(&format!("{force}, grid ± 0.2 % of the curve")), "{of_curve}");
         let brief = brief_summary(document.scene(), &outcome);
-        assert!(brief.lines().count() <= 10, "{brief}");
+        let (brief, warnings) = brief.split_once("\nWarnings").unwrap();
+        assert!(brief.lines().count() <= 10 && warnings.contains("longest waves"), "{brief}{warnings}");
         let whole = with(Target::AdhesionForce, 0.01);
         assert!(
             brief.lines().all(|line| whole.lines().any(|other| other.starts_with(line))),

@@ -51,7 +51,7 @@ impl Scene {
             self.falling_profile().filter(|_| adheres),
             scan,
             self.rounded_waves(),
-            self.long_waves(measured).and_then(Warning::of_long_waves),
+            self.long_waves(measured).and_then(Warning::of_long_waves).filter(|_| adheres),
             self.springs_per_wave().and_then(Warning::of_springs_per_wave),
         ];
         found.into_iter().flatten().collect()
