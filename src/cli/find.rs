@@ -18,9 +18,9 @@ Examples:
   asperity find preload my-scene.ron --where 'dissipated energy = 2 pJ' --format json | jq .value
 
 Each random profile is searched for itself; the answer is median, quartiles and range. A preload
-replaces the loading of the scene. Over it F_a, F_a/F_n, the dissipated energy and the contact length
-have exact answers. Any other quantity is computed at several values, and where it comes close to the
-wanted value between two of them, the answer says that crossings may be missed.";
+replaces the loading of the scene. Over it F_a, F_a/F_n, the dissipated energy and the contact
+length have exact answers. Any other quantity is computed at several values, and where it comes
+close to the wanted value between two of them, the answer says that crossings may be missed.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]

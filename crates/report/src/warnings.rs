@@ -2,7 +2,7 @@
 
 use crate::sheet::Sheet;
 use asperity_data::{Warning, grouped};
-use asperity_study::CountedWarning;
+use asperity_study::trust::CountedWarning;
 use serde::Serialize;
 
 /// Adds a section with the premises that a result does not meet. Without warnings it adds nothing.

@@ -13,7 +13,7 @@ use asperity_scene::{CheckedScene, Simulation};
 /// use asperity_scene::Simulation;
 ///
 /// let narrow = asperity_scene::open("jkr-sphere")?.set("length", "20 µm")?;
-/// let warnings = asperity_study::warnings_of(narrow.scene(), &mut Simulation::default());
+/// let warnings = asperity_study::trust::warnings_of(narrow.scene(), &mut Simulation::default());
 /// assert_eq!(warnings[0].name(), "contact_at_ends");
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```

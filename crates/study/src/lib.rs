@@ -73,7 +73,6 @@ mod store;
 mod study_map;
 mod tables;
 
-pub use answer_warnings::warnings_of;
 pub use axis::{Axis, Spacing};
 pub use compute::compute;
 pub use ensemble::{Ensemble, ensemble};
@@ -86,7 +85,7 @@ pub use preloads::Staircase;
 pub use profiles::Stop;
 pub use quantity::Quantity;
 pub use question::{Answer, Question};
-pub use results::{CountedWarning, Results};
+pub use results::Results;
 pub use run::{StudyProgress, run_study};
 pub use sensitivity::{Changed, Influence, Sensitivity};
 pub use shard::Shard;
@@ -129,8 +128,10 @@ pub mod half_space {
 
 /// Errors of an adhesion force, one for each source, and criteria by which other theories decide whether bodies adhere.
 pub mod trust {
+    pub use crate::answer_warnings::warnings_of;
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;
     pub use crate::criterion::Criterion;
     pub use crate::measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
+    pub use crate::results::CountedWarning;
 }

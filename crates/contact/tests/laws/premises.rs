@@ -91,7 +91,7 @@ fn body_of_power(exponent: f64, noise: f64, off_centre: f64, seed: u64, points: 
 
 /// Heights decide whether a body of which nobody has stated the form is curved.
 #[test]
-fn heights_tell_a_curved_body_from_a_flat_one() {
+fn heights_distinguish_a_curved_body_from_a_flat_one() {
     let is_curved = |gaps: Vec<f64>| Profile::from_gaps(gaps, 1e-6).unwrap().is_curved();
     for (seed, exponent) in (0..300).map(|seed| (seed, 1.0 + 0.01 * seed as f64)) {
         let off_centre = 0.3 * (seed as f64).sin();
