@@ -19,7 +19,7 @@ fn decided_by_one_spring(uniform: &mut dyn FnMut() -> f64) -> Document {
     let edges = if uniform() < 0.5 { "Grid" } else { "SubCell" };
     let (hurst, seed) = (0.1 + 0.8 * uniform(), (1.0e6 * uniform()) as u64);
     let text = format!(
-        "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: Cone(angle: 0.012), \
+        "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: Cone(angle: 0.05), \
          roughness: SelfAffine(hurst: {hurst:?}, rms_height: 1.0e-7, modes: (1, {last}), seed: {seed}), \
          adhesion: (work: 0.03), loading: [ToZeroForce, ToSeparation], \
          numerics: (points: 256, edges: {edges}, samples: 2))"
