@@ -7,7 +7,7 @@ use super::scene::{ProfileArguments, SceneArguments, holds_warnings, simulation_
 use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
 use asperity_study::half_space::{Reference, ReferenceOptions};
-use asperity_study::warnings_of;
+use asperity_study::trust::warnings_of;
 use clap::Args;
 use std::io::Write;
 use std::sync::atomic::Ordering;

@@ -7,7 +7,8 @@ use super::removed;
 use super::scene::{SceneArguments, holds_warnings, simulation_of, threads, warn};
 use asperity_report::{Format, SensitivityReport};
 use asperity_scene::Simulation;
-use asperity_study::{Sensitivity, warnings_of};
+use asperity_study::Sensitivity;
+use asperity_study::trust::warnings_of;
 use clap::Args;
 use std::io::Write;
 

@@ -69,8 +69,6 @@ pub use nominal_form::NominalForm;
 pub use profile::Profile;
 pub use target::Move;
 
-pub use asperity_data::Warning;
-
 /// Bodies that move from one target to the next, for models of instruments and for simulations of particles.
 /// [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check it.
 pub mod motion {

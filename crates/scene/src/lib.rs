@@ -44,8 +44,6 @@ pub use scene::open::open;
 pub use simulation::outcome::{Outcome, RunError};
 pub use simulation::stages::Simulation;
 
-pub use asperity_data::Warning;
-
 /// Finds the number of springs that a tolerance needs ([`choose`](discretisation::choose)), and measures how much time
 /// smaller errors cost ([`measure`](discretisation::measure)).
 pub mod discretisation {

@@ -3,7 +3,8 @@
 use super::axis::Axis;
 use super::find::Found;
 use super::plan::Plan;
-use asperity_contact::{Move, Warning};
+use asperity_contact::Move;
+use asperity_data::Warning;
 use asperity_scene::{CheckedScene, Simulation};
 
 /// Returns the premises of the model that a scene and its loading do not meet on its own profile. If the scene cannot be
@@ -13,7 +14,7 @@ use asperity_scene::{CheckedScene, Simulation};
 /// use asperity_scene::Simulation;
 ///
 /// let narrow = asperity_scene::open("jkr-sphere")?.set("length", "20 µm")?;
-/// let warnings = asperity_study::warnings_of(narrow.scene(), &mut Simulation::default());
+/// let warnings = asperity_study::trust::warnings_of(narrow.scene(), &mut Simulation::default());
 /// assert_eq!(warnings[0].name(), "contact_at_ends");
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```

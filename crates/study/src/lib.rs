@@ -62,7 +62,6 @@ mod store;
 mod study_map;
 mod tables;
 
-pub use answer_warnings::warnings_of;
 pub use axis::{Axis, Spacing};
 pub use compute::compute;
 pub use ensemble::{Ensemble, ensemble};
@@ -115,6 +114,7 @@ pub mod half_space {
 
 /// Errors of an adhesion force, one for each source, and criteria by which other theories decide whether bodies adhere.
 pub mod trust {
+    pub use crate::answer_warnings::warnings_of;
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;
     pub use crate::criterion::Criterion;
