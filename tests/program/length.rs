@@ -2,7 +2,8 @@
 
 use crate::generated::{check, root};
 use asperity_contact::Move;
-use asperity_scene::{Document, Simulation, Warning};
+use asperity_data::Warning;
+use asperity_scene::{Document, Simulation};
 use asperity_study::{Ensemble, Quantity, Statistics};
 
 /// Numbers of the longest waves of 80 µm on the length.

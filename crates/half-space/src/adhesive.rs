@@ -444,7 +444,7 @@ mod tests {
     }
 
     /// A loop in other units is the same loop: forces are in units of E*L², energies of E*L³, works of adhesion of E*L. The
-    /// units are powers of two, so that no crack stands differently by rounding.
+    /// units are powers of two, so that no crack ends elsewhere by rounding.
     #[test]
     fn a_loop_scales_with_its_modulus_and_side() {
         let cells = 32;

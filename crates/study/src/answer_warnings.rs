@@ -3,7 +3,8 @@
 use super::axis::Axis;
 use super::find::Found;
 use super::plan::Plan;
-use asperity_contact::{Move, Warning};
+use asperity_contact::Move;
+use asperity_data::Warning;
 use asperity_scene::{CheckedScene, Simulation};
 
 /// Returns the premises of the model that a scene and its loading do not meet on its own profile. If the scene cannot be

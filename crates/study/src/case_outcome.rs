@@ -1,8 +1,9 @@
 //! The outcome of one loading on one profile, from which all recorded quantities follow.
 
 use asperity_contact::{
-    Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal, Warning,
+    Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal,
 };
+use asperity_data::Warning;
 use asperity_scene::{Governing, Regime, Scene};
 
 /// Outcome of one loading on one profile. A figure that it does not have is `None`.

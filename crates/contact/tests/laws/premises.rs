@@ -1,7 +1,8 @@
 //! Premises of the model: a body that is pulled off, a contact that ends inside the profile, heights of a curved body.
 
 use super::*;
-use asperity_contact::{Branch, Figures, History, Modulus, NominalForm, Profile, Warning};
+use asperity_contact::{Branch, Figures, History, Modulus, NominalForm, Profile};
+use asperity_data::Warning;
 
 /// Targets of a history that presses the body and ends on a way back.
 fn partial_loadings() -> impl Strategy<Value = (Vec<f64>, f64)> {
@@ -91,7 +92,7 @@ fn body_of_power(exponent: f64, noise: f64, off_centre: f64, seed: u64, points: 
 
 /// Heights decide whether a body of which nobody has stated the form is curved.
 #[test]
-fn heights_distinguish_a_curved_body_from_a_flat_one() {
+fn heights_show_whether_a_body_is_curved() {
     let is_curved = |gaps: Vec<f64>| Profile::from_gaps(gaps, 1e-6).unwrap().is_curved();
     for (seed, exponent) in (0..300).map(|seed| (seed, 1.0 + 0.01 * seed as f64)) {
         let off_centre = 0.3 * (seed as f64).sin();

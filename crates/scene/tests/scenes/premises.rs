@@ -1,7 +1,8 @@
 //! Each premise that a scene breaks is named, and no other.
 
 use asperity_contact::Move;
-use asperity_scene::{Adhesion, CheckedScene, Material, Measured, Roughness, Scene, Simulation, Warning};
+use asperity_data::Warning;
+use asperity_scene::{Adhesion, CheckedScene, Material, Measured, Roughness, Scene, Simulation};
 use asperity_surface::Form;
 use std::f64::consts::PI;
 use std::fmt::Write;
