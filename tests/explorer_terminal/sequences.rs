@@ -88,8 +88,17 @@ fn ctrl_c_ends_the_explorer_at_once_within_each_of_them() {
     });
 }
 
+/// Longest time between two pieces of a key for which the test judges the explorer and not the load of the machine.
+const LONGEST_BETWEEN_PIECES: Duration = Duration::from_millis(60);
+
 #[test]
 fn a_key_that_arrives_in_two_pieces_is_one_key() {
+    let is_judged = (0..10).any(|_| pieces_are_joined());
+    assert!(is_judged, "the machine is too slow to send the pieces of a key in time");
+}
+
+/// Sends arrow keys in two pieces. Returns false if the machine was too slow to send two pieces in time.
+fn pieces_are_joined() -> bool {
     let (program, _folder) = explorer();
     let mut terminal = paused(program);
     let marked = |rows: &[String]| rows.iter().position(|row| row.contains('›'));
@@ -99,9 +108,13 @@ fn a_key_that_arrives_in_two_pieces_is_one_key() {
     let mut expected = first;
     for (key, change) in [("\x1b[B", 1), ("\x1bOB", 1), ("\x1b[B", 1), ("\x1b[A", -1), ("\x1bOA", -1)] {
         for split in 1..key.len() {
+            let begun = Instant::now();
             terminal.send(&key[..split]);
             sleep(Duration::from_millis(30));
             terminal.send(&key[split..]);
+            if begun.elapsed() > LONGEST_BETWEEN_PIECES {
+                return false;
+            }
             expected = expected.checked_add_signed(change).expect("a row");
             // Any other key than the arrow would move the mark elsewhere or open something.
             terminal.wait("next row selected", |rows| marked(rows) == Some(expected));
@@ -111,6 +124,7 @@ fn a_key_that_arrives_in_two_pieces_is_one_key() {
     assert_eq!(marked(&terminal.rows()), Some(expected), "{}", terminal.text());
     assert_eq!(expected, first + 2);
     quit(&mut terminal);
+    true
 }
 
 #[test]

@@ -53,11 +53,11 @@ impl Document {
         }
     }
 
-    /// The text as it was opened, with the overrides on which the solution does not depend.
+    /// The text as it was opened, with the overrides on which the solution does not depend, and with stated defaults.
     fn opened_with_descriptions(&self) -> Option<Text> {
         let mut text = Text::new(self.opened()).ok()?;
         for (path, value) in self.overrides() {
-            if describes(path) {
+            if describes(path) || text.written(path).is_none() {
                 text = with_typed(&text, path, value).ok()?;
             }
         }
