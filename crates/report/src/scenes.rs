@@ -190,7 +190,11 @@ mod tests {
         assert!(text.contains("adhesion force F_a       23.56 µN              47.12 µN (×2)\n"), "{text}");
         let named: Vec<String> =
             report.drawn(true).legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(named[..3], ["A: ", "B: ", "C: "].map(|letter| format!("{letter}{}", first.title())));
+        let titles = [first.title(), "jkr-sphere, changed", first.title()];
+        assert_eq!(
+            named[..3],
+            [0, 1, 2].map(|number| format!("{}: {}", ["A", "B", "C"][number], titles[number]))
+        );
         assert_eq!(named[3..], ["loading", "jump-in", "preload", "pull-off", "jump-out"]);
     }
 }
