@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 200;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 17] = [
+const PAGES: [(&str, &str); 18] = [
     ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
     ("scene-file.md", "fields of a scene, waves, loading, forms"),
     ("results.md", "summary, JSON, tables, figures"),
@@ -44,6 +44,7 @@ const PAGES: [(&str, &str); 17] = [
     ("performance.md", "times, latency of the explorer, memory"),
     ("terms.md", "symbols, units, signs, words"),
     ("errors.md", "messages, exit codes"),
+    ("design.md", "structure of the program, files of an extension, rules of the code"),
 ];
 
 /// The first fenced block of a language on a page.

@@ -327,7 +327,7 @@ fn files_that_name(name: &str) -> Vec<String> {
     modules().iter().filter(|(_, code)| names(code)).map(|(module, _)| module.join("::")).collect()
 }
 
-/// CONTRIBUTING.md states how many files an extension touches.
+/// docs/design.md states how many files an extension touches.
 #[test]
 fn few_files_name_a_pane_a_form_or_an_effect() {
     for pane in ["Trust", "Spectrum", "Preloads", "Sensitivity"] {
@@ -347,7 +347,7 @@ fn few_files_name_a_pane_a_form_or_an_effect() {
     assert!(files.len() <= 10, "a second work of adhesion is named in {files:?}");
 }
 
-/// Words that CONTRIBUTING.md replaces.
+/// Words that docs/design.md replaces.
 const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
 
 #[test]
@@ -371,7 +371,7 @@ fn replaced_words_are_not_used() {
         if path.ends_with("program/source.rs") {
             continue;
         }
-        // CONTRIBUTING.md ends with the words to avoid.
+        // docs/design.md ends with the words to avoid.
         let text = text.split("## Words to avoid").next().unwrap();
         for word in text.split(|c: char| !c.is_alphabetic()) {
             words += 1;
