@@ -73,6 +73,7 @@ fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     let line_error = line.spread?.standard_error / line.mean;
     let square_error = square.spread?.standard_error / square.mean;
     let error = line_error.hypot(square_error);
+    let widened_error = line_error.hypot(widened_square_error(line, square)?);
     if error == 0.0 {
         return Some(0.0);
     }
@@ -83,7 +84,17 @@ fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
         + square_share.powi(2) / (square.count - 1) as f64)
         .recip();
     let ratio = line.mean / square.mean;
-    Some(student_quantile((freedom + ROUNDING).floor().max(1.0) as u32) * ratio * error)
+    let quantile = student_quantile((freedom + ROUNDING).floor().max(1.0) as u32);
+    Some(quantile * ratio * widened_error)
+}
+
+/// Returns the relative standard error of the mean over the squares. Few values of a skewed quantity, such as F_a(d=0), often
+/// miss its largest values, and then scatter too little. The squares therefore count as scattering at least as much as the
+/// profiles, of which there are many, relative to their means.
+fn widened_square_error(line: &Statistics, square: &Statistics) -> Option<f64> {
+    let of_line = line.spread?.standard_deviation / line.mean;
+    let of_square = square.spread?.standard_deviation / square.mean;
+    Some(of_square.max(of_line) / (square.count as f64).sqrt())
 }
 
 #[cfg(test)]
@@ -109,6 +120,20 @@ mod tests {
         let expected = 10.0 * 2.776_445_105 * (2.0_f64 / 3.0).sqrt() / 2.0;
         assert!((both.error.unwrap() / expected - 1.0).abs() < 1e-9, "{both:?}");
         assert_eq!(both.grid, None);
+    }
+
+    /// Squares that scatter less than the lines by chance do not make the interval narrow.
+    #[test]
+    fn the_scatter_of_the_lines_counts_for_few_squares() {
+        let lines: Vec<f64> = (0..100).map(|line| 1.0 + f64::from(line % 2)).collect();
+        let wide = compared(&lines, &[2.0, 2.01], &[]).unwrap().error.unwrap();
+        // The relative standard deviation of the lines is 1/3. That of their mean is small.
+        let of_squares = 1.0 / 3.0 / 2.0_f64.sqrt();
+        assert!(wide > 1.9 * 0.75 * of_squares, "{wide}");
+        // Squares that scatter more than the lines keep their scatter.
+        let own = compared(&lines, &[1.0, 9.0], &[]).unwrap();
+        let narrow = compared(&[1.5; 100], &[1.0, 9.0], &[]).unwrap();
+        assert!((own.error.unwrap() / narrow.error.unwrap() - 1.0).abs() < 0.01, "{own:?} {narrow:?}");
     }
 
     #[test]
