@@ -33,6 +33,13 @@ fn have_same_solution(first: &Scene, second: &Scene) -> bool {
     first == second
 }
 
+/// Returns true if a field of the root, such as `material`, differs between two scenes.
+fn has_changed(first: &Scene, second: &Scene, group: &str) -> bool {
+    let first = serde_json::to_value(first).unwrap_or_default();
+    let second = serde_json::to_value(second).unwrap_or_default();
+    first.get(group) != second.get(group)
+}
+
 /// Title of a scene that was a built-in one before it was changed. `name` is the name of its file or the built-in name.
 fn title_of_changed(name: &str) -> String {
     format!("{name}, changed")
@@ -49,7 +56,7 @@ impl Document {
         if have_same_solution(&opened, self.scene()) {
             self.opened_with_descriptions()
         } else {
-            Some(self.without_false_words())
+            Some(self.without_false_words(&opened))
         }
     }
 
@@ -64,12 +71,13 @@ impl Document {
         Some(text)
     }
 
-    fn without_false_words(&self) -> Text {
+    /// The text without the words that are false of its values. `opened` is the scene as it was opened.
+    fn without_false_words(&self, opened: &Scene) -> Text {
         let is_own = |path: &str| self.overrides().iter().any(|(own, _)| own == path);
         let mut text = self.indexed_text().clone();
         for (path, _) in self.overrides() {
             let group = path.split('.').next().unwrap_or_default();
-            if !describes(path) {
+            if !describes(path) && has_changed(opened, self.scene(), group) {
                 text = text.without_comments_beside(group);
             }
         }
@@ -117,6 +125,8 @@ mod tests {
         // A comment of a value that is as before stays.
         assert!(changed.text().contains("// soft rubber"), "{}", changed.text());
         assert_eq!(Document::parse(changed.text(), "x").unwrap().scene(), changed.scene());
+        let as_soft = changed.set("material.poisson_ratio", "0.5").unwrap();
+        assert_eq!(as_soft.comments(), 1);
         let softer = changed.set("material.youngs_modulus", "1.0e6").unwrap();
         assert_eq!(softer.comments(), 0);
         assert_eq!(softer.title(), "pressure-sensitive, changed");
