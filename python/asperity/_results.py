@@ -65,7 +65,9 @@ class Result:
     def _premises(self) -> list[str]:
         """Returns the premises of the model that the result does not meet, one sentence for each."""
         values = self.to_dict()
-        sentences = _sentences(values.get("warnings"), values.get("profiles"))
+        # Results over preloads list their profiles and do not count them.
+        profiles = values.get("profiles", len(values.get("lines") or []))
+        sentences = _sentences(values.get("warnings"), profiles)
         ensemble = values.get("ensemble")
         if isinstance(ensemble, Values):
             counted = _sentences(ensemble.get("warnings"), ensemble.get("profiles"))

@@ -354,6 +354,13 @@ class Premises(InFolder):
             self.assertEqual((said, outcome.warnings), (loop.warnings, loop.warnings))
             self.assertEqual(self.warned(asp.criteria, body, **contact)[1], [])
 
+    def test_a_premise_of_all_profiles_of_preloads_has_no_count(self):
+        heights = asp.Profile(1e-9 * np.random.default_rng(1).standard_normal(1024), 1e-7)
+        contact = {"modulus": MODULUS, "work": WORK, "count": 2}
+        found, said = self.warned(asp.preloads, heights, ("1 µN", "5 µN"), **contact)
+        self.assertTrue(said and said == found._premises())
+        self.assertFalse([text for text in said if text.startswith("On ")])
+
     def test_heights_of_which_nothing_is_stated_are_a_warning(self):
         x = (np.arange(1024) - 512) * 1e-7
         contact = {"modulus": MODULUS, "work": WORK, "stages": "5 µN, separation"}
