@@ -267,7 +267,7 @@ impl Warning {
     }
 }
 
-/// What follows from the warnings for stated errors.
+/// Consequences of the warnings for stated errors.
 impl Warning {
     /// Returns true if the results are not those of the stated body, so that no error of them is known.
     pub fn leaves_errors_unknown(&self) -> bool {

@@ -388,7 +388,7 @@ mod tests {
         remove_abandoned(&folder.path().join("missing"));
     }
 
-    /// A temporary file of a write that goes on is not taken for an abandoned one, however long the write takes.
+    /// The temporary file of an unfinished write is kept, however long the write takes.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_being_named_is_not_abandoned() {

@@ -44,7 +44,7 @@ proptest! {
                 prop_assert!(further > 0.0 && (further - whole).abs() <= slack, "{further} {whole}");
                 prop_assert!(history.legs.last().unwrap().end_in_contact().is_some());
             }
-            // Nothing pulls, the end is the pull-off itself, or there is no way back.
+            // The body is not pulled, the end is the pull-off itself, or nothing is known of a further unloading.
             (None, None) => {
                 let least = Branch::last_unloading(&history.legs).and_then(|last| last.smallest(&history.legs));
                 let force = least.map_or(0.0, |(_, point)| point.force);

@@ -62,7 +62,7 @@ impl IntervalEstimate {
     }
 }
 
-/// What the probability of the parameters is computed from.
+/// Data from which the probability of the parameters is computed.
 pub(crate) struct Likelihood {
     scatter: Scatter,
     /// First and last ln(γ/E*) of the table, and first and last ln E*. A known ln E* is both.

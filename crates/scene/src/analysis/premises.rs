@@ -5,7 +5,7 @@ use crate::scene::model::{Roughness, Scene};
 use asperity_data::Warning;
 use asperity_surface::Form;
 
-/// What is known of the profile of a scene beyond its fields.
+/// Facts about the profile of a scene that its fields do not state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MeasuredFacts {
     /// Length of the scan in m.

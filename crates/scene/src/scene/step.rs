@@ -229,7 +229,7 @@ mod tests {
         for row in [
             "100|(1.0e-4, 2.0e-7)|1|(1.0e-4, 2.242152466367713e-7)",
             "100|(1.0e-4, 2.0e-7)|-1c|(5.0e-5, 2.0e-7)",
-            // One wave: there is no longer one.
+            // One wave on the length is the longest wave.
             "100|(1.0e-4, 2.0e-7)|1c|",
             "100|(8.0e-5, 2.0e-7)|1c|",
             // Two waves, and the next preferred wavelengths have as many.

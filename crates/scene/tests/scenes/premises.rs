@@ -240,7 +240,7 @@ fn the_premise_that_a_scene_breaks_is_named_alone() {
     assert!(counts.iter().all(|count| *count >= 8), "{counts:?}");
 }
 
-/// What is known from the fields alone is said before the computation.
+/// Premises that the fields alone decide are stated before the computation.
 #[test]
 fn a_scene_names_premises_of_its_fields_before_it_is_computed() {
     let mut random = Random(7);
