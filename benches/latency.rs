@@ -54,18 +54,48 @@ mod measure {
     }
 
     const CASES: [Case; 7] = [
-        Case { what: "E, small step", row: "Young's modulus", keys: ["l", "h"], bar: EDIT },
-        Case { what: "kappa, small step", row: "roughness-adhesion parameter", keys: ["h", "l"], bar: EDIT },
-        Case { what: "work of adhesion, small step", row: WORK, keys: ["l", "h"], bar: EDIT },
+        Case {
+            what: "E, small step",
+            row: "Young's modulus",
+            keys: ["l", "h"],
+            bar: EDIT,
+        },
+        Case {
+            what: "kappa, small step",
+            row: "roughness-adhesion parameter",
+            keys: ["h", "l"],
+            bar: EDIT,
+        },
+        Case {
+            what: "work of adhesion, small step",
+            row: WORK,
+            keys: ["l", "h"],
+            bar: EDIT,
+        },
         Case {
             what: "force of the first leg, small step",
             row: "force of stage",
             keys: ["h", "l"],
             bar: EDIT,
         },
-        Case { what: "Hurst exponent, small step", row: "Hurst exponent", keys: ["l", "h"], bar: NEW_LINE },
-        Case { what: "seed, next", row: "seed", keys: ["l", "h"], bar: NEW_LINE },
-        Case { what: "points N, halved and doubled", row: "points", keys: ["h", "l"], bar: NEW_LINE },
+        Case {
+            what: "Hurst exponent, small step",
+            row: "Hurst exponent",
+            keys: ["l", "h"],
+            bar: NEW_LINE,
+        },
+        Case {
+            what: "seed, next",
+            row: "seed",
+            keys: ["l", "h"],
+            bar: NEW_LINE,
+        },
+        Case {
+            what: "points N, halved and doubled",
+            row: "points",
+            keys: ["h", "l"],
+            bar: NEW_LINE,
+        },
     ];
 
     struct Options {
@@ -79,13 +109,21 @@ mod measure {
             let arguments: Vec<String> = std::env::args().skip(1).collect();
             let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
             if has("--test") || !has("--bench") {
-                return Options { runs: 2, plays: false, scene: SMALL };
+                return Options {
+                    runs: 2,
+                    plays: false,
+                    scene: SMALL,
+                };
             }
             let quick = has("--quick");
             let place = arguments.iter().position(|argument| argument == "--runs");
             let runs = place.and_then(|place| arguments.get(place + 1)?.parse().ok());
             let runs: usize = runs.unwrap_or(if quick { 8 } else { 40 });
-            Options { runs: runs.max(2), plays: !quick, scene: SPRINGS }
+            Options {
+                runs: runs.max(2),
+                plays: !quick,
+                scene: SPRINGS,
+            }
         }
     }
 
@@ -95,10 +133,21 @@ mod measure {
             "{}, 120 x 40, paused; {} keys each; ms from the key to the end of the frame",
             options.scene, options.runs
         );
-        println!("{:<36} {:>8} {:>8} {:>8} {:>6}", "key", "p50", "p99", "max", "bar");
+        println!(
+            "{:<36} {:>8} {:>8} {:>8} {:>6}",
+            "key", "p50", "p99", "max", "bar"
+        );
         let mut terminal = opened(options.scene);
-        report("selecting: the key is seen", &echoes(&mut terminal, options.runs), ECHO);
-        report("typing a value: the digit is seen", &digits(&mut terminal, options.runs), ECHO);
+        report(
+            "selecting: the key is seen",
+            &echoes(&mut terminal, options.runs),
+            ECHO,
+        );
+        report(
+            "typing a value: the digit is seen",
+            &digits(&mut terminal, options.runs),
+            ECHO,
+        );
         for case in &CASES {
             let (echo, done) = edits(&mut terminal, case, options.runs);
             report(case.what, &done, case.bar);
@@ -168,7 +217,11 @@ mod measure {
         let (mut echo, mut done) = (Vec::new(), Vec::new());
         for run in 0..runs {
             // N is set back at once: far from it the line is another.
-            let leaves = if case.row == "points" { run % 2 == 0 } else { run < runs / 2 };
+            let leaves = if case.row == "points" {
+                run % 2 == 0
+            } else {
+                run < runs / 2
+            };
             let key = case.keys[usize::from(!leaves)];
             let before = terminal.rows();
             let frames = terminal.frames().len();
@@ -209,8 +262,20 @@ mod measure {
 
     /// Adhesion force of the shown profile and adhesion coefficient in the status line, one of which each edit changes.
     fn headline(rows: &[String]) -> Option<[String; 2]> {
-        let row = rows.iter().rev().find(|row| row.contains("F_a ") && row.contains(" · "))?;
-        let behind = |name: &str| Some(row.split(name).nth(1)?.split([',', '·']).next()?.trim().to_owned());
+        let row = rows
+            .iter()
+            .rev()
+            .find(|row| row.contains("F_a ") && row.contains(" · "))?;
+        let behind = |name: &str| {
+            Some(
+                row.split(name)
+                    .nth(1)?
+                    .split([',', '·'])
+                    .next()?
+                    .trim()
+                    .to_owned(),
+            )
+        };
         let force = behind("this profile ").or_else(|| behind("F_a "))?;
         Some([force, behind("F_a/F_n ").unwrap_or_default()])
     }
@@ -221,7 +286,10 @@ mod measure {
         terminal.settle_for(QUIET);
         loop {
             let before = selected(&terminal.rows());
-            let label = before.as_deref().and_then(|row| row.split('›').nth(1)).unwrap_or_default();
+            let label = before
+                .as_deref()
+                .and_then(|row| row.split('›').nth(1))
+                .unwrap_or_default();
             if label.contains(name) {
                 return;
             }
@@ -243,7 +311,11 @@ mod measure {
 
     fn report(what: &str, times: &[f64], bar: f64) {
         let times = sorted(times);
-        let (median, p99, most) = (quantile(&times, 0.5), quantile(&times, 0.99), quantile(&times, 1.0));
+        let (median, p99, most) = (
+            quantile(&times, 0.5),
+            quantile(&times, 0.99),
+            quantile(&times, 1.0),
+        );
         let holds = if p99 <= bar { "holds" } else { "does NOT hold" };
         println!("{what:<36} {median:>8.1} {p99:>8.1} {most:>8.1} {bar:>6.0}  {holds}");
     }
@@ -266,13 +338,24 @@ mod measure {
         let bytes = terminal.written().len() - start;
         terminal.send("q");
         terminal.wait_end();
-        let Some(last) = frames.last() else { return println!("nothing was played") };
+        let Some(last) = frames.last() else {
+            return println!("nothing was played");
+        };
         let seconds = last.arrived.duration_since(begun).as_secs_f64();
-        let sizes = sorted(&frames.iter().map(|frame| frame.bytes as f64).collect::<Vec<_>>());
+        let sizes = sorted(
+            &frames
+                .iter()
+                .map(|frame| frame.bytes as f64)
+                .collect::<Vec<_>>(),
+        );
         println!(
             "approach and retraction of {SMALL}, {}: {} frames in {seconds:.1} s ({:.1}/s); bytes in a frame: \
              median {:.0}, p99 {:.0}, max {:.0}; {:.0} B/s",
-            if connection.is_some() { "over SSH" } else { "locally" },
+            if connection.is_some() {
+                "over SSH"
+            } else {
+                "locally"
+            },
             frames.len(),
             frames.len() as f64 / seconds,
             quantile(&sizes, 0.5),

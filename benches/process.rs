@@ -24,7 +24,11 @@ fn main() {
         place.map_or(default, |place| arguments[place + 1].parse().unwrap())
     };
     let is_bench = arguments.iter().any(|argument| argument == "--bench");
-    let (largest, runs) = if is_bench { (value("--largest", 24), value("--runs", 5)) } else { (10, 1) };
+    let (largest, runs) = if is_bench {
+        (value("--largest", 24), value("--runs", 5))
+    } else {
+        (10, 1)
+    };
 
     println!("asperity run {SCENE} --format csv; shortest of {runs} runs");
     println!("  N         seconds   peak, MiB   stated, MiB   bytes for each spring beside 10 MiB");
@@ -37,11 +41,15 @@ fn main() {
             ("numerics.points", points),
             ("numerics.samples", "5000".to_owned()),
         ];
-        let fields: Vec<(&str, &str)> = fields.iter().map(|(path, value)| (*path, value.as_str())).collect();
+        let fields: Vec<(&str, &str)> = fields
+            .iter()
+            .map(|(path, value)| (*path, value.as_str()))
+            .collect();
         let time = |_| {
             let clock = Instant::now();
-            let set =
-                fields[..2].iter().flat_map(|(path, value)| ["--set".to_owned(), format!("{path}={value}")]);
+            let set = fields[..2]
+                .iter()
+                .flat_map(|(path, value)| ["--set".to_owned(), format!("{path}={value}")]);
             let status = Command::new(ASPERITY)
                 .args(["run", SCENE, "--format", "csv"])
                 .args(set)
@@ -50,10 +58,18 @@ fn main() {
             assert!(status.unwrap().success());
             clock.elapsed()
         };
-        let seconds = (0..runs).map(time).min().unwrap_or(Duration::MAX).as_secs_f64();
+        let seconds = (0..runs)
+            .map(time)
+            .min()
+            .unwrap_or(Duration::MAX)
+            .as_secs_f64();
         let taken = peak::peak(ASPERITY, (SCENE, &fields));
-        let owned: Vec<_> = fields.iter().map(|&(path, value)| (path.into(), value.into())).collect();
-        let stated = Workload::of(open(SCENE).unwrap().set_all(&owned).unwrap().scene()).resident_bytes;
+        let owned: Vec<_> = fields
+            .iter()
+            .map(|&(path, value)| (path.into(), value.into()))
+            .collect();
+        let stated =
+            Workload::of(open(SCENE).unwrap().set_all(&owned).unwrap().scene()).resident_bytes;
         let each = (taken as f64 - f64::from(10 << 20)) / f64::from(1_u32 << exponent);
         println!(
             "  2^{exponent:<6} {seconds:>9.4} {:>11.1} {:>13.1}   {each:.1}",

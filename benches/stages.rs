@@ -54,14 +54,26 @@ fn main() {
         let measured = measure(&rough, options.runs);
         measured.print(&rough);
         if exponent == BAR.0 {
-            let ratios = |one: &Loop| one.edges.each_ref().map(|edges| edges.whole / measured.transform);
-            verdict =
-                measured.loops.iter().zip(BAR.1).map(|(one, most)| (one.kappa, ratios(one), most)).collect();
+            let ratios = |one: &Loop| {
+                one.edges
+                    .each_ref()
+                    .map(|edges| edges.whole / measured.transform)
+            };
+            verdict = measured
+                .loops
+                .iter()
+                .zip(BAR.1)
+                .map(|(one, most)| (one.kappa, ratios(one), most))
+                .collect();
         }
     }
     for (kappa, ratios, most) in verdict {
         for (edges, ratio) in EDGES.into_iter().zip(ratios) {
-            let holds = if ratio <= most { "holds" } else { "does NOT hold" };
+            let holds = if ratio <= most {
+                "holds"
+            } else {
+                "does NOT hold"
+            };
             println!(
                 "whole loop at 2^{}, kappa = {kappa}, {edges:?}: {ratio:.2} FFTs; the bar of {most} {holds}",
                 BAR.0
@@ -87,15 +99,32 @@ impl Options {
             arguments.get(place + 1)
         };
         let number = |flag: &str| value(flag)?.parse().ok();
-        let real = |flag: &str, usual: f64| value(flag).and_then(|text| text.parse().ok()).unwrap_or(usual);
+        let real = |flag: &str, usual: f64| {
+            value(flag)
+                .and_then(|text| text.parse().ok())
+                .unwrap_or(usual)
+        };
         let (hurst, kappa) = (real("--hurst", HURST), real("--kappa", KAPPA));
         let kappas = [kappa, 10.0 * kappa];
         if has("--test") || !has("--bench") {
-            return Options { smallest: 6, largest: 8, runs: 1, hurst, kappas };
+            return Options {
+                smallest: 6,
+                largest: 8,
+                runs: 1,
+                hurst,
+                kappas,
+            };
         }
         let largest = number("--largest").unwrap_or(if has("--quick") { 16 } else { 22 });
-        let runs = number("--runs").map_or(if has("--quick") { 5 } else { 9 }, |runs| runs as usize);
-        Options { smallest: number("--smallest").unwrap_or(12), largest, runs: runs.max(1), hurst, kappas }
+        let runs =
+            number("--runs").map_or(if has("--quick") { 5 } else { 9 }, |runs| runs as usize);
+        Options {
+            smallest: number("--smallest").unwrap_or(12),
+            largest,
+            runs: runs.max(1),
+            hurst,
+            kappas,
+        }
     }
 }
 
@@ -112,7 +141,12 @@ struct Rough {
 impl Rough {
     fn new(exponent: u32, hurst: f64, kappas: [f64; 2]) -> Self {
         let points = 1_usize << exponent;
-        let spectrum = SelfAffine { hurst, first: 1, last: points as u64 / 4, roll_off_mode: 0.0 };
+        let spectrum = SelfAffine {
+            hurst,
+            first: 1,
+            last: points as u64 / 4,
+            roll_off_mode: 0.0,
+        };
         let line = synthesize(spectrum, points);
         let last = spectrum.last;
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
@@ -124,9 +158,19 @@ impl Rough {
             0.75 * EFFECTIVE_MODULUS,
             kappas[0],
         );
-        let scene = Document::parse(&scene, "bench").expect("a valid scene").scene().clone();
+        let scene = Document::parse(&scene, "bench")
+            .expect("a valid scene")
+            .scene()
+            .clone();
         let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
-        Rough { spectrum, points, line, rms_gradient, scene, kappas }
+        Rough {
+            spectrum,
+            points,
+            line,
+            rms_gradient,
+            scene,
+            kappas,
+        }
     }
 
     /// γ = h⟨∇z⟩E*/κ², eq. (11).
@@ -176,8 +220,14 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
     let never = f64::INFINITY;
     let loops = rough.kappas.map(Loop::under).into();
     let edits = Edits::of(rough);
-    let mut best =
-        Measured { transform: never, synthesis: never, next_line: never, fresh_tree: never, loops, edits };
+    let mut best = Measured {
+        transform: never,
+        synthesis: never,
+        next_line: never,
+        fresh_tree: never,
+        loops,
+        edits,
+    };
     let mut lines = Lines::default();
     lines.seconds(rough, 0);
     // The memory of the tree is kept from run to run, like the buffers of the transform and as in a simulation.
@@ -195,8 +245,11 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         best.next_line = best.next_line.min(lines.seconds(rough, 1 + run as u64));
 
         let clock = Instant::now();
-        let profile = Profile::from_gaps(Arc::clone(gaps), rough.line.spacing).expect("a finite line");
-        profile.build_tree(Edges::SubCell, ContactTree::default()).expect("memory for the tree");
+        let profile =
+            Profile::from_gaps(Arc::clone(gaps), rough.line.spacing).expect("a finite line");
+        profile
+            .build_tree(Edges::SubCell, ContactTree::default())
+            .expect("memory for the tree");
         black_box(profile);
         best.fresh_tree = best.fresh_tree.min(seconds_since(clock));
 
@@ -224,11 +277,18 @@ impl Lines {
     fn seconds(&mut self, rough: &Rough, seed: u64) -> f64 {
         let clock = Instant::now();
         let heights = take(&mut self.heights);
-        let unit = self.synthesizer.synthesize(rough.spectrum, black_box(seed), rough.points, 0.0, heights);
+        let unit = self.synthesizer.synthesize(
+            rough.spectrum,
+            black_box(seed),
+            rough.points,
+            0.0,
+            heights,
+        );
         self.heights = unit.expect("memory for the line");
         self.gaps.clone_from(&self.heights);
         let line = Line::from_roughness(take(&mut self.gaps), LENGTH, None, RMS_HEIGHT);
-        self.gaps = Arc::into_inner(black_box(line.expect("a finite line")).gaps).unwrap_or_default();
+        self.gaps =
+            Arc::into_inner(black_box(line.expect("a finite line")).gaps).unwrap_or_default();
         seconds_since(clock)
     }
 }
@@ -247,7 +307,12 @@ struct Edits {
 impl Edits {
     fn of(rough: &Rough) -> Self {
         let (kappa, seed) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
-        let mut edits = Edits { simulation: Simulation::default(), legs: Vec::new(), kappa, seed };
+        let mut edits = Edits {
+            simulation: Simulation::default(),
+            legs: Vec::new(),
+            kappa,
+            seed,
+        };
         edits.seconds(&rough.scene);
         edits
     }
@@ -255,14 +320,20 @@ impl Edits {
     fn measure(&mut self, rough: &Rough, run: usize) {
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             let adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
-            let scene = rough.scene.with(|scene| scene.adhesion = adhesion).expect("a valid scene");
+            let scene = rough
+                .scene
+                .with(|scene| scene.adhesion = adhesion)
+                .expect("a valid scene");
             let scene = scene.with_seed(2 + (2 * run + index) as u64);
             self.seed[index] = self.seed[index].min(self.seconds(&scene));
         }
         // The line of the last seed is kept.
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             let adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
-            let scene = rough.scene.with(|scene| scene.adhesion = adhesion).expect("a valid scene");
+            let scene = rough
+                .scene
+                .with(|scene| scene.adhesion = adhesion)
+                .expect("a valid scene");
             let scene = scene.with_seed(3 + 2 * run as u64);
             self.kappa[index] = self.kappa[index].min(self.seconds(&scene));
         }
@@ -284,7 +355,10 @@ impl Edits {
 impl Loop {
     /// Loops not yet measured.
     fn under(kappa: f64) -> Self {
-        Loop { kappa, edges: [Timed::new(), Timed::new()] }
+        Loop {
+            kappa,
+            edges: [Timed::new(), Timed::new()],
+        }
     }
 }
 
@@ -302,14 +376,25 @@ impl Timed {
     }
 
     /// Builds the tree in the memory of another, loads to a force and pulls off.
-    fn measure(&mut self, tree: ContactTree, edges: Edges, work: f64, rough: &Rough) -> ContactTree {
+    fn measure(
+        &mut self,
+        tree: ContactTree,
+        edges: Edges,
+        work: f64,
+        rough: &Rough,
+    ) -> ContactTree {
         let whole = Instant::now();
         let contact = contact(tree, edges, work, rough);
         self.tree = self.tree.min(seconds_since(whole));
         let mut solver = Body::new(&contact, SAMPLES);
-        let legs = [Move::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Move::ToSeparation];
+        let legs = [
+            Move::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT),
+            Move::ToSeparation,
+        ];
         let clock = Instant::now();
-        self.records = legs.map(|leg| solver.advance(leg).expect("a reachable leg")).into();
+        self.records = legs
+            .map(|leg| solver.advance(leg).expect("a reachable leg"))
+            .into();
         let legs_seconds = seconds_since(clock);
         self.whole = self.whole.min(seconds_since(whole));
         self.curves = self.curves.min(solver.curve_seconds());
@@ -328,7 +413,9 @@ impl Timed {
         rough: &Rough,
     ) -> ContactTree {
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT / f64::from(REVERSALS);
-        let turns: Vec<Move> = (1..=REVERSALS).map(|turn| Move::ToForce(force * f64::from(turn))).collect();
+        let turns: Vec<Move> = (1..=REVERSALS)
+            .map(|turn| Move::ToForce(force * f64::from(turn)))
+            .collect();
         let clock = Instant::now();
         let contact = contact(tree, edges, work, rough);
         let mut solver = Body::new(&contact, SAMPLES);
@@ -336,7 +423,9 @@ impl Timed {
             black_box(reversal);
             Ok(())
         };
-        solver.reversals(&turns, &[], &mut see).expect("reachable turning points");
+        solver
+            .reversals(&turns, &[], &mut see)
+            .expect("reachable turning points");
         self.reversals = self.reversals.min(seconds_since(clock));
         drop(solver);
         tree_of(contact)
@@ -345,11 +434,17 @@ impl Timed {
 
 /// The contact of a line, with its tree in the memory of another one.
 fn contact(tree: ContactTree, edges: Edges, work: f64, rough: &Rough) -> Contact {
-    let profile =
-        Profile::from_gaps(Arc::clone(&rough.line.gaps), rough.line.spacing).expect("a finite line");
-    profile.build_tree(edges, tree).expect("memory for the tree");
+    let profile = Profile::from_gaps(Arc::clone(&rough.line.gaps), rough.line.spacing)
+        .expect("a finite line");
+    profile
+        .build_tree(edges, tree)
+        .expect("memory for the tree");
     let modulus = Modulus::effective(EFFECTIVE_MODULUS).expect("a modulus");
-    Contact::builder(&profile, modulus).work_of_adhesion(work).edges(edges).build().expect("a contact")
+    Contact::builder(&profile, modulus)
+        .work_of_adhesion(work)
+        .edges(edges)
+        .build()
+        .expect("a contact")
 }
 
 /// The memory of the tree of a contact.
@@ -370,9 +465,17 @@ struct Transform {
 impl Transform {
     fn planned(points: usize) -> Self {
         let plan = plan_real_forward(points);
-        let (input, output, scratch) =
-            (plan.make_input_vec(), plan.make_output_vec(), plan.make_scratch_vec());
-        Transform { plan, input, output, scratch }
+        let (input, output, scratch) = (
+            plan.make_input_vec(),
+            plan.make_output_vec(),
+            plan.make_scratch_vec(),
+        );
+        Transform {
+            plan,
+            input,
+            output,
+            scratch,
+        }
     }
 
     fn seconds(&mut self, values: &[f64]) -> f64 {
@@ -394,10 +497,19 @@ fn seconds_since(clock: Instant) -> f64 {
 impl Measured {
     fn print(&self, rough: &Rough) {
         println!("N = {} = 2^{}", rough.points, rough.points.ilog2());
-        println!("  {:<34} {:>11} {:>10} {:>10}", "stage", "ms", "FFTs", "ns/spring");
+        println!(
+            "  {:<34} {:>11} {:>10} {:>10}",
+            "stage", "ms", "FFTs", "ns/spring"
+        );
         let row = |name: &str, seconds: f64| {
-            let (ffts, each) = (seconds / self.transform, 1e9 * seconds / rough.points as f64);
-            println!("  {name:<34} {:>11.4} {ffts:>10.2} {each:>10.2}", 1e3 * seconds);
+            let (ffts, each) = (
+                seconds / self.transform,
+                1e9 * seconds / rough.points as f64,
+            );
+            println!(
+                "  {name:<34} {:>11.4} {ffts:>10.2} {each:>10.2}",
+                1e3 * seconds
+            );
         };
         row("one real FFT", self.transform);
         row("line, in fresh memory", self.synthesis);
@@ -410,15 +522,24 @@ impl Measured {
                 row("passes, loading and unloading", timed.passes);
                 row("curves, extremes, energies", timed.curves);
                 row("whole loop", timed.whole);
-                row(&format!("{REVERSALS} reversals, tree included"), timed.reversals);
-                println!("    reversals take {:.2} whole loops", timed.reversals / timed.whole);
+                row(
+                    &format!("{REVERSALS} reversals, tree included"),
+                    timed.reversals,
+                );
+                println!(
+                    "    reversals take {:.2} whole loops",
+                    timed.reversals / timed.whole
+                );
                 timed.print_outcome(rough, one.kappa);
             }
         }
         println!("  edits: the whole outcome with F_a(d=0) and histogram, legs copied");
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             row(&format!("of kappa, to {kappa}"), self.edits.kappa[index]);
-            row(&format!("of the seed, kappa = {kappa}"), self.edits.seed[index]);
+            row(
+                &format!("of the seed, kappa = {kappa}"),
+                self.edits.seed[index],
+            );
         }
         println!();
     }
@@ -429,11 +550,20 @@ impl Timed {
         let work = &self.work;
         println!(
             "    tree nodes {}, rule of Hess {}, events sorted {}, joins {}, leaves {}",
-            work.tree_nodes, work.hess_evaluations, work.events_sorted, work.attached, work.detached
+            work.tree_nodes,
+            work.hess_evaluations,
+            work.events_sorted,
+            work.attached,
+            work.detached
         );
-        let [loading, unloading] = &self.records[..] else { return };
-        let ideal =
-            ClosedForm::ideal_adhesion_force(rough.work_of_adhesion(kappa), EFFECTIVE_MODULUS, LENGTH);
+        let [loading, unloading] = &self.records[..] else {
+            return;
+        };
+        let ideal = ClosedForm::ideal_adhesion_force(
+            rough.work_of_adhesion(kappa),
+            EFFECTIVE_MODULUS,
+            LENGTH,
+        );
         println!(
             "    under load {:.1} % in contact; adhesion force {:.2e} of the load, {:.2e} of the ideal",
             1e2 * loading.attached as f64 / rough.points as f64,

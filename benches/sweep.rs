@@ -36,19 +36,39 @@ fn main() -> ExitCode {
     let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
     let shows_only = has("--test") || !has("--bench");
     let size = match (shows_only, has("--quick")) {
-        (true, _) => Size { points: 256, hurst: 2, kappas: 2, lines: 2, small_cells: 64, repeats: 1 },
-        (false, true) => {
-            Size { points: 1 << 16, hurst: 2, kappas: 33, lines: 2, small_cells: 10_000, repeats: 2 }
-        }
-        (false, false) => {
-            Size { points: 1 << 16, hurst: 3, kappas: 33, lines: 4, small_cells: 50_000, repeats: 3 }
-        }
+        (true, _) => Size {
+            points: 256,
+            hurst: 2,
+            kappas: 2,
+            lines: 2,
+            small_cells: 64,
+            repeats: 1,
+        },
+        (false, true) => Size {
+            points: 1 << 16,
+            hurst: 2,
+            kappas: 33,
+            lines: 2,
+            small_cells: 10_000,
+            repeats: 2,
+        },
+        (false, false) => Size {
+            points: 1 << 16,
+            hurst: 3,
+            kappas: 33,
+            lines: 4,
+            small_cells: 50_000,
+            repeats: 3,
+        },
     };
     let mut kept = true;
     let mut bar = |name: &str, ratio: f64, least: f64| {
         let holds = ratio >= least;
         kept &= holds || shows_only;
-        println!("{name}: {ratio:.2}; the bar of {least} {}", if holds { "holds" } else { "does NOT hold" });
+        println!(
+            "{name}: {ratio:.2}; the bar of {least} {}",
+            if holds { "holds" } else { "does NOT hold" }
+        );
     };
 
     let plan = figure(&size);
@@ -78,7 +98,11 @@ fn main() -> ExitCode {
     per("one by one", by_one);
     per("shared, one job", shared);
     per("shared, two jobs", two);
-    bar("processor time, one by one over shared", by_one.processor / shared.processor, SHARING);
+    bar(
+        "processor time, one by one over shared",
+        by_one.processor / shared.processor,
+        SHARING,
+    );
     println!(
         "the whole of Fig. 5(b), 17 × 33 × 3 cells on 32 lines, two jobs: {:.0} s",
         two.clock / records * 53_856.0
@@ -86,10 +110,22 @@ fn main() -> ExitCode {
     // Lines this long have their own two threads here and there, also with one job.
     println!("one job over two: {:.2}", shared.clock / two.clock);
     // Of many lines, since the folder and the tables take several milliseconds.
-    let lines = if shows_only { size.lines } else { 16 * size.lines };
-    let shorter = figure(&Size { points: size.points.min(1 << 14), lines, ..size });
+    let lines = if shows_only {
+        size.lines
+    } else {
+        16 * size.lines
+    };
+    let shorter = figure(&Size {
+        points: size.points.min(1 << 14),
+        lines,
+        ..size
+    });
     let (one, two) = (best(&|| study(&shorter, 1)), best(&|| study(&shorter, 2)));
-    bar("one job over two, 2^14 springs", one.clock / two.clock, TWO_JOBS);
+    bar(
+        "one job over two, 2^14 springs",
+        one.clock / two.clock,
+        TWO_JOBS,
+    );
 
     let plan = small(size.small_cells);
     let before = peak();
@@ -105,9 +141,17 @@ fn main() -> ExitCode {
         each * MILLION
     );
     if let (Some(before), Some(after)) = (before, after) {
-        println!("peak memory {:.1} MiB before, {:.1} MiB after", before / 1024.0, after / 1024.0);
+        println!(
+            "peak memory {:.1} MiB before, {:.1} MiB after",
+            before / 1024.0,
+            after / 1024.0
+        );
     }
-    if kept { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if kept {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
 }
 
 /// Fig. 5(b), scaled down.
@@ -149,7 +193,10 @@ struct Cost {
 impl Cost {
     /// The least of several repetitions, of each value separately.
     fn least(repeats: usize, what: &dyn Fn()) -> Cost {
-        let mut least = Cost { clock: f64::INFINITY, processor: f64::INFINITY };
+        let mut least = Cost {
+            clock: f64::INFINITY,
+            processor: f64::INFINITY,
+        };
         for _ in 0..repeats {
             let (clock, before) = (Instant::now(), processor_time());
             what();
@@ -192,11 +239,18 @@ fn one_by_one(plan: &Plan) {
             let values = plan.values(cell);
             let mut scene: Scene = plan.scene.clone();
             scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, values[1]));
-            let Some(Roughness::SelfAffine { hurst, seed, rms_height, .. }) = &mut scene.roughness else {
+            let Some(Roughness::SelfAffine {
+                hurst,
+                seed,
+                rms_height,
+                ..
+            }) = &mut scene.roughness
+            else {
                 continue;
             };
             (*hurst, *seed) = (values[0], plan.seed_of(line));
-            let unit = scene.material.effective_modulus() * rms_height.unwrap_or(1.0) * scene.length;
+            let unit =
+                scene.material.effective_modulus() * rms_height.unwrap_or(1.0) * scene.length;
             scene.loading = vec![Move::ToForce(values[2] * unit), Move::ToSeparation];
             let mut simulation = Simulation::new(PathBuf::new());
             let Ok(scene) = scene.checked() else { continue };

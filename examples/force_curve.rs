@@ -10,11 +10,14 @@ use asperity::scene::{open, run};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // In place of a measurement: the curve of a sphere on a spring of 20 N/m, with noise of 50 nN.
     let set = |path: &str, value: &str| (path.to_owned(), value.to_owned());
-    let scene =
-        open("jkr-sphere")?.set_all(&[set("loading_stiffness", "20"), set("numerics.points", "1024")])?;
+    let scene = open("jkr-sphere")?.set_all(&[
+        set("loading_stiffness", "20"),
+        set("numerics.points", "1024"),
+    ])?;
     let legs = run(&scene)?.history.legs;
-    let points =
-        legs.iter().flat_map(|leg| displacements(leg, 20.0).zip(leg.curve.iter().map(|at| at.force)));
+    let points = legs
+        .iter()
+        .flat_map(|leg| displacements(leg, 20.0).zip(leg.curve.iter().map(|at| at.force)));
     let before = (0..200).map(|index| (5.0e-9 * f64::from(index - 200), 0.0));
     let mut points: Vec<(f64, f64)> = before.chain(points).collect();
     points.dedup_by_key(|(displacement, _)| *displacement); // of a jump only its begin
@@ -23,9 +26,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         *force += 5.0e-8 * (12.9 * index as f64).sin() * std::f64::consts::SQRT_2;
     }
     let curve = MeasuredCurve::from_columns(&displacement, &force, &CurveOptions::default())?;
-    let start = scene.set_all(&[set("adhesion.work", "0.02"), set("material.youngs_modulus", "4e6")])?;
+    let start = scene.set_all(&[
+        set("adhesion.work", "0.02"),
+        set("material.youngs_modulus", "4e6"),
+    ])?;
     let free = [Parameter::Work, Parameter::Modulus, Parameter::Offset];
-    let fit = free.into_iter().fold(Fit::of(&start), Fit::free).run(&curve, Control::default())?;
+    let fit = free
+        .into_iter()
+        .fold(Fit::of(&start), Fit::free)
+        .run(&curve, Control::default())?;
     for one in &fit.parameters {
         let (name, unit) = (one.parameter.name(), one.parameter.row().unit);
         println!(

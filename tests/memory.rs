@@ -34,11 +34,23 @@ const OF_BUILDS: u64 = 6 << 20;
 const SCENES: [Changed<'static>; 7] = [
     ("jkr-sphere", &[("numerics.samples", "5000")]),
     ("jkr-sphere", &[("numerics.samples", "1000000")]),
-    ("jkr-sphere", &[("numerics.samples", "1000000"), ("numerics.edges", "Grid")]),
-    ("jkr-sphere", &[("numerics.samples", "300000"), ("loading", LEGS)]),
+    (
+        "jkr-sphere",
+        &[("numerics.samples", "1000000"), ("numerics.edges", "Grid")],
+    ),
+    (
+        "jkr-sphere",
+        &[("numerics.samples", "300000"), ("loading", LEGS)],
+    ),
     ("million-springs", &[("numerics.samples", "5000")]),
-    ("million-springs", &[("numerics.samples", "5000"), ("numerics.points", "1048583")]),
-    ("million-springs", &[("numerics.samples", "5000"), ("adhesion", "None")]),
+    (
+        "million-springs",
+        &[("numerics.samples", "5000"), ("numerics.points", "1048583")],
+    ),
+    (
+        "million-springs",
+        &[("numerics.samples", "5000"), ("adhesion", "None")],
+    ),
 ];
 const LEGS: &str = "[ToForce(1e-3), ToSeparation, ToForce(2e-3), ToSeparation]";
 
@@ -46,11 +58,22 @@ const LEGS: &str = "[ToForce(1e-3), ToSeparation, ToForce(2e-3), ToSeparation]";
 fn a_plan_states_the_memory_that_a_run_takes() {
     let mut wrong = Vec::new();
     for changed in SCENES {
-        let fields: Vec<_> = changed.1.iter().map(|&(path, value)| (path.into(), value.into())).collect();
+        let fields: Vec<_> = changed
+            .1
+            .iter()
+            .map(|&(path, value)| (path.into(), value.into()))
+            .collect();
         let document = open(changed.0).unwrap().set_all(&fields).unwrap();
-        let (stated, taken) = (Workload::of(document.scene()).resident_bytes, peak(ASPERITY, changed));
+        let (stated, taken) = (
+            Workload::of(document.scene()).resident_bytes,
+            peak(ASPERITY, changed),
+        );
         let is_at_most = |one: u64, other: u64| one as f64 <= FACTOR * (other + OF_BUILDS) as f64;
-        let row = format!("{changed:?}: {} MiB stated, {} MiB taken", stated >> 20, taken >> 20);
+        let row = format!(
+            "{changed:?}: {} MiB stated, {} MiB taken",
+            stated >> 20,
+            taken >> 20
+        );
         println!("{row}");
         if !(is_at_most(stated, taken) && is_at_most(taken, stated)) {
             wrong.push(row);
@@ -66,18 +89,26 @@ const OF_PROGRAM: u64 = 10 << 20;
 #[test]
 fn a_spring_takes_at_most_48_bytes() {
     for edges in ["SubCell", "Grid"] {
-        let fields =
-            [("numerics.samples", "5000"), ("numerics.points", "1048576"), ("numerics.edges", edges)];
+        let fields = [
+            ("numerics.samples", "5000"),
+            ("numerics.points", "1048576"),
+            ("numerics.edges", edges),
+        ];
         // The curves of 5000 samples take the rest.
         let taken = peak(ASPERITY, ("million-springs", &fields));
         let most = OF_PROGRAM + OF_BUILDS + (PER_SPRING << 20);
-        assert!(taken <= most, "{edges}: {taken} bytes taken, at most {most}");
+        assert!(
+            taken <= most,
+            "{edges}: {taken} bytes taken, at most {most}"
+        );
     }
 }
 
 /// Memory kept by a simulation after a run, bytes; other tests here hold next to nothing.
 fn kept_after(simulation: &mut Simulation, document: &Document, before: usize) -> usize {
-    simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+    simulation
+        .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+        .unwrap();
     allocations::held().saturating_sub(before)
 }
 
@@ -94,11 +125,18 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
             let large = large.set("roughness.seed", seed).unwrap();
             let kept = kept_after(&mut simulation, &large, before);
             // As stated by `Simulation`, beside the memory of other tests.
-            let most = (Workload::of(large.scene()).peak_bytes + 20 * (1 << 20)) as usize + (1 << 20);
-            assert!(kept > 24 << 20 && kept <= most, "{kept} bytes kept; at most {most}");
+            let most =
+                (Workload::of(large.scene()).peak_bytes + 20 * (1 << 20)) as usize + (1 << 20);
+            assert!(
+                kept > 24 << 20 && kept <= most,
+                "{kept} bytes kept; at most {most}"
+            );
         }
         let kept = kept_after(&mut simulation, &small, before);
-        assert!(kept <= 4 << 20, "{kept} bytes kept of a scene that takes little");
+        assert!(
+            kept <= 4 << 20,
+            "{kept} bytes kept of a scene that takes little"
+        );
     }
     // A slightly smaller scene finds its memory there.
     kept_after(&mut simulation, &large, before);
@@ -109,18 +147,30 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
 #[test]
 fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
     let _alone = ALONE.lock();
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1 << 14, roll_off_mode: 0.0 };
+    let spectrum = SelfAffine {
+        hurst: 0.7,
+        first: 1,
+        last: 1 << 14,
+        roll_off_mode: 0.0,
+    };
     for points in [1 << 16, (1 << 16) + 1] {
-        let (mut synthesizer, mut heights, mut gaps) = (Synthesizer::default(), Vec::new(), Vec::new());
+        let (mut synthesizer, mut heights, mut gaps) =
+            (Synthesizer::default(), Vec::new(), Vec::new());
         for seed in 1..4 {
             let (line, largest) = allocations::largest(|| {
-                heights = synthesizer.synthesize(spectrum, seed, points, 0.0, take(&mut heights)).unwrap();
+                heights = synthesizer
+                    .synthesize(spectrum, seed, points, 0.0, take(&mut heights))
+                    .unwrap();
                 gaps.clone_from(&heights);
                 Line::from_roughness(take(&mut gaps), 1.0, None, 1.0).unwrap()
             });
             gaps = Arc::into_inner(line.gaps).unwrap();
             // A plan requests its table of sines at once.
-            assert_eq!(largest < 1 << 10, seed > 1, "{points} springs, seed {seed}: {largest} bytes at once");
+            assert_eq!(
+                largest < 1 << 10,
+                seed > 1,
+                "{points} springs, seed {seed}: {largest} bytes at once"
+            );
         }
     }
 }
@@ -128,13 +178,27 @@ fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
 /// Standard error of a run with this address space; `None` if the run succeeds.
 fn refusal(arguments: &[String], kibibytes: u64) -> Option<String> {
     let mut limited = Command::new("/bin/sh");
-    limited.args(["-c", &format!("ulimit -v {kibibytes}; exec \"$@\""), "sh", ASPERITY]).args(arguments);
-    let output = limited.stdout(Stdio::null()).stderr(Stdio::piped()).output().unwrap();
+    limited
+        .args([
+            "-c",
+            &format!("ulimit -v {kibibytes}; exec \"$@\""),
+            "sh",
+            ASPERITY,
+        ])
+        .args(arguments);
+    let output = limited
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .output()
+        .unwrap();
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     match output.status.code() {
         Some(0) => None,
         Some(1) => Some(message),
-        _ => panic!("{arguments:?} in {kibibytes} KiB: {:?}\n{message}", output.status),
+        _ => panic!(
+            "{arguments:?} in {kibibytes} KiB: {:?}\n{message}",
+            output.status
+        ),
     }
 }
 
@@ -154,7 +218,10 @@ fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
         let mut limit = LITTLE;
         // Up to a sufficient limit, in steps too small for an unseen request.
         while let Some(message) = refusal(&arguments, limit) {
-            assert!(message.contains("not enough memory") && message.lines().count() == 1, "{message}");
+            assert!(
+                message.contains("not enough memory") && message.lines().count() == 1,
+                "{message}"
+            );
             refused += 1;
             limit += 20_000;
             if limit > 1_000_000 {
@@ -175,7 +242,12 @@ const OF_OTHERS: usize = 1 << 17;
 fn memory_of_512_reversals_is_that_of_a_few() {
     let _alone = ALONE.lock();
     let springs = 1 << 15;
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4, roll_off_mode: 0.0 };
+    let spectrum = SelfAffine {
+        hurst: 0.7,
+        first: 1,
+        last: springs as u64 / 4,
+        roll_off_mode: 0.0,
+    };
     let rough = spectrum.heights(1, springs).unwrap();
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).unwrap();
@@ -184,19 +256,29 @@ fn memory_of_512_reversals_is_that_of_a_few() {
     for kappa in [2.0_f64, 20.0] {
         let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
         for closing in [work, 0.25 * work] {
-            let contact = contact().works_of_adhesion([closing, work]).build().unwrap();
-            profile.build_tree(Edges::SubCell, ContactTree::default()).unwrap();
+            let contact = contact()
+                .works_of_adhesion([closing, work])
+                .build()
+                .unwrap();
+            profile
+                .build_tree(Edges::SubCell, ContactTree::default())
+                .unwrap();
             let most = |count: u32| {
                 let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
                 let turn = |turn: u32| Move::ToForce(deepest * f64::from(turn) / f64::from(count));
                 let turns: Vec<Move> = (1..=count).map(turn).collect();
                 let of = || {
-                    Body::new(&contact, 512).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
+                    Body::new(&contact, 512)
+                        .reversals(&turns, &[], &mut |_, _| Ok(()))
+                        .unwrap();
                 };
                 allocations::most_held(of).1
             };
             let [few, many] = [8, 512].map(most);
-            println!("κ = {kappa}, γ₁/γ = {}: {few} bytes for 8, {many} for 512", closing / work);
+            println!(
+                "κ = {kappa}, γ₁/γ = {}: {few} bytes for 8, {many} for 512",
+                closing / work
+            );
             assert!(
                 many <= REVERSALS_PER_SPRING * springs + 512 * REVERSALS_PER_TURN + OF_OTHERS,
                 "κ = {kappa}: {many} bytes"
@@ -216,20 +298,37 @@ const PRELOADS_PER_SPRING: usize = 192;
 fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let _alone = ALONE.lock();
     let springs = 1 << 16;
-    let spectrum = SelfAffine { hurst: 0.1, first: 1, last: springs as u64 / 2, roll_off_mode: 0.0 };
+    let spectrum = SelfAffine {
+        hurst: 0.1,
+        first: 1,
+        last: springs as u64 / 2,
+        roll_off_mode: 0.0,
+    };
     let rough = spectrum.heights(1, springs).unwrap();
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).unwrap();
     let contact = || Contact::builder(&profile, Modulus::effective(2e6).unwrap());
     let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
     let contact = contact().work_of_adhesion(work).build().unwrap();
-    profile.build_tree(Edges::SubCell, ContactTree::default()).unwrap();
+    profile
+        .build_tree(Edges::SubCell, ContactTree::default())
+        .unwrap();
     let turns = [0.01, 0.1, 1.0].map(|share| Move::ToForce(share * 2e6 * 1e-3 * 5e-7));
     let held = allocations::most_held(|| {
-        Body::new(&contact, 2).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
+        Body::new(&contact, 2)
+            .reversals(&turns, &[], &mut |_, _| Ok(()))
+            .unwrap();
     })
     .1;
     println!("{} bytes per spring", held / springs);
-    assert!(held <= PRELOADS_PER_SPRING * springs + OF_OTHERS, "{} bytes per spring", held / springs);
-    assert!(held >= PRELOADS_PER_SPRING * springs / 4, "{} bytes per spring: few events", held / springs);
+    assert!(
+        held <= PRELOADS_PER_SPRING * springs + OF_OTHERS,
+        "{} bytes per spring",
+        held / springs
+    );
+    assert!(
+        held >= PRELOADS_PER_SPRING * springs / 4,
+        "{} bytes per spring: few events",
+        held / springs
+    );
 }

@@ -45,10 +45,19 @@ fn text(bytes: &[u8]) -> Cow<'_, str> {
 
 /// A message is one line with text and without characters that move the cursor of a terminal.
 fn assert_message(message: &str) {
-    assert!(message.chars().any(char::is_alphabetic), "a message without words: {message:?}");
-    assert!(!message.contains(char::is_control), "a message with control characters: {message:?}");
+    assert!(
+        message.chars().any(char::is_alphabetic),
+        "a message without words: {message:?}"
+    );
+    assert!(
+        !message.contains(char::is_control),
+        "a message with control characters: {message:?}"
+    );
     let length = message.chars().count();
-    assert!(length <= LONGEST_MESSAGE, "a message of {length} characters: {message:?}");
+    assert!(
+        length <= LONGEST_MESSAGE,
+        "a message of {length} characters: {message:?}"
+    );
 }
 
 /// Each error names its cause, its place, and either the allowed values or the reason of refusal; `assert_origin`
@@ -59,7 +68,12 @@ fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
     let lines = errors.to_string().lines().count();
     assert_eq!(lines, count, "an error is one line: {errors}");
     for error in errors.iter() {
-        let SceneError { origin, allowed, message, .. } = error;
+        let SceneError {
+            origin,
+            allowed,
+            message,
+            ..
+        } = error;
         assert!(!(allowed.is_empty() && message.is_empty()), "{error:?}");
         assert_message(&error.to_string());
         assert_message(&error.what());
@@ -72,18 +86,35 @@ fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
 
 /// A place is in the text, or directly after its last character.
 fn assert_place(text: &str, line: usize, column: usize) {
-    let line_text = line.checked_sub(1).and_then(|index| text.split('\n').nth(index));
-    let Some(line_text) = line_text else { panic!("line {line} is not in {text:?}") };
-    assert!((1..=line_text.chars().count() + 1).contains(&column), "{line}:{column} is not in {text:?}");
+    let line_text = line
+        .checked_sub(1)
+        .and_then(|index| text.split('\n').nth(index));
+    let Some(line_text) = line_text else {
+        panic!("line {line} is not in {text:?}")
+    };
+    assert!(
+        (1..=line_text.chars().count() + 1).contains(&column),
+        "{line}:{column} is not in {text:?}"
+    );
 }
 
 /// Asserts the properties of every document.
 fn assert_document(document: &Document) {
     let scene = document.scene();
-    assert_eq!(asperity::scene::Scene::clone(scene).checked().as_ref(), Ok(scene), "{}", document.text());
-    let read =
-        |text: &str| Document::parse(text, "again").unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    assert_eq!(read(document.text()).scene(), scene, "the text is that of the scene");
+    assert_eq!(
+        asperity::scene::Scene::clone(scene).checked().as_ref(),
+        Ok(scene),
+        "{}",
+        document.text()
+    );
+    let read = |text: &str| {
+        Document::parse(text, "again").unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+    };
+    assert_eq!(
+        read(document.text()).scene(),
+        scene,
+        "the text is that of the scene"
+    );
     assert_eq!(Tree::of(scene).scene().as_ref(), Ok(&**scene));
     // Written in canonical form the scene is the same, and remains so.
     let written = to_ron(scene);

@@ -14,21 +14,39 @@ const MOST: usize = 16;
 pub fn overrides(bytes: &[u8]) {
     let text = text(bytes);
     let mut lines = text.lines();
-    let preset = lines.next().and_then(|name| find_scene(name.trim())).or_else(|| find_scene(DEFAULT));
-    let Some(base) = preset.and_then(|preset| Document::parse(preset.text, preset.name).ok()) else {
+    let preset = lines
+        .next()
+        .and_then(|name| find_scene(name.trim()))
+        .or_else(|| find_scene(DEFAULT));
+    let Some(base) = preset.and_then(|preset| Document::parse(preset.text, preset.name).ok())
+    else {
         panic!("{DEFAULT} is a scene")
     };
     // Split as on the command line.
-    let pair = |line: &str| line.split_once('=').map(|(path, value)| (path.trim().into(), value.into()));
+    let pair = |line: &str| {
+        line.split_once('=')
+            .map(|(path, value)| (path.trim().into(), value.into()))
+    };
     let pairs: Vec<(String, String)> = lines.filter_map(pair).take(MOST).collect();
 
     let all = base.set_all(&pairs);
-    let one_by_one = pairs.iter().try_fold(base.clone(), |document, (path, value)| document.set(path, value));
+    let one_by_one = pairs
+        .iter()
+        .try_fold(base.clone(), |document, (path, value)| {
+            document.set(path, value)
+        });
     match &all {
         Ok(changed) => {
             assert_document(changed);
-            let listed = base.set_all(changed.overrides()).unwrap_or_else(|errors| panic!("{errors}"));
-            assert_eq!(listed.scene(), changed.scene(), "{:?} listed for {pairs:?}", changed.overrides());
+            let listed = base
+                .set_all(changed.overrides())
+                .unwrap_or_else(|errors| panic!("{errors}"));
+            assert_eq!(
+                listed.scene(),
+                changed.scene(),
+                "{:?} listed for {pairs:?}",
+                changed.overrides()
+            );
             assert!(changed.overrides().iter().all(|pair| pairs.contains(pair)));
         }
         Err(errors) => assert_named(errors, &pairs),
@@ -47,7 +65,9 @@ fn assert_named(errors: &SceneErrors, pairs: &[(String, String)]) {
         Origin::Overrides(named) => {
             assert!(!named.is_empty(), "{errors}");
             for one in named {
-                let given = pairs.iter().any(|(path, value)| *one == format!("{path}={value}"));
+                let given = pairs
+                    .iter()
+                    .any(|(path, value)| *one == format!("{path}={value}"));
                 assert!(given, "{one:?} is not in {pairs:?}");
             }
         }

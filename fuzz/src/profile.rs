@@ -21,10 +21,15 @@ pub fn profile(bytes: &[u8]) {
             let message = error.to_string();
             assert_message(&message);
             assert!(message.contains("allowed: "), "{message}");
-            if let Some((number, _)) = message.strip_prefix("line ").and_then(|rest| rest.split_once(": ")) {
+            if let Some((number, _)) = message
+                .strip_prefix("line ")
+                .and_then(|rest| rest.split_once(": "))
+            {
                 let lines = text.split(['\n', '\r']).count();
                 assert!(
-                    number.parse().is_ok_and(|number| (1..=lines).contains(&number)),
+                    number
+                        .parse()
+                        .is_ok_and(|number| (1..=lines).contains(&number)),
                     "{lines}: {message}"
                 );
             }
@@ -33,21 +38,49 @@ pub fn profile(bytes: &[u8]) {
 }
 
 fn parse(text: &str) -> Result<MeasuredProfile, SurfaceError> {
-    let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
-    MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
+    let reading = ReadOptions {
+        convention: Some(Unit::METRE),
+        ..ReadOptions::default()
+    };
+    MeasuredProfile::new(
+        text.as_bytes(),
+        &MeasuredOptions {
+            reading,
+            ..MeasuredOptions::default()
+        },
+    )
 }
 
 fn assert_points(profile: &MeasuredProfile) {
     let (positions, heights) = (&profile.positions, &profile.heights);
     assert!(positions.len() >= 2 && positions.len() == heights.len());
-    assert!(positions.iter().chain(heights).all(|value| value.is_finite()));
+    assert!(
+        positions
+            .iter()
+            .chain(heights)
+            .all(|value| value.is_finite())
+    );
     assert!(positions.windows(2).all(|pair| pair[0] < pair[1]));
-    assert!(profile.length().is_finite() && profile.length() > 0.0, "{}", profile.length());
-    let Amplitude { rms_height, rms_gradient, .. } = profile.amplitude().unwrap();
+    assert!(
+        profile.length().is_finite() && profile.length() > 0.0,
+        "{}",
+        profile.length()
+    );
+    let Amplitude {
+        rms_height,
+        rms_gradient,
+        ..
+    } = profile.amplitude().unwrap();
     assert!(rms_height.is_finite() && rms_height >= 0.0, "{rms_height}");
-    assert!(rms_gradient.is_finite() && rms_gradient >= 0.0, "{rms_gradient}");
+    assert!(
+        rms_gradient.is_finite() && rms_gradient >= 0.0,
+        "{rms_gradient}"
+    );
     let (low, high) = ends(heights);
-    assert!(rms_height <= (high - low) * (1.0 + 1e-9) + f64::MIN_POSITIVE.sqrt(), "{rms_height}");
+    assert!(
+        rms_height <= (high - low) * (1.0 + 1e-9) + f64::MIN_POSITIVE.sqrt(),
+        "{rms_height}"
+    );
 }
 
 fn assert_samples(profile: &MeasuredProfile) {
@@ -77,8 +110,10 @@ fn assert_samples(profile: &MeasuredProfile) {
     // distances cover half a distance more at each end.
     let points = profile.heights.len() as f64;
     let covered = length * (points / (points - 1.0));
-    let refused =
-        [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * covered + 1e-300, 2, 0.0)];
+    let refused = [
+        profile.sample(length, usize::MAX / 4, 0.0),
+        profile.sample(1.01 * covered + 1e-300, 2, 0.0),
+    ];
     for message in refused.map(|sampled| sampled.map(|_| ()).unwrap_err()) {
         assert_message(&message.to_string());
     }
@@ -86,5 +121,7 @@ fn assert_samples(profile: &MeasuredProfile) {
 
 fn ends(values: &[f64]) -> (f64, f64) {
     let wider = |(low, high): (f64, f64), &value: &f64| (low.min(value), high.max(value));
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), wider)
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), wider)
 }

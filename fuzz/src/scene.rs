@@ -14,13 +14,19 @@ pub fn scene(bytes: &[u8]) {
     let text = whole.strip_prefix('\u{feff}').unwrap_or(&whole);
     match Document::parse(&whole, NAME) {
         Err(errors) => assert_errors(&errors, |origin| match origin {
-            Origin::File { name, place: Some((line, column)) } => {
+            Origin::File {
+                name,
+                place: Some((line, column)),
+            } => {
                 assert_eq!(name, NAME);
                 assert_place(text, *line, *column);
             }
             Origin::File { name, place: None } => {
                 assert_eq!(name, NAME);
-                assert!(text.len() > LONGEST_TEXT, "an error in a text has a place: {errors}");
+                assert!(
+                    text.len() > LONGEST_TEXT,
+                    "an error in a text has a place: {errors}"
+                );
             }
             other => panic!("an error in a text has a place, not {other:?}: {errors}"),
         }),
@@ -38,12 +44,23 @@ pub fn scene(bytes: &[u8]) {
 /// Setting a field to its own value changes nothing; one step stays inside the range.
 fn assert_fields(document: &Document) {
     for field in document.fields() {
-        let Some(value) = document.value(field.path) else { continue };
-        let same = document.set(field.path, value).unwrap_or_else(|errors| panic!("{errors}"));
+        let Some(value) = document.value(field.path) else {
+            continue;
+        };
+        let same = document
+            .set(field.path, value)
+            .unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(same.scene(), document.scene(), "{} = {value}", field.path);
-        assert_eq!(field.read_typed(value).as_deref(), Ok(value), "{}", field.path);
+        assert_eq!(
+            field.read_typed(value).as_deref(),
+            Ok(value),
+            "{}",
+            field.path
+        );
         for (steps, coarse) in [(1, false), (-1, false), (1, true), (-1, true)] {
-            let Some(next) = field.stepped(value, steps, coarse) else { continue };
+            let Some(next) = field.stepped(value, steps, coarse) else {
+                continue;
+            };
             assert_ne!(next, value, "{}", field.path);
             if let Ok(next) = next.parse()
                 && field.range.ends().is_some()
@@ -73,7 +90,12 @@ fn assert_effects(document: &Document) {
         sound(&off, effect, false);
         let Ok(off) = off else { continue };
         for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
-            assert_eq!(also.is_on(off.scene()), also.is_on(document.scene()), "{}", also.name());
+            assert_eq!(
+                also.is_on(off.scene()),
+                also.is_on(document.scene()),
+                "{}",
+                also.name()
+            );
         }
         let forgotten = Document::parse(off.text(), NAME).and_then(|off| off.with(effect));
         sound(&forgotten, effect, true);

@@ -38,13 +38,18 @@ impl Watch {
     /// Calls the callback with the number of parts that are done and that of all parts.
     pub fn report(&self, done: u64, all: u64) {
         if let Some(progress) = &self.progress {
-            self.keep(Python::attach(|py| progress.call1(py, (done, all)).map(drop)));
+            self.keep(Python::attach(|py| {
+                progress.call1(py, (done, all)).map(drop)
+            }));
         }
     }
 
     fn keep(&self, result: PyResult<()>) {
         if let Err(error) = result {
-            self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+            self.raised
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .get_or_insert(error);
             self.is_stopped.store(true, Ordering::Relaxed);
         }
     }
@@ -57,7 +62,10 @@ pub fn computed<R: Send>(
     progress: Progress,
     work: impl FnOnce(&Watch) -> Result<R, Failure> + Send,
 ) -> PyResult<R> {
-    let watch = Watch { progress, ..Watch::default() };
+    let watch = Watch {
+        progress,
+        ..Watch::default()
+    };
     let done = py.detach(|| {
         let (ended, end) = channel::<()>();
         let working = || {
@@ -66,15 +74,22 @@ pub fn computed<R: Send>(
             work(&watch)
         };
         scope(|scope| {
-            let unstarted = |error| PyRuntimeError::new_err(format!("could not start a thread: {error}"));
-            let worker = Builder::new().spawn_scoped(scope, working).map_err(unstarted)?;
+            let unstarted =
+                |error| PyRuntimeError::new_err(format!("could not start a thread: {error}"));
+            let worker = Builder::new()
+                .spawn_scoped(scope, working)
+                .map_err(unstarted)?;
             while end.recv_timeout(Duration::from_millis(50)) == Err(RecvTimeoutError::Timeout) {
                 watch.keep(Python::attach(|py| py.check_signals()));
             }
             Ok::<_, PyErr>(worker.join())
         })
     });
-    if let Some(error) = watch.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
+    if let Some(error) = watch
+        .raised
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner)
+    {
         return Err(error);
     }
     Ok(done?.map_err(|_| PyRuntimeError::new_err(DEFECT))??)
@@ -107,7 +122,11 @@ impl Case<'_> {
         }
         let allowed = "a surface in a file: numpy.save('map.npy', heights) and \
                        asperity.surface('map.npy', unit='m', spacing=...)";
-        Err(Failure::field("scene", "a scene with a surface in memory", allowed))
+        Err(Failure::field(
+            "scene",
+            "a scene with a surface in memory",
+            allowed,
+        ))
     }
 }
 
@@ -119,10 +138,21 @@ impl Call {
         work: impl FnOnce(Case<'_>) -> Result<R, Failure> + Send,
     ) -> PyResult<R> {
         let Call(scene, profiles, jobs, progress) = self;
-        let Scene { document, in_memory } = scene.get();
+        let Scene {
+            document,
+            in_memory,
+        } = scene.get();
         let (document, in_memory) = (document.clone(), in_memory.clone());
         let profiles = profiles.unwrap_or_else(|| Ensemble::profiles_of(document.scene()));
         let jobs = jobs.unwrap_or_else(parallel::threads);
-        computed(py, progress, move |watch| work(Case { document, in_memory, profiles, jobs, watch }))
+        computed(py, progress, move |watch| {
+            work(Case {
+                document,
+                in_memory,
+                profiles,
+                jobs,
+                watch,
+            })
+        })
     }
 }

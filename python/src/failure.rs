@@ -22,8 +22,12 @@ impl Failure {
     /// An exception of this class of the package with its values.
     fn of_class(name: &str, values: impl for<'py> PyCallArgs<'py>) -> Failure {
         Failure(Python::attach(|py| {
-            let class = py.import("asperity._errors").and_then(|errors| errors.getattr(name));
-            class.and_then(|class| class.call1(values)).map_or_else(|error| error, PyErr::from_value)
+            let class = py
+                .import("asperity._errors")
+                .and_then(|errors| errors.getattr(name));
+            class
+                .and_then(|class| class.call1(values))
+                .map_or_else(|error| error, PyErr::from_value)
         }))
     }
 
@@ -48,7 +52,11 @@ impl Failure {
     pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
         let is_missing = |path: &PathBuf| path.is_dir() || File::open(path).is_err();
         let is_any_missing = files.iter().any(is_missing);
-        if is_any_missing { Failure(PyOSError::new_err(sentence(&error.to_string()))) } else { error.into() }
+        if is_any_missing {
+            Failure(PyOSError::new_err(sentence(&error.to_string())))
+        } else {
+            error.into()
+        }
     }
 
     /// The sentence of the exception.
@@ -77,7 +85,12 @@ impl From<SceneErrors> for Failure {
             _ => error.to_string().replace("--set ", ""),
         };
         let message = errors.iter().map(line).collect::<Vec<_>>().join("\n");
-        let SceneError { field, value, allowed, .. } = errors.first();
+        let SceneError {
+            field,
+            value,
+            allowed,
+            ..
+        } = errors.first();
         if field.is_empty() {
             return message.into();
         }
@@ -91,14 +104,24 @@ impl From<ContactError> for Failure {
         match (error.stage(), &error) {
             (Some(stage), _) => {
                 // Stages count from 0 in Python, as in all tables.
-                let reason = message.strip_prefix(&format!("stage {}: ", stage + 1)).unwrap_or(&message);
+                let reason = message
+                    .strip_prefix(&format!("stage {}: ", stage + 1))
+                    .unwrap_or(&message);
                 let message = format!("stage {stage}, counted from 0: {reason}");
-                Failure::of_class("LoadingError", (sentence(&message), stage, error.smallest_force()))
+                Failure::of_class(
+                    "LoadingError",
+                    (sentence(&message), stage, error.smallest_force()),
+                )
             }
             (None, ContactError::OutOfMemory(_)) => Failure(PyMemoryError::new_err(message)),
-            (None, ContactError::Value { name, value, allowed }) => {
-                Failure::field_in_words(message, name, &value.to_string(), allowed)
-            }
+            (
+                None,
+                ContactError::Value {
+                    name,
+                    value,
+                    allowed,
+                },
+            ) => Failure::field_in_words(message, name, &value.to_string(), allowed),
             _ => message.into(),
         }
     }

@@ -34,15 +34,29 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
     if rows.iter().any(|row| row.error.is_empty()) {
         return Ok(());
     }
-    let reason = rows.first().map(|row| row.error.as_str()).unwrap_or_default();
-    let message = format!("none of {} curves is fitted; the first one: {reason}", rows.len());
-    let files = curves.iter().filter(|curve| curve.1.is_none()).map(|curve| PathBuf::from(&curve.0));
+    let reason = rows
+        .first()
+        .map(|row| row.error.as_str())
+        .unwrap_or_default();
+    let message = format!(
+        "none of {} curves is fitted; the first one: {reason}",
+        rows.len()
+    );
+    let files = curves
+        .iter()
+        .filter(|curve| curve.1.is_none())
+        .map(|curve| PathBuf::from(&curve.0));
     Err(Failure::of_files(&files.collect::<Vec<_>>(), message))
 }
 
 /// Fits a scene to one curve, to each of several, or on random profiles to all together; the words are options of `asperity fit`.
 #[pyfunction]
-pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<String>) -> PyResult<Report> {
+pub fn fit(
+    py: Python<'_>,
+    call: Call,
+    curves: (Vec<Curve>, bool),
+    words: Vec<String>,
+) -> PyResult<Report> {
     let (curves, is_one) = curves;
     call.computed(py, |case| {
         case.check_files()?;
@@ -51,32 +65,71 @@ pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<St
         };
         let (document, jobs, watch) = (case.document, case.jobs, case.watch);
         let (free, instrument) = (arguments.free, document.scene().loading_stiffness);
-        let (reading, stop) = (CurveOptions { instrument, ..arguments.reading }, || watch.stop());
+        let (reading, stop) = (
+            CurveOptions {
+                instrument,
+                ..arguments.reading
+            },
+            || watch.stop(),
+        );
         let mut report = |done| watch.report(done, 0);
         if let Some(lines) = arguments.ensemble.lines {
-            let options = arguments.ensemble.options(&free, lines).map_err(|error| error.to_string())?;
-            let curves = curves.iter().map(|curve| Ok((curve.0.clone(), curve.read(&reading)?)));
+            let options = arguments
+                .ensemble
+                .options(&free, lines)
+                .map_err(|error| error.to_string())?;
+            let curves = curves
+                .iter()
+                .map(|curve| Ok((curve.0.clone(), curve.read(&reading)?)));
             let curves = curves.collect::<Result<Vec<_>, Failure>>()?;
-            let control = Control::default().on_threads(jobs).stopped_by(&stop).reporting_to(&mut report);
+            let control = Control::default()
+                .on_threads(jobs)
+                .stopped_by(&stop)
+                .reporting_to(&mut report);
             let fit = fit_ensemble(&curves, &document, &options, control)?;
-            let has_roughness_errors = options.height_error.is_some() || options.hurst_error.is_some();
+            let has_roughness_errors =
+                options.height_error.is_some() || options.hurst_error.is_some();
             return Ok(Report::new(move |format| {
                 let (title, fit) = (document.title(), &fit);
-                bytes(Some(&document), &EnsembleFitReport { title, fit, has_roughness_errors }, format)
+                bytes(
+                    Some(&document),
+                    &EnsembleFitReport {
+                        title,
+                        fit,
+                        has_roughness_errors,
+                    },
+                    format,
+                )
             }));
         }
         let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
         if let ([curve], true) = (&curves[..], is_one) {
             let (title, curve) = (curve.0.clone(), curve.read(&reading)?);
-            let fit = fit.run(&curve, Control::default().stopped_by(&stop).reporting_to(&mut report))?;
+            let fit = fit.run(
+                &curve,
+                Control::default()
+                    .stopped_by(&stop)
+                    .reporting_to(&mut report),
+            )?;
             return Ok(Report::new(move |format| {
-                bytes(Some(&fit.document), &FitReport { title: &title, curve: &curve, fit: &fit }, format)
+                bytes(
+                    Some(&fit.document),
+                    &FitReport {
+                        title: &title,
+                        curve: &curve,
+                        fit: &fit,
+                    },
+                    format,
+                )
             }));
         }
         let (done, all) = (AtomicU64::new(0), curves.len() as u64);
         let worker = || {
             |number: u64| {
-                let (given, control) = (&curves[number as usize], Control::default().stopped_by(&stop));
+                let (given, control) = (
+                    &curves[number as usize],
+                    Control::default().stopped_by(&stop),
+                );
                 let row = CurveRow::of(
                     &given.0,
                     given.read(&reading).map_err(|failure| failure.message()),
@@ -84,7 +137,11 @@ pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<St
                     control,
                 );
                 watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
-                if stop() { Err("stopped".to_owned()) } else { Ok(row) }
+                if stop() {
+                    Err("stopped".to_owned())
+                } else {
+                    Ok(row)
+                }
             }
         };
         let rows = on_threads(all, jobs, worker)?;
@@ -92,7 +149,15 @@ pub fn fit(py: Python<'_>, call: Call, curves: (Vec<Curve>, bool), words: Vec<St
         let is_free = |one: &Parameter| free.iter().any(|free: &Free| free.parameter == *one);
         let free: Vec<Parameter> = Parameter::ALL.into_iter().filter(is_free).collect();
         Ok(Report::new(move |format| {
-            bytes(Some(&document), &FitsReport { scene: document.scene(), free: &free, rows: &rows }, format)
+            bytes(
+                Some(&document),
+                &FitsReport {
+                    scene: document.scene(),
+                    free: &free,
+                    rows: &rows,
+                },
+                format,
+            )
         }))
     })
 }

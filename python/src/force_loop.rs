@@ -26,21 +26,32 @@ pub struct Profile {
 #[pymethods]
 impl Profile {
     #[new]
-    fn new(heights: PyReadonlyArray1<'_, f64>, spacing: f64, is_curved: Option<bool>) -> PyResult<Self> {
+    fn new(
+        heights: PyReadonlyArray1<'_, f64>,
+        spacing: f64,
+        is_curved: Option<bool>,
+    ) -> PyResult<Self> {
         let profile = asperity::Profile::from_heights(heights.as_slice()?, spacing);
         let nominal_form = match is_curved {
             Some(true) => NominalForm::Curved,
             Some(false) => NominalForm::Flat,
             None => NominalForm::Unstated,
         };
-        Ok(Profile { profile: profile.map_err(Failure::from)?.with_nominal_form(nominal_form) })
+        Ok(Profile {
+            profile: profile
+                .map_err(Failure::from)?
+                .with_nominal_form(nominal_form),
+        })
     }
 
     /// The profile of a scene.
     #[staticmethod]
     fn of_scene(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
         computed(py, None, |_| {
-            let profile = scene.simulation().for_one_scene().profile(scene.document.scene())?;
+            let profile = scene
+                .simulation()
+                .for_one_scene()
+                .profile(scene.document.scene())?;
             Ok(Profile { profile })
         })
     }
@@ -54,19 +65,30 @@ impl Profile {
             builder = builder.form(form.clone());
         }
         let profile = builder.build_with(heights.as_slice()?.to_vec());
-        Ok(Profile { profile: profile.map_err(Failure::from)? })
+        Ok(Profile {
+            profile: profile.map_err(Failure::from)?,
+        })
     }
 
     /// Positions, heights and gaps of the points, m.
     fn columns<'py>(&self, py: Python<'py>) -> [Array<'py, f64>; 3] {
         let (profile, points) = (&self.profile, 0..self.profile.points());
         let positions = points.map(|index| profile.position(index)).collect();
-        [positions, profile.heights().collect(), profile.gaps().to_vec()].map(|column| array(py, column))
+        [
+            positions,
+            profile.heights().collect(),
+            profile.gaps().to_vec(),
+        ]
+        .map(|column| array(py, column))
     }
 
     /// Number of points, their distance, m, and the length of the profile, m.
     fn size(&self) -> (usize, f64, f64) {
-        (self.profile.points(), self.profile.spacing(), self.profile.length())
+        (
+            self.profile.points(),
+            self.profile.spacing(),
+            self.profile.length(),
+        )
     }
 }
 
@@ -94,24 +116,42 @@ pub struct Loop {
 impl Loop {
     /// Loads a profile of heights.
     #[staticmethod]
-    fn of_heights(py: Python<'_>, profile: &Profile, load: Load, progress: Progress) -> PyResult<Loop> {
+    fn of_heights(
+        py: Python<'_>,
+        profile: &Profile,
+        load: Load,
+        progress: Progress,
+    ) -> PyResult<Loop> {
         let ((modulus, works, stiffness), (stages, is_grid, samples)) = load;
         computed(py, progress, |watch| {
             let targets = read_loading(&stages);
             let targets = targets.map_err(|error| Failure::explained("stages", &stages, &error))?;
             let contact = Contact::builder(&profile.profile, Modulus::effective(modulus)?);
             let edges = if is_grid { Edges::Grid } else { Edges::SubCell };
-            let contact =
-                contact.works_of_adhesion(works).loading_stiffness(stiffness).edges(edges).build()?;
+            let contact = contact
+                .works_of_adhesion(works)
+                .loading_stiffness(stiffness)
+                .edges(edges)
+                .build()?;
             let mut proceed = |stage| {
                 watch.report(stage as u64, targets.len() as u64);
                 !watch.stop()
             };
-            let options = LoadOptions::default().samples(samples).before_stage(&mut proceed);
+            let options = LoadOptions::default()
+                .samples(samples)
+                .before_stage(&mut proceed);
             let cycle = contact.load_with(&targets, options)?;
             let warnings = cycle.warnings();
-            let (stages, figures, title) = (cycle.stages().to_vec(), cycle.figures(), String::new());
-            Ok(Loop { stages, figures, stiffness, title, warnings, outcome: None })
+            let (stages, figures, title) =
+                (cycle.stages().to_vec(), cycle.figures(), String::new());
+            Ok(Loop {
+                stages,
+                figures,
+                stiffness,
+                title,
+                warnings,
+                outcome: None,
+            })
         })
     }
 
@@ -130,7 +170,14 @@ impl Loop {
             let (stages, figures) = (outcome.history.legs.clone(), outcome.figures);
             let warnings = outcome.warnings.clone();
             let (title, outcome) = (scene.title.clone(), Some(Arc::new(outcome)));
-            Ok(Loop { stages, figures, stiffness, title, warnings, outcome })
+            Ok(Loop {
+                stages,
+                figures,
+                stiffness,
+                title,
+                warnings,
+                outcome,
+            })
         })
     }
 
@@ -138,27 +185,48 @@ impl Loop {
     fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
         let stages = self.stages.iter();
         let points = || stages.clone().flat_map(|stage| &stage.curve);
-        let numbers = stages.clone().zip(0_i64..).flat_map(|(stage, number)| vec![number; stage.curve.len()]);
-        let counts = [numbers.collect(), points().map(|point| point.fragments as i64).collect()];
+        let numbers = stages
+            .clone()
+            .zip(0_i64..)
+            .flat_map(|(stage, number)| vec![number; stage.curve.len()]);
+        let counts = [
+            numbers.collect(),
+            points().map(|point| point.fragments as i64).collect(),
+        ];
         let columns = [
             points().map(|point| point.indentation).collect(),
             points().map(|point| point.force).collect(),
-            stages.clone().flat_map(|stage| displacements(stage, self.stiffness)).collect(),
+            stages
+                .clone()
+                .flat_map(|stage| displacements(stage, self.stiffness))
+                .collect(),
             points().map(|point| point.contact_length).collect(),
             points().map(|point| point.stored_energy).collect(),
             stages.map(|stage| stage.released_energy).collect(),
         ];
-        (counts.map(|column| array(py, column)), columns.map(|column| array(py, column)))
+        (
+            counts.map(|column| array(py, column)),
+            columns.map(|column| array(py, column)),
+        )
     }
 
     /// Pull-off force, its indentation, preload, dissipated energy, κ, Tabor number and share of ideal contact; the regime; and the
     /// marked points.
     fn figures(&self) -> ([Option<f64>; 7], Option<&'static str>, Marks) {
         let (of, outcome) = (&self.figures, self.outcome.as_ref());
-        let governing = outcome.map(|of| [of.governing.kappa, of.tabor_number, of.adhesion_share()]);
+        let governing =
+            outcome.map(|of| [of.governing.kappa, of.tabor_number, of.adhesion_share()]);
         let [kappa, tabor, share] = governing.unwrap_or_default();
         let [pull_off, at] = [of.adhesion_force, of.pull_off_indentation];
-        let figures = [pull_off, at, of.preload, of.dissipated_energy, kappa, tabor, share];
+        let figures = [
+            pull_off,
+            at,
+            of.preload,
+            of.dissipated_energy,
+            kappa,
+            tabor,
+            share,
+        ];
         let regime = outcome.and_then(|outcome| Some(outcome.regime?.name()));
         let named = Mark::all(&self.stages).into_iter();
         let named = named.map(|(mark, point)| (mark.name(), (point.indentation, point.force)));

@@ -21,8 +21,16 @@ pub fn press<'py>(
     let (cells, heights) = (heights.shape()[0], heights.as_slice()?.to_vec());
     let (side, effective_modulus, force) = load;
     let found = computed(py, None, |watch| {
-        let square = Square { heights: &heights, side, effective_modulus };
-        let boundary = if is_periodic { Boundary::Periodic } else { Boundary::Free };
+        let square = Square {
+            heights: &heights,
+            side,
+            effective_modulus,
+        };
+        let boundary = if is_periodic {
+            Boundary::Periodic
+        } else {
+            Boundary::Free
+        };
         let stop = || watch.stop();
         Ok(HalfSpace::new(cells, boundary)?.press(&square, Load::Force(force), residual, &stop)?)
     })?;
@@ -32,10 +40,21 @@ pub fn press<'py>(
         return Err(Failure::field("force", &format_quantity(force, "N"), allowed).into());
     }
     if found.residual > residual {
-        let allowed =
-            format!("at least {:.1e}, which rounding leaves for this map and this force", found.residual);
+        let allowed = format!(
+            "at least {:.1e}, which rounding leaves for this map and this force",
+            found.residual
+        );
         return Err(Failure::field("residual", &format!("{residual:e}"), &allowed).into());
     }
-    let numbers = [found.force, found.indentation, found.area, found.residual, found.convolutions as f64];
-    Ok(([found.pressure, found.gap].map(|map| array(py, map)), numbers))
+    let numbers = [
+        found.force,
+        found.indentation,
+        found.area,
+        found.residual,
+        found.convolutions as f64,
+    ];
+    Ok((
+        [found.pressure, found.gap].map(|map| array(py, map)),
+        numbers,
+    ))
 }

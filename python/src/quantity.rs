@@ -22,9 +22,9 @@ pub fn unit_of(path: &str, variant: &str) -> &'static str {
 #[pyfunction]
 pub fn in_field(number: f64, path: &str, variant: &str, argument: &str) -> Result<f64, Failure> {
     match field(path, Some(variant)) {
-        Some(field) if field.range.ends().is_some() && !field.range.contains(number) => {
-            Err(Failure::field(argument, &number.to_string(), &field.allowed()))
-        }
+        Some(field) if field.range.ends().is_some() && !field.range.contains(number) => Err(
+            Failure::field(argument, &number.to_string(), &field.allowed()),
+        ),
         _ => Ok(number),
     }
 }

@@ -12,8 +12,8 @@ use asperity::study::{
 };
 use asperity::surface::lines::MeasuredRoughness;
 use asperity_report::{
-    FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport, RunReport,
-    scene_provenance,
+    FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport,
+    RunReport, scene_provenance,
 };
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -34,18 +34,29 @@ impl Report {
 }
 
 /// Returns the document that tables and figures state; `None` for a scene with a roughness in memory, which no text holds.
-fn named<'a>(document: &'a Document, in_memory: &Option<Arc<MeasuredRoughness>>) -> Option<&'a Document> {
+fn named<'a>(
+    document: &'a Document,
+    in_memory: &Option<Arc<MeasuredRoughness>>,
+) -> Option<&'a Document> {
     in_memory.is_none().then_some(document)
 }
 
 /// A report as bytes; tables and figures state its scene.
 pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> io::Result<Vec<u8>> {
     let mut written = Vec::new();
-    let provenance = of.filter(|_| matches!(format, Format::Csv | Format::Svg)).map(|document| {
-        let (scene, folder) = (document.scene(), document.resolve(""));
-        scene_provenance("import asperity", scene, &folder, Path::new("")).map_err(io::Error::other)
-    });
-    asperity_report::write(&mut written, report, format, &provenance.transpose()?.unwrap_or_default())?;
+    let provenance = of
+        .filter(|_| matches!(format, Format::Csv | Format::Svg))
+        .map(|document| {
+            let (scene, folder) = (document.scene(), document.resolve(""));
+            scene_provenance("import asperity", scene, &folder, Path::new(""))
+                .map_err(io::Error::other)
+        });
+    asperity_report::write(
+        &mut written,
+        report,
+        format,
+        &provenance.transpose()?.unwrap_or_default(),
+    )?;
     Ok(written)
 }
 
@@ -53,34 +64,55 @@ pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> i
 impl Report {
     /// The result in a format: text, json, csv, npy, svg, png or pdf.
     fn write(&self, py: Python<'_>, format: &str) -> PyResult<Vec<u8>> {
-        let known = Format::ALL.into_iter().find(|one| one.name() == format || one.extension() == format);
+        let known = Format::ALL
+            .into_iter()
+            .find(|one| one.name() == format || one.extension() == format);
         let known = known.ok_or_else(|| {
             let names = Format::ALL.map(Format::extension).join(", ");
             PyValueError::new_err(format!("format {format:?}; allowed: {names}"))
         })?;
         // A defect of the program is an exception like any other.
         let write = || catch_unwind(AssertUnwindSafe(|| (self.0)(known)));
-        let written = py.detach(write).map_err(|_| PyRuntimeError::new_err(DEFECT))?;
+        let written = py
+            .detach(write)
+            .map_err(|_| PyRuntimeError::new_err(DEFECT))?;
         written.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 }
 
 /// The results of a scene on its random profiles, with these further quantities.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
-    let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| case.watch.report(computed, case.profiles);
+    let mut report =
+        |computed: u64, _: &dyn Fn() -> Ensemble| case.watch.report(computed, case.profiles);
     let workers = (case.simulation(), case.jobs);
     let stop = || case.watch.stop();
-    Ok(Ensemble::of(case.document.scene(), further, case.profiles, workers, &stop, &mut report)?)
+    Ok(Ensemble::of(
+        case.document.scene(),
+        further,
+        case.profiles,
+        workers,
+        &stop,
+        &mut report,
+    )?)
 }
 
 /// The report of a computed scene, with the results on its random profiles.
 #[pyfunction]
 pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
-    let further = if call.1.is_some() { &Ensemble::FURTHER[..] } else { &[] };
-    let outcome = computed.outcome.clone().ok_or_else(|| PyValueError::new_err("no scene"))?;
+    let further = if call.1.is_some() {
+        &Ensemble::FURTHER[..]
+    } else {
+        &[]
+    };
+    let outcome = computed
+        .outcome
+        .clone()
+        .ok_or_else(|| PyValueError::new_err("no scene"))?;
     call.computed(py, |case| {
         let (scene, folder) = (case.document.scene(), case.document.resolve(""));
-        let ensemble = (case.profiles > 1).then(|| on_profiles(&case, further)).transpose()?;
+        let ensemble = (case.profiles > 1)
+            .then(|| on_profiles(&case, further))
+            .transpose()?;
         let estimate = estimate(scene, &folder, &outcome, &|| case.watch.stop());
         let deviation = ensemble.as_ref().and_then(|ensemble| {
             MeasuredAdhesion::quick_deviation(&case.document, ensemble.profiles(), case.jobs)
@@ -88,7 +120,15 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
         Ok(Report::new(move |format| {
             let (title, scene, outcome) = (case.document.title(), case.document.scene(), &*outcome);
             let (estimate, ensemble) = (estimate.as_ref(), ensemble.as_ref());
-            let report = RunReport { title, scene, outcome, choice: None, estimate, ensemble, deviation };
+            let report = RunReport {
+                title,
+                scene,
+                outcome,
+                choice: None,
+                estimate,
+                ensemble,
+                deviation,
+            };
             bytes(named(&case.document, &case.in_memory), &report, format)
         }))
     })
@@ -99,27 +139,50 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
 pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
     call.computed(py, |case| {
         let ensemble = on_profiles(&case, &Ensemble::FURTHER)?;
-        Ok(Report::new(move |format| bytes(named(&case.document, &case.in_memory), &ensemble, format)))
+        Ok(Report::new(move |format| {
+            bytes(named(&case.document, &case.in_memory), &ensemble, format)
+        }))
     })
 }
 
 /// Finds the number of a scene at which a quantity has a value.
 #[pyfunction]
-pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<&str>) -> PyResult<Report> {
+pub fn find(
+    py: Python<'_>,
+    call: Call,
+    field: &str,
+    value: &str,
+    range: Option<&str>,
+) -> PyResult<Report> {
     call.computed(py, |case| {
         let (scene, mut simulation) = (case.document.scene(), case.simulation());
-        let mut question =
-            Question::new(scene, field, Question::parse_condition(value)?, case.profiles, &mut simulation)?;
+        let mut question = Question::new(
+            scene,
+            field,
+            Question::parse_condition(value)?,
+            case.profiles,
+            &mut simulation,
+        )?;
         if let Some(range) = range {
             question.searched = Axis::parse_range(range, question.axis.unit)?;
         }
         let mut report = |done| case.watch.report(done, case.profiles);
-        let found = Found::of(question, (simulation, case.jobs), &|| case.watch.stop(), &mut report)?;
+        let found = Found::of(
+            question,
+            (simulation, case.jobs),
+            &|| case.watch.stop(),
+            &mut report,
+        )?;
         Ok(Report::new(move |format| {
             let (title, scene, found) = (case.document.title(), case.document.scene(), &found);
             bytes(
                 named(&case.document, &case.in_memory),
-                &FindReport { title, scene, found, warnings: &scene.warnings() },
+                &FindReport {
+                    title,
+                    scene,
+                    found,
+                    warnings: &scene.warnings(),
+                },
                 format,
             )
         }))
@@ -130,8 +193,11 @@ pub fn find(py: Python<'_>, call: Call, field: &str, value: &str, range: Option<
 #[pyfunction]
 pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
     call.computed(py, |case| {
-        let (scene, stop, axis) =
-            (case.document.scene(), || case.watch.stop(), Axis::parse_preloads(preloads)?);
+        let (scene, stop, axis) = (
+            case.document.scene(),
+            || case.watch.stop(),
+            Axis::parse_preloads(preloads)?,
+        );
         let mut simulation = case.simulation();
         let staircase = Staircase::find(scene, &axis, &mut simulation, &stop, &mut |_| ())?;
         let mut results = Results::begin(scene, &Results::OF_PRELOADS, case.profiles, Some(&axis))?;
@@ -142,7 +208,13 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
         })?;
         Ok(Report::new(move |format| {
             let (title, results, staircase) = (case.document.title(), &results, Some(&staircase));
-            let report = PreloadReport { title, choice: None, results, staircase, curves: false };
+            let report = PreloadReport {
+                title,
+                choice: None,
+                results,
+                staircase,
+                curves: false,
+            };
             bytes(named(&case.document, &case.in_memory), &report, format)
         }))
     })
@@ -150,11 +222,19 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
 
 /// Computes the unloading of a scene from each of many turning points.
 #[pyfunction]
-pub fn reversals(py: Python<'_>, call: Call, range: Option<&str>, count: usize) -> PyResult<Report> {
+pub fn reversals(
+    py: Python<'_>,
+    call: Call,
+    range: Option<&str>,
+    count: usize,
+) -> PyResult<Report> {
     call.computed(py, |case| {
-        let ends = range.map(|range| Axis::parse_range(range, "N")).transpose()?;
+        let ends = range
+            .map(|range| Axis::parse_range(range, "N"))
+            .transpose()?;
         let mut simulation = case.simulation().for_one_scene();
-        let map = simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
+        let map =
+            simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
         Ok(Report::new(move |format| {
             let (title, scene) = (case.document.title(), case.document.scene());
             let report = ReversalReport {
@@ -177,7 +257,11 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
     call.computed(py, |case| {
         let (scene, mut done) = (case.document.scene(), 0);
         let usual = ReferenceOptions::of(scene, maps);
-        let options = ReferenceOptions { cells, lines: lines.unwrap_or(usual.lines), ..usual };
+        let options = ReferenceOptions {
+            cells,
+            lines: lines.unwrap_or(usual.lines),
+            ..usual
+        };
         let mut report = |event| {
             if let ReferenceEvent::Square { .. } = event {
                 done += 1;
@@ -185,12 +269,24 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
             }
         };
         let stop = || case.watch.stop();
-        let found = Reference::of(scene, options, case.simulation(), case.jobs, &stop, &mut report)?;
+        let found = Reference::of(
+            scene,
+            options,
+            case.simulation(),
+            case.jobs,
+            &stop,
+            &mut report,
+        )?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
             bytes(
                 named(&case.document, &case.in_memory),
-                &ReferenceReport { title, scene, reference, warnings: &scene.warnings() },
+                &ReferenceReport {
+                    title,
+                    scene,
+                    reference,
+                    warnings: &scene.warnings(),
+                },
                 format,
             )
         }))
@@ -207,7 +303,10 @@ pub enum AxisValue {
 /// Path of a field with its values in a study.
 type GivenAxis = (String, Vec<AxisValue>);
 
-fn read_axis(scene: &CheckedScene, (path, values): &GivenAxis) -> Result<(String, Vec<f64>), Failure> {
+fn read_axis(
+    scene: &CheckedScene,
+    (path, values): &GivenAxis,
+) -> Result<(String, Vec<f64>), Failure> {
     let unit = Axis::new(path, Spacing::List, Vec::new(), scene)?.unit;
     let mut numbers = Vec::with_capacity(values.len());
     for value in values {
@@ -231,20 +330,36 @@ fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
 
 /// Computes a scene for all combinations of values on axes, on random profiles of each.
 #[pyfunction]
-pub fn study(py: Python<'_>, call: Call, axes: Vec<GivenAxis>, record: Vec<String>) -> PyResult<Report> {
+pub fn study(
+    py: Python<'_>,
+    call: Call,
+    axes: Vec<GivenAxis>,
+    record: Vec<String>,
+) -> PyResult<Report> {
     call.computed(py, |case| {
         case.check_files()?;
-        let record = record.iter().map(|name| Quantity::named(name)).collect::<Result<Vec<_>, _>>()?;
+        let record = record
+            .iter()
+            .map(|name| Quantity::named(name))
+            .collect::<Result<Vec<_>, _>>()?;
         let mut read = Vec::new();
         for axis in &axes {
             read.push(read_axis(case.document.scene(), axis)?);
         }
-        let axes: Vec<_> = read.iter().map(|(path, values)| (path.as_str(), values.as_slice())).collect();
+        let axes: Vec<_> = read
+            .iter()
+            .map(|(path, values)| (path.as_str(), values.as_slice()))
+            .collect();
         let plan = Plan::new(&case.document, &axes, case.profiles, &record)?;
         let (stop, all) = (|| case.watch.stop(), plan.records_in_all());
         let mut report = |done| case.watch.report(done, all);
-        let control = Control::default().on_threads(case.jobs).stopped_by(&stop).reporting_to(&mut report);
+        let control = Control::default()
+            .on_threads(case.jobs)
+            .stopped_by(&stop)
+            .reporting_to(&mut report);
         let results = compute(&plan, control)?;
-        Ok(Report::new(move |format| bytes(named(&case.document, &case.in_memory), &results, format)))
+        Ok(Report::new(move |format| {
+            bytes(named(&case.document, &case.in_memory), &results, format)
+        }))
     })
 }

@@ -30,16 +30,24 @@ impl Scene {
     }
 
     /// Returns the roughness in memory if the document, which was made from this scene, still has it.
-    fn kept_in_memory(&self, document: &Document) -> Result<Option<Arc<MeasuredRoughness>>, Failure> {
-        let (Some(in_memory), Some(before), Some(after)) =
-            (&self.in_memory, self.document.scene().measured(), document.scene().measured())
-        else {
+    fn kept_in_memory(
+        &self,
+        document: &Document,
+    ) -> Result<Option<Arc<MeasuredRoughness>>, Failure> {
+        let (Some(in_memory), Some(before), Some(after)) = (
+            &self.in_memory,
+            self.document.scene().measured(),
+            document.scene().measured(),
+        ) else {
             return Ok(None);
         };
         if before.file != after.file {
             return Ok(None);
         }
-        let with_former_seed = Measured { seed: before.seed, ..after.clone() };
+        let with_former_seed = Measured {
+            seed: before.seed,
+            ..after.clone()
+        };
         if with_former_seed != *before {
             let allowed = "another seed alone, since the surface is in memory; asperity.surface takes the other options";
             return Err(Failure::field("roughness", &before.file, allowed));
@@ -66,13 +74,19 @@ impl Scene {
             true => Failure::of_files(&[name.into()], errors),
             false => errors.into(),
         });
-        Ok(Scene { document: document?, in_memory: None })
+        Ok(Scene {
+            document: document?,
+            in_memory: None,
+        })
     }
 
     /// Reads the text of a scene. Files that the scene names are relative to the working folder.
     #[staticmethod]
     fn parse(text: &str) -> Result<Scene, Failure> {
-        Ok(Scene { document: Document::parse(text, "scene")?, in_memory: None })
+        Ok(Scene {
+            document: Document::parse(text, "scene")?,
+            in_memory: None,
+        })
     }
 
     /// Returns a scene of a profile whose heights are given, on a body of this effective modulus in Pa.
@@ -84,23 +98,40 @@ impl Scene {
             return Err(Failure::field("heights", "1 height", "at least 2 heights"));
         }
         let (length, cell) = (profile.length(), profile.length() / points as f64);
-        let positions = (0..points).map(|index| (index as f64 + 0.5) * cell).collect();
-        let heights = MeasuredProfile { positions, heights: profile.heights().collect() };
-        let roughness = Measured { as_line: true, ..Measured::of_file(HEIGHTS) };
+        let positions = (0..points)
+            .map(|index| (index as f64 + 0.5) * cell)
+            .collect();
+        let heights = MeasuredProfile {
+            positions,
+            heights: profile.heights().collect(),
+        };
+        let roughness = Measured {
+            as_line: true,
+            ..Measured::of_file(HEIGHTS)
+        };
         let scene = SceneValues {
             roughness: Some(Roughness::Measured(roughness)),
-            numerics: Numerics { points: points as u64, ..Numerics::default() },
+            numerics: Numerics {
+                points: points as u64,
+                ..Numerics::default()
+            },
             ..SceneValues::new(Material::effective(modulus), length)
         };
         let document = Document::from_scene(&scene, "scene")?;
-        Ok(Scene { document, in_memory: Some(Arc::new(MeasuredRoughness::Profile(heights))) })
+        Ok(Scene {
+            document,
+            in_memory: Some(Arc::new(MeasuredRoughness::Profile(heights))),
+        })
     }
 
     /// Returns the scene with other values of fields, given as pairs of a path and a value in the notation of a scene file.
     fn set(&self, fields: Vec<(String, String)>) -> Result<Scene, Failure> {
         let document = self.document.set_all(&fields)?;
         let in_memory = self.kept_in_memory(&document)?;
-        Ok(Scene { document, in_memory })
+        Ok(Scene {
+            document,
+            in_memory,
+        })
     }
 
     /// Returns the scene with these works of adhesion in J/m². Without `closing`, both works are equal. The range of the
@@ -109,7 +140,11 @@ impl Scene {
         if work == 0.0 && closing.is_none() {
             return self.set(vec![("adhesion".to_owned(), "None".to_owned())]);
         }
-        let range = self.document.scene().adhesion.and_then(|adhesion| adhesion.range);
+        let range = self
+            .document
+            .scene()
+            .adhesion
+            .and_then(|adhesion| adhesion.range);
         let mut text = format!("(work: {}", ron_float(work));
         for (name, value) in [("closing_work", closing), ("range", range)] {
             if let Some(value) = value {
@@ -134,5 +169,8 @@ impl Scene {
 /// Returns the names of the built-in scenes.
 #[pyfunction]
 pub fn presets() -> Vec<&'static str> {
-    asperity::scene::presets().iter().map(|preset| preset.name).collect()
+    asperity::scene::presets()
+        .iter()
+        .map(|preset| preset.name)
+        .collect()
 }

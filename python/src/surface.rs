@@ -48,7 +48,15 @@ impl Surface {
         };
         let [tip_radius, modulus, work, preload] = numbers;
         let jobs = jobs.unwrap_or_else(parallel::threads);
-        let task = SurfaceTask { measured, tip_radius, modulus, work, preload, profiles, jobs };
+        let task = SurfaceTask {
+            measured,
+            tip_radius,
+            modulus,
+            work,
+            preload,
+            profiles,
+            jobs,
+        };
         let heights = match &map {
             Some((map, spacing)) => Some((map.as_slice()?, map.shape()[1], *spacing)),
             None => None,
@@ -56,10 +64,18 @@ impl Surface {
         computed(py, None, |_| {
             let faces = match heights {
                 None => read_faces(&task)?,
-                Some((heights, columns, spacing)) => faces_of_map(&task, heights, columns, spacing)?,
+                Some((heights, columns, spacing)) => {
+                    faces_of_map(&task, heights, columns, spacing)?
+                }
             };
-            let report = task.report(faces, true, &|_, _| ()).map_err(|error| error.to_string())?;
-            Ok(Surface { task, report: Arc::new(report), is_array: heights.is_some() })
+            let report = task
+                .report(faces, true, &|_, _| ())
+                .map_err(|error| error.to_string())?;
+            Ok(Surface {
+                task,
+                report: Arc::new(report),
+                is_array: heights.is_some(),
+            })
         })
     }
 
@@ -76,26 +92,36 @@ impl Surface {
         measured.seed = seed;
         let mut rough = (**scene.document.scene()).clone();
         rough.roughness = Some(Roughness::Measured(measured));
-        Ok(Scene { document: Document::from_scene(&rough, "scene")?, in_memory: self.in_memory() })
+        Ok(Scene {
+            document: Document::from_scene(&rough, "scene")?,
+            in_memory: self.in_memory(),
+        })
     }
 
     /// A scene of the equivalent line over the length of the scan, on a body of this effective modulus in Pa.
     fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
-        let scene = self.task.scene(modulus, &self.report.faces, &self.report.line);
-        Ok(Scene { document: Document::from_scene(&scene, "scene")?, in_memory: self.in_memory() })
+        let scene = self
+            .task
+            .scene(modulus, &self.report.faces, &self.report.line);
+        Ok(Scene {
+            document: Document::from_scene(&scene, "scene")?,
+            in_memory: self.in_memory(),
+        })
     }
 }
 
 impl Surface {
     fn in_memory(&self) -> Option<Arc<MeasuredRoughness>> {
-        self.is_array.then(|| Arc::new(MeasuredRoughness::Equivalent(self.report.line.clone())))
+        self.is_array
+            .then(|| Arc::new(MeasuredRoughness::Equivalent(self.report.line.clone())))
     }
 }
 
 fn read_faces(task: &SurfaceTask) -> Result<Vec<MeasuredFace>, Failure> {
     let mut files = task.files();
     files.extend(task.measured.opposite.iter().map(PathBuf::from));
-    task.faces().map_err(|error| Failure::of_files(&files, error.to_string()))
+    task.faces()
+        .map_err(|error| Failure::of_files(&files, error.to_string()))
 }
 
 /// Analyses a map of heights in m, and the file of the opposite face if there is one.
@@ -108,10 +134,14 @@ fn faces_of_map(
     let options = task.options();
     let surface = Topography::from_map_with(heights, columns, spacing, &options.reading)?;
     let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
-    let mut faces = vec![MeasuredFace { files, analysis: analyse(&[surface], &options.spectrum)? }];
+    let mut faces = vec![MeasuredFace {
+        files,
+        analysis: analyse(&[surface], &options.spectrum)?,
+    }];
     if let Some(file) = &task.measured.opposite {
         let opposite = task.opposite_face();
-        let opposite = opposite.map_err(|error| Failure::of_files(&[file.into()], error.to_string()))?;
+        let opposite =
+            opposite.map_err(|error| Failure::of_files(&[file.into()], error.to_string()))?;
         faces.extend(opposite);
     }
     Ok(faces)

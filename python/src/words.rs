@@ -48,8 +48,9 @@ fn in_python(message: &str) -> String {
     while let Some(start) = rest.find("--") {
         written += &rest[..start];
         let after = &rest[start + 2..];
-        let length =
-            after.find(|sign: char| !(sign.is_ascii_lowercase() || sign == '-')).unwrap_or(after.len());
+        let length = after
+            .find(|sign: char| !(sign.is_ascii_lowercase() || sign == '-'))
+            .unwrap_or(after.len());
         let (name, following) = after.split_at(length);
         match option(&program, name) {
             Some((option, is_entry)) => {
@@ -70,17 +71,25 @@ fn in_python(message: &str) -> String {
 fn option<'a>(program: &'a clap::Command, name: &str) -> Option<(&'a Arg, bool)> {
     let of_command = |command: &str| {
         let command = program.find_subcommand(command)?;
-        command.get_arguments().find(|argument| argument.get_long() == Some(name))
+        command
+            .get_arguments()
+            .find(|argument| argument.get_long() == Some(name))
     };
     if let Some(option) = of_command("fit") {
         return Some((option, !ARGUMENTS_OF_FIT.contains(&name)));
     }
-    COMMANDS.into_iter().find_map(of_command).map(|option| (option, false))
+    COMMANDS
+        .into_iter()
+        .find_map(of_command)
+        .map(|option| (option, false))
 }
 
 /// Splits the text after an option into the value of the option, if there is one, and the rest.
 fn value_of<'a>(option: &Arg, following: &'a str) -> (Option<&'a str>, &'a str) {
-    let Some(text) = following.strip_prefix(' ').filter(|_| option.get_action().takes_values()) else {
+    let Some(text) = following
+        .strip_prefix(' ')
+        .filter(|_| option.get_action().takes_values())
+    else {
         return (None, following);
     };
     let end = text.find([' ', ';', ')', '`']).unwrap_or(text.len());
@@ -91,7 +100,9 @@ fn value_of<'a>(option: &Arg, following: &'a str) -> (Option<&'a str>, &'a str) 
         || option.get_possible_values().iter().any(is_known)
         || ["um", "none", "remove"].contains(&word);
     // A placeholder, such as COUNT, stands for any value.
-    let is_placeholder = word.chars().all(|sign| sign.is_ascii_uppercase() || sign == ',');
+    let is_placeholder = word
+        .chars()
+        .all(|sign| sign.is_ascii_uppercase() || sign == ',');
     match (is_value, is_placeholder) {
         (true, true) => (None, &text[word.len()..]),
         (true, false) => (Some(word), &text[word.len()..]),
@@ -107,7 +118,10 @@ fn without_fields(text: &str) -> &str {
     loop {
         let end = rest.find([' ', ',', ';', ')']).unwrap_or(rest.len());
         rest = &rest[end..];
-        match rest.strip_prefix(" or ").filter(|further| further.starts_with("roughness.")) {
+        match rest
+            .strip_prefix(" or ")
+            .filter(|further| further.starts_with("roughness."))
+        {
             Some(further) => rest = further,
             None => return rest,
         }
@@ -132,8 +146,12 @@ fn argument(name: &str, option: &Arg, value: Option<&str>, is_entry: bool) -> St
 
 /// Parses the options of a command, given as its words. Errors have the words of Python.
 pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failure> {
-    let line = ["asperity".to_owned(), name.to_owned()].into_iter().chain(words);
-    Ok(Arguments::try_parse_from(line).map_err(|error| refused(name, &error))?.command)
+    let line = ["asperity".to_owned(), name.to_owned()]
+        .into_iter()
+        .chain(words);
+    Ok(Arguments::try_parse_from(line)
+        .map_err(|error| refused(name, &error))?
+        .command)
 }
 
 /// Returns the failure for an option that is unknown, or whose value is not allowed.
@@ -146,7 +164,12 @@ fn refused(command: &str, error: &clap::Error) -> Failure {
     let Some(given) = context(ContextKind::InvalidArg) else {
         return first_paragraph(error).into();
     };
-    let name = given.trim_start_matches("--").split([' ', '=']).next().unwrap_or_default().replace('-', "_");
+    let name = given
+        .trim_start_matches("--")
+        .split([' ', '='])
+        .next()
+        .unwrap_or_default()
+        .replace('-', "_");
     let reason = error.source().map(|source| sentence(&source.to_string()));
     let value = context(ContextKind::InvalidValue);
     match (reason.or_else(|| context(ContextKind::ValidValue)), value) {
@@ -160,16 +183,31 @@ fn refused(command: &str, error: &clap::Error) -> Failure {
 
 fn names_of_options(command: &str) -> String {
     let program = Arguments::command();
-    let options = program.find_subcommand(command).into_iter().flat_map(clap::Command::get_arguments);
-    let names = options.filter_map(Arg::get_long).filter(|name| !NOT_IN_PYTHON.contains(name));
-    names.map(|name| name.replace('-', "_")).collect::<Vec<_>>().join(", ")
+    let options = program
+        .find_subcommand(command)
+        .into_iter()
+        .flat_map(clap::Command::get_arguments);
+    let names = options
+        .filter_map(Arg::get_long)
+        .filter(|name| !NOT_IN_PYTHON.contains(name));
+    names
+        .map(|name| name.replace('-', "_"))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Options of `asperity fit` that Python has in another form.
-const NOT_IN_PYTHON: [&str; 8] = ["set", "free", "jobs", "profiles", "scene", "format", "output", "force"];
+const NOT_IN_PYTHON: [&str; 8] = [
+    "set", "free", "jobs", "profiles", "scene", "format", "output", "force",
+];
 
 fn first_paragraph(error: &clap::Error) -> String {
     let text = error.to_string();
-    let lines = text.lines().map(|line| line.trim().trim_start_matches("error: "));
-    lines.take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
+    let lines = text
+        .lines()
+        .map(|line| line.trim().trim_start_matches("error: "));
+    lines
+        .take_while(|line| !line.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
 }

@@ -1,8 +1,8 @@
 //! Arguments of the program.
 
 use super::{
-    check, completions, cost, demo, explore, find, fit, line, plan, presets, reference, reversals, run,
-    sensitivity, surface, sweep,
+    check, completions, cost, demo, explore, find, fit, line, plan, presets, reference, reversals,
+    run, sensitivity, surface, sweep,
 };
 use clap::{Parser, Subcommand};
 

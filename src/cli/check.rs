@@ -32,11 +32,15 @@ impl CheckArguments {
         for word in &self.words {
             if !Case::all().iter().any(|case| has(case, word)) {
                 let allowed: Vec<&str> = Case::all().into_iter().map(|case| case.name).collect();
-                let none = format!("no case has this in its name; allowed: parts of {}", allowed.join(", "));
+                let none = format!(
+                    "no case has this in its name; allowed: parts of {}",
+                    allowed.join(", ")
+                );
                 return Err(CliError::named(word, none));
             }
         }
-        let is_meant = |case: &Case| self.words.is_empty() || self.words.iter().any(|word| has(case, word));
+        let is_meant =
+            |case: &Case| self.words.is_empty() || self.words.iter().any(|word| has(case, word));
         Ok(Check::of(is_meant))
     }
 }
@@ -51,7 +55,9 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     };
     let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
     progress.clear();
-    arguments.output.write(stdout, &verdicts[..], format, Origin::Files(&[]))?;
+    arguments
+        .output
+        .write(stdout, &verdicts[..], format, Origin::Files(&[]))?;
     conclude(&verdicts)
 }
 
@@ -59,7 +65,10 @@ fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     match failed {
         0 => Ok(()),
-        _ => Err(CliError::message(format!("{failed} of {} checks fail", verdicts.len()))),
+        _ => Err(CliError::message(format!(
+            "{failed} of {} checks fail",
+            verdicts.len()
+        ))),
     }
 }
 
@@ -71,21 +80,35 @@ mod tests {
     fn words_choose_cases() {
         let chosen = |words: &[&str]| {
             let words = words.iter().map(ToString::to_string).collect();
-            CheckArguments { words, output: OutputArguments::default() }.chosen()
+            CheckArguments {
+                words,
+                output: OutputArguments::default(),
+            }
+            .chosen()
         };
-        let mut names: Vec<&str> =
-            chosen(&["cone", "memory"]).unwrap().iter().map(|check| check.case.name).collect();
+        let mut names: Vec<&str> = chosen(&["cone", "memory"])
+            .unwrap()
+            .iter()
+            .map(|check| check.case.name)
+            .collect();
         names.dedup();
         assert_eq!(names, ["cone", "return-point-memory"]);
         let error = chosen(&["cone", "trapezium"]).unwrap_err().to_string();
-        assert!(error.starts_with("trapezium: no case has this in its name"), "{error}");
+        assert!(
+            error.starts_with("trapezium: no case has this in its name"),
+            "{error}"
+        );
     }
 
     #[test]
     fn a_failing_case_is_an_error() {
         let verdicts = |errors: &[f64]| -> Vec<Verdict> {
             let checks = Check::of(|case| case.name == "flat-line");
-            let verdict = |(check, &error)| Verdict { check, error: Ok(error), seconds: 0.0 };
+            let verdict = |(check, &error)| Verdict {
+                check,
+                error: Ok(error),
+                seconds: 0.0,
+            };
             checks.into_iter().zip(errors).map(verdict).collect()
         };
         assert!(conclude(&verdicts(&[0.0, 1e-16])).is_ok());

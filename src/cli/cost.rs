@@ -42,11 +42,19 @@ pub struct CostArguments {
 
 fn budget(text: &str) -> Result<Duration, String> {
     let allowed = || "allowed: a time from 1ms to 24h, such as 500ms, 30s or 2min".to_owned();
-    let minutes = [("min", 60.0), ("h", 3600.0)].into_iter().find_map(|(unit, seconds)| {
-        Some(text.trim().strip_suffix(unit)?.trim().parse::<f64>().ok()? * seconds)
-    });
-    let seconds = minutes.or_else(|| parse_quantity(text, "s").ok()).ok_or_else(allowed)?;
-    if (1e-3..=LONGEST).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(allowed()) }
+    let minutes = [("min", 60.0), ("h", 3600.0)]
+        .into_iter()
+        .find_map(|(unit, seconds)| {
+            Some(text.trim().strip_suffix(unit)?.trim().parse::<f64>().ok()? * seconds)
+        });
+    let seconds = minutes
+        .or_else(|| parse_quantity(text, "s").ok())
+        .ok_or_else(allowed)?;
+    if (1e-3..=LONGEST).contains(&seconds) {
+        Ok(Duration::from_secs_f64(seconds))
+    } else {
+        Err(allowed())
+    }
 }
 
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
@@ -55,21 +63,31 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
     warn(&document, &document.scene().warnings());
     let scene = document.scene();
     let (mut line, mut seen) = (ProgressLine::default(), Vec::new());
-    let measured =
-        measure(scene, &document.resolve(""), arguments.budget, &|| false, &mut |progress| match progress {
+    let measured = measure(
+        scene,
+        &document.resolve(""),
+        arguments.budget,
+        &|| false,
+        &mut |progress| match progress {
             Progress::Trying(knob, setting) => {
                 let is_new = !seen.contains(&knob);
                 seen.push(knob);
-                line.show(&format!("{}: {setting}", knob.name()), is_new.then_some(knob.name()));
+                line.show(
+                    &format!("{}: {setting}", knob.name()),
+                    is_new.then_some(knob.name()),
+                );
             }
             Progress::Rows(_) => {}
-        });
+        },
+    );
     line.clear();
     let table = measured.map_err(|error| CliError::named(document.name(), error))?;
     let model = || compared(&document, ReferenceOptions::of(scene, None), threads(None));
     let model = arguments.model.then(model).transpose()?;
     let report = CostReport::new(document.title(), scene, &table, model.as_ref());
-    arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
+    arguments
+        .output
+        .write(stdout, &report, format, Origin::Scene(&document, scene))
 }
 
 #[cfg(test)]
@@ -79,12 +97,19 @@ mod tests {
     #[test]
     fn budgets_are_times() {
         let seconds = |text| budget(text).ok().map(|budget| budget.as_secs_f64());
-        for (text, expected) in
-            [("10s", 10.0), ("500ms", 0.5), ("2min", 120.0), ("1 h", 3600.0), ("3", 3.0), ("0.5 s", 0.5)]
-        {
+        for (text, expected) in [
+            ("10s", 10.0),
+            ("500ms", 0.5),
+            ("2min", 120.0),
+            ("1 h", 3600.0),
+            ("3", 3.0),
+            ("0.5 s", 0.5),
+        ] {
             assert_eq!(seconds(text), Some(expected), "{text}");
         }
-        for wrong in ["", "s", "-1s", "0", "10m/s", "25h", "nan", "1us", "infs", "naNmin"] {
+        for wrong in [
+            "", "s", "-1s", "0", "10m/s", "25h", "nan", "1us", "infs", "naNmin",
+        ] {
             assert_eq!(seconds(wrong), None, "{wrong}");
         }
     }

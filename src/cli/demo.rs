@@ -66,23 +66,38 @@ pub struct DemoArguments {
 fn number(text: &str, low: f64, high: f64) -> Result<f64, String> {
     let allowed = || format!("allowed: a number from {low} to {high}");
     let value: f64 = text.parse().map_err(|_| allowed())?;
-    if (low..=high).contains(&value) { Ok(value) } else { Err(allowed()) }
+    if (low..=high).contains(&value) {
+        Ok(value)
+    } else {
+        Err(allowed())
+    }
 }
 
 fn size(text: &str) -> Result<(u16, u16), String> {
     let allowed = || "allowed: columns x rows, each from 1 to 1000, such as 120x40".to_owned();
     let (columns, rows) = text.split_once(['x', '×']).ok_or_else(allowed)?;
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=1000).contains(side)).ok_or_else(allowed);
+    let side = |text: &str| {
+        text.parse()
+            .ok()
+            .filter(|side| (1..=1000).contains(side))
+            .ok_or_else(allowed)
+    };
     Ok((side(columns)?, side(rows)?))
 }
 
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
-    let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
+    let document = arguments
+        .overrides
+        .apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
     if let Some(file) = &arguments.output {
         check_file(file, "svg", arguments.force)?;
     }
-    let script = if arguments.scene.is_some() { ONE_SCENE } else { TOUR };
+    let script = if arguments.scene.is_some() {
+        ONE_SCENE
+    } else {
+        TOUR
+    };
     let watched = arguments.at.is_none() && stdout().is_terminal() && io::stdin().is_terminal();
     let environment = Appearance::of_environment();
     let appearance = Appearance {
@@ -94,7 +109,11 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         }),
         marker: arguments.marker.unwrap_or(environment.marker),
     };
-    let of_terminal = if watched { crossterm::terminal::size().ok() } else { None };
+    let of_terminal = if watched {
+        crossterm::terminal::size().ok()
+    } else {
+        None
+    };
     let size = arguments.size.or(of_terminal).unwrap_or((120, 40));
     let is_read = !watched && arguments.at.is_none();
     let fps = if is_read { READ } else { WATCHED };
@@ -103,9 +122,9 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
         let app = demo.app();
         return match &arguments.output {
-            Some(file) => {
-                Ok(write_new(file, arguments.force, |out| out.write_all(screenshot(app).as_bytes()))?)
-            }
+            Some(file) => Ok(write_new(file, arguments.force, |out| {
+                out.write_all(screenshot(app).as_bytes())
+            })?),
             None => Ok(stdout_.write_all(screen_text(&picture_of(app)).as_bytes())?),
         };
     }

@@ -56,15 +56,30 @@ impl EnsembleArguments {
         let allowed = "allowed with --profiles: work, modulus, offset, each without a range";
         for one in free {
             if ![Work, Modulus, Offset].contains(&one.parameter) || one.range().is_some() {
-                return Err(CliError::named("--free", format!("{}; {allowed}", one.parameter.name())));
+                return Err(CliError::named(
+                    "--free",
+                    format!("{}; {allowed}", one.parameter.name()),
+                ));
             }
         }
         if !free.iter().any(|one| one.parameter == Work) {
-            return Err(CliError::named("--free", format!("work is missing; {allowed}")));
+            return Err(CliError::named(
+                "--free",
+                format!("work is missing; {allowed}"),
+            ));
         }
-        let EnsembleArguments { height_error, hurst_error, .. } = *self;
+        let EnsembleArguments {
+            height_error,
+            hurst_error,
+            ..
+        } = *self;
         let is_modulus_free = free.iter().any(|one| one.parameter == Modulus);
-        Ok(EnsembleOptions { lines: u64::from(lines), is_modulus_free, height_error, hurst_error })
+        Ok(EnsembleOptions {
+            lines: u64::from(lines),
+            is_modulus_free,
+            height_error,
+            hurst_error,
+        })
     }
 }
 
@@ -78,8 +93,7 @@ pub(super) fn ensemble(
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let options = compared.options(arguments.free, lines)?;
     if arguments.reading.noise.is_some() {
-        let refused =
-            "not with --profiles, whose computed curves have the noise before contact; allowed: without it";
+        let refused = "not with --profiles, whose computed curves have the noise before contact; allowed: without it";
         return Err(CliError::named("--noise", refused));
     }
     let document = arguments.overrides.apply(open_scene(arguments.scene)?)?;
@@ -96,8 +110,11 @@ pub(super) fn ensemble(
         .map(read)
         .collect::<Result<Vec<_>, _>>()?;
     let mut progress = ProgressLine::default();
-    let mut report = |computed: u64| progress.show(&format!("{} curves computed", grouped(computed)), None);
-    let control = Control::default().on_threads(threads(arguments.jobs)).reporting_to(&mut report);
+    let mut report =
+        |computed: u64| progress.show(&format!("{} curves computed", grouped(computed)), None);
+    let control = Control::default()
+        .on_threads(threads(arguments.jobs))
+        .reporting_to(&mut report);
     let found = fit_ensemble(&curves, &document, &options, control);
     progress.clear();
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
@@ -106,5 +123,10 @@ pub(super) fn ensemble(
         fit: &found,
         has_roughness_errors: options.height_error.is_some() || options.hurst_error.is_some(),
     };
-    arguments.output.write(stdout, &report, format, Origin::Scene(&document, document.scene()))
+    arguments.output.write(
+        stdout,
+        &report,
+        format,
+        Origin::Scene(&document, document.scene()),
+    )
 }

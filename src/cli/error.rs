@@ -22,13 +22,20 @@ pub struct CliError {
 impl CliError {
     /// Creates an error with this message.
     pub fn message(message: impl Into<String>) -> CliError {
-        CliError { message: message.into(), exit_code: FAILED, is_closed_pipe: false }
+        CliError {
+            message: message.into(),
+            exit_code: FAILED,
+            is_closed_pipe: false,
+        }
     }
 
     /// Creates an error of a command that this signal has ended, with the exit code of shells.
     pub fn interrupted(signal: &AtomicUsize, message: impl Into<String>) -> CliError {
         let exit_code = 128 + u8::try_from(signal.load(Ordering::SeqCst)).unwrap_or_default();
-        CliError { exit_code, ..CliError::message(message) }
+        CliError {
+            exit_code,
+            ..CliError::message(message)
+        }
     }
 
     /// Creates an error whose message begins with the name of its cause: a scene, a file, a word.
@@ -56,7 +63,11 @@ impl<E: Error + 'static> From<E> for CliError {
             Some(WriteError::Failed { reason, .. }) => Some(reason),
             _ => of_output,
         };
-        let is_closed_pipe = reason.is_some_and(|reason| reason.kind() == io::ErrorKind::BrokenPipe);
-        CliError { is_closed_pipe, ..CliError::message(message) }
+        let is_closed_pipe =
+            reason.is_some_and(|reason| reason.kind() == io::ErrorKind::BrokenPipe);
+        CliError {
+            is_closed_pipe,
+            ..CliError::message(message)
+        }
     }
 }

@@ -45,7 +45,12 @@ pub struct ExploreArguments {
     #[arg(long, conflicts_with_all = ["scene", "set"], verbatim_doc_comment)]
     pub restore: bool,
     /// Show this measured force curve with the residual of the scene
-    #[arg(long, value_name = "CURVE", conflicts_with = "restore", help_heading = "Measured curve")]
+    #[arg(
+        long,
+        value_name = "CURVE",
+        conflicts_with = "restore",
+        help_heading = "Measured curve"
+    )]
     pub measured: Option<PathBuf>,
     #[command(flatten, next_help_heading = "Measured curve")]
     pub reading: CurveOptions,
@@ -82,7 +87,10 @@ impl LookArguments {
         let defaults = || Config::new(bindings());
         let (config, warning) = match (&self.config, default_path()) {
             (Some(path), _) if path == Path::new("none") => (defaults(), None),
-            (Some(path), _) => (Config::read(path, true, bindings()).map_err(CliError::message)?, None),
+            (Some(path), _) => (
+                Config::read(path, true, bindings()).map_err(CliError::message)?,
+                None,
+            ),
             (None, Some(path)) => match Config::read(&path, false, bindings()) {
                 Ok(config) => (config, None),
                 Err(error) => (defaults(), Some(format!("{error}; defaults are used"))),
@@ -90,7 +98,12 @@ impl LookArguments {
             _ => (defaults(), None),
         };
         let (theme, marker) = (self.theme, self.marker);
-        Ok(Options { theme, marker, warning, ..Options::new(config) })
+        Ok(Options {
+            theme,
+            marker,
+            warning,
+            ..Options::new(config)
+        })
     }
 }
 
@@ -108,12 +121,17 @@ pub(super) fn explore(
     if arguments.restore {
         let Newest { kept, unreadable } = restored(unsaved.as_deref())?;
         options.restored = kept;
-        let skipped = unreadable.into_iter().map(|why| format!("{why}; older unsaved changes are open"));
+        let skipped = unreadable
+            .into_iter()
+            .map(|why| format!("{why}; older unsaved changes are open"));
         let warnings: Vec<String> = options.warning.into_iter().chain(skipped).collect();
         options.warning = (!warnings.is_empty()).then(|| warnings.join(" · "));
     }
     options.unsaved = unsaved;
-    let first = options.restored.as_ref().and_then(|kept| kept.documents.first().cloned());
+    let first = options
+        .restored
+        .as_ref()
+        .and_then(|kept| kept.documents.first().cloned());
     let opening = first.map_or_else(
         || opening(arguments, &options.config.scene, commands),
         |document| Ok(document.into()),
@@ -125,7 +143,9 @@ pub(super) fn explore(
             Some(_) => ("sweep plot", "draws the study"),
         };
         let without = format!("asperity {command} {name} {does} without one");
-        return Err(CliError::message(format!("the explorer needs a terminal; {without}")));
+        return Err(CliError::message(format!(
+            "the explorer needs a terminal; {without}"
+        )));
     }
     open(opening, options, out)
 }
@@ -143,8 +163,8 @@ fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), C
             quoted(opening.document.name())
         )));
     }
-    let left =
-        crate::explorer::session::open(opening, options, Simulation::run, view::draw).map_err(failed)?;
+    let left = crate::explorer::session::open(opening, options, Simulation::run, view::draw)
+        .map_err(failed)?;
     if let Some(signal) = left.signal {
         crate::explorer::signals::end_by(signal);
     }
@@ -167,7 +187,11 @@ fn restored(folder: Option<&Path>) -> Result<Newest, CliError> {
     Err(CliError::named("--restore", why))
 }
 
-fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Result<Opening, CliError> {
+fn opening(
+    arguments: &ExploreArguments,
+    default: &str,
+    commands: &str,
+) -> Result<Opening, CliError> {
     let name = arguments.scene.as_deref().unwrap_or(default);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
@@ -200,9 +224,13 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
     if let Some(path) = &arguments.measured {
         let name = path_name(path);
         let instrument = opening.document.scene().loading_stiffness;
-        let reading = CurveOptions { instrument, ..arguments.reading.clone() };
+        let reading = CurveOptions {
+            instrument,
+            ..arguments.reading.clone()
+        };
         let measured = Measured::read(path, reading);
-        opening.measured = Some(measured.map_err(|error| CliError::named(&name, no_curve(path, &error)))?);
+        opening.measured =
+            Some(measured.map_err(|error| CliError::named(&name, no_curve(path, &error)))?);
     }
     Ok(opening)
 }

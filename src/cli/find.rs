@@ -36,7 +36,12 @@ pub struct FindArguments {
     ///
     /// Preloads are searched from 0 N up to a hundred times the largest force of the loading.
     /// Numbers of a narrow allowed range, such as H, are searched in the whole of it.
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true, verbatim_doc_comment)]
+    #[arg(
+        long,
+        value_name = "A..B",
+        allow_hyphen_values = true,
+        verbatim_doc_comment
+    )]
     pub range: Option<String>,
     #[command(flatten)]
     pub profiles: ProfileArguments,
@@ -50,7 +55,13 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let (scene, profiles) = (document.scene(), arguments.profiles.count(document.scene()));
     let failed = |error| CliError::named(document.name(), error);
     let mut simulation = Simulation::new(document.resolve(""));
-    let question = Question::new(scene, &arguments.field, arguments.condition, profiles, &mut simulation);
+    let question = Question::new(
+        scene,
+        &arguments.field,
+        arguments.condition,
+        profiles,
+        &mut simulation,
+    );
     let mut question = question.map_err(failed)?;
     if let Some(range) = &arguments.range {
         let range = Axis::parse_range(range, question.axis.unit);
@@ -58,13 +69,25 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     }
     let mut progress = ProgressLine::default();
     let mut report = |done: u64| progress.show(&format!("{done} of {profiles} profiles"), None);
-    let found = Found::of(question, (simulation, arguments.profiles.threads()), &|| false, &mut report);
+    let found = Found::of(
+        question,
+        (simulation, arguments.profiles.threads()),
+        &|| false,
+        &mut report,
+    );
     progress.clear();
     let found = found.map_err(failed)?;
     let warnings = found.warnings(scene, &mut simulation_of(&document));
-    let report = FindReport { title: document.title(), scene, found: &found, warnings: &warnings };
+    let report = FindReport {
+        title: document.title(),
+        scene,
+        found: &found,
+        warnings: &warnings,
+    };
     if !holds_warnings(format) {
         warn(&document, &warnings);
     }
-    arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
+    arguments
+        .output
+        .write(stdout, &report, format, Origin::Scene(&document, scene))
 }

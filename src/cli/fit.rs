@@ -43,7 +43,13 @@ pub struct FitArguments {
     #[command(flatten)]
     pub overrides: Overrides,
     /// Parameters to be found, with ranges if known: work=1m..1,offset
-    #[arg(long, required = true, value_name = "NAME[=A..B]", value_delimiter = ',', num_args = 1)]
+    #[arg(
+        long,
+        required = true,
+        value_name = "NAME[=A..B]",
+        value_delimiter = ',',
+        num_args = 1
+    )]
     pub free: Vec<Free>,
     #[command(flatten)]
     pub reading: CurveOptions,
@@ -60,22 +66,48 @@ pub struct FitArguments {
 }
 
 pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let FitArguments { files, overrides, free, reading, jobs, output, ensemble: compared, .. } = arguments;
+    let FitArguments {
+        files,
+        overrides,
+        free,
+        reading,
+        jobs,
+        output,
+        ensemble: compared,
+        ..
+    } = arguments;
     let Some((scene, paths)) = files.split_last().filter(|(_, paths)| !paths.is_empty()) else {
-        let only = files.first().map(|path| path_name(path)).unwrap_or_default();
-        return Err(CliError::named(only, "one file; allowed: a curve or several, and last the scene"));
+        let only = files
+            .first()
+            .map(|path| path_name(path))
+            .unwrap_or_default();
+        return Err(CliError::named(
+            only,
+            "one file; allowed: a curve or several, and last the scene",
+        ));
     };
     let scene = scene.to_string_lossy();
-    let curves = Curves { paths, scene: &scene, overrides, free, reading, jobs: *jobs, output };
+    let curves = Curves {
+        paths,
+        scene: &scene,
+        overrides,
+        free,
+        reading,
+        jobs: *jobs,
+        output,
+    };
     let is_one = matches!(paths, [path] if !path.is_dir());
     if arguments.scene.is_some() && !(is_one && compared.lines.is_none()) {
-        let fault = "several curves or profiles; allowed: a fit of one curve, whose scene is written";
+        let fault =
+            "several curves or profiles; allowed: a fit of one curve, whose scene is written";
         return Err(CliError::named("--scene", fault));
     }
     if let Some(lines) = compared.lines {
         return ensemble(&curves, compared, lines, stdout);
     }
-    let [path] = paths else { return fit_all(&curves, stdout) };
+    let [path] = paths else {
+        return fit_all(&curves, stdout);
+    };
     if path.is_dir() {
         return fit_all(&curves, stdout);
     }
@@ -93,13 +125,28 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     if let Some(file) = &arguments.scene {
         let folder = file.parent().unwrap_or(Path::new(""));
-        let document =
-            found.document.moved_to(|measured| named_from(measured, &document.resolve(""), folder))?;
-        write_new(file, arguments.output.force, |out| out.write_all(document.text().as_bytes()))?;
+        let document = found
+            .document
+            .moved_to(|measured| named_from(measured, &document.resolve(""), folder))?;
+        write_new(file, arguments.output.force, |out| {
+            out.write_all(document.text().as_bytes())
+        })?;
     }
-    let report = FitReport { title: &title, curve: &curve, fit: &found };
-    arguments.output.write(stdout, &report, format, Origin::Scene(&document, found.document.scene()))?;
-    if let Some(text) = report.text().filter(|_| output.file().is_some() && format != Format::Text) {
+    let report = FitReport {
+        title: &title,
+        curve: &curve,
+        fit: &found,
+    };
+    arguments.output.write(
+        stdout,
+        &report,
+        format,
+        Origin::Scene(&document, found.document.scene()),
+    )?;
+    if let Some(text) = report
+        .text()
+        .filter(|_| output.file().is_some() && format != Format::Text)
+    {
         // What a picture or a table leaves out; the file is written even if standard error is closed.
         let _ = io::stderr().write_all(text.as_bytes());
     }

@@ -5,7 +5,8 @@ use super::output::{Origin, OutputArguments, command_without};
 use super::progress::ProgressLine;
 use super::scene::{Overrides, threads};
 use asperity_data::{
-    Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text, write_new,
+    Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
+    write_new,
 };
 use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
 use asperity_report::{CurveRow, FitsReport, Format, Report, scene_provenance, write};
@@ -18,7 +19,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Svg, Format::Png, Format::Pdf];
+const FORMATS: &[Format] = &[
+    Format::Text,
+    Format::Json,
+    Format::Csv,
+    Format::Svg,
+    Format::Png,
+    Format::Pdf,
+];
 /// Beginnings of the first line of a table and of the line with its command.
 const PROGRAM: &str = "# asperity ";
 const COMMAND: &str = "# command: ";
@@ -26,20 +34,27 @@ const COMMAND: &str = "# command: ";
 const LARGEST_TABLE: usize = 1 << 28;
 
 /// The files that the arguments name: a folder is the list of its files in the order of their names.
-pub(super) fn files_of(curves: &[PathBuf], output: Option<&Path>) -> Result<Vec<PathBuf>, CliError> {
+pub(super) fn files_of(
+    curves: &[PathBuf],
+    output: Option<&Path>,
+) -> Result<Vec<PathBuf>, CliError> {
     let mut files = Vec::new();
     for path in curves {
         if !path.is_dir() {
             files.push(path.clone());
             continue;
         }
-        let unreadable = |error| CliError::named(path_name(path), format!("cannot be read: {error}"));
+        let unreadable =
+            |error| CliError::named(path_name(path), format!("cannot be read: {error}"));
         let entries: io::Result<Vec<PathBuf>> =
             read_dir(path).and_then(|all| all.map(|one| Ok(one?.path())).collect());
         let mut entries = entries.map_err(unreadable)?;
-        let is_hidden =
-            |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        let is_other = |path: &Path| path.extension().is_some_and(|of| of == "ron") || Some(path) == output;
+        let is_hidden = |path: &Path| {
+            path.file_name()
+                .is_some_and(|name| name.to_string_lossy().starts_with('.'))
+        };
+        let is_other =
+            |path: &Path| path.extension().is_some_and(|of| of == "ron") || Some(path) == output;
         entries.retain(|path| path.is_file() && !is_hidden(path) && !is_other(path));
         entries.sort();
         if entries.is_empty() {
@@ -76,7 +91,10 @@ pub(super) struct Curves<'a> {
 impl Curves<'_> {
     /// Options of reading, with the instrument of the scene.
     pub(super) fn reading_for(&self, document: &Document) -> CurveOptions {
-        CurveOptions { instrument: document.scene().loading_stiffness, ..self.reading.clone() }
+        CurveOptions {
+            instrument: document.scene().loading_stiffness,
+            ..self.reading.clone()
+        }
     }
 }
 
@@ -103,7 +121,12 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
     // The number of threads changes no row.
     let command = command_without(&["--jobs"]);
-    let provenance = scene_provenance(&command, document.scene(), &document.resolve(""), output.folder());
+    let provenance = scene_provenance(
+        &command,
+        document.scene(),
+        &document.resolve(""),
+        output.folder(),
+    );
     let is_free = |one: &Parameter| curves.free.iter().any(|free| free.parameter == *one);
     let batch = Batch {
         free: Parameter::ALL.into_iter().filter(is_free).collect(),
@@ -119,10 +142,15 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
         return Err(failure);
     }
     match table {
-        Some(path) => write_new(path, true, |out| write(out, &report, format, &batch.provenance))?,
-        None => {
-            output.write(stdout, &report, format, Origin::Scene(&batch.document, batch.document.scene()))?
-        }
+        Some(path) => write_new(path, true, |out| {
+            write(out, &report, format, &batch.provenance)
+        })?,
+        None => output.write(
+            stdout,
+            &report,
+            format,
+            Origin::Scene(&batch.document, batch.document.scene()),
+        )?,
     }
     stdout.flush()?;
     if let Some(failure) = report.failure() {
@@ -145,7 +173,10 @@ fn check_names(names: &[String]) -> Result<(), CliError> {
     let mut seen = HashSet::new();
     for name in names {
         if !seen.insert(name) {
-            return Err(CliError::named(printable(name), "named twice; allowed: each curve once"));
+            return Err(CliError::named(
+                printable(name),
+                "named twice; allowed: each curve once",
+            ));
         }
     }
     Ok(())
@@ -153,22 +184,40 @@ fn check_names(names: &[String]) -> Result<(), CliError> {
 
 impl Batch<'_> {
     fn report<'a>(&'a self, rows: &'a [CurveRow]) -> FitsReport<'a> {
-        FitsReport { scene: self.document.scene(), free: &self.free, rows }
+        FitsReport {
+            scene: self.document.scene(),
+            free: &self.free,
+            rows,
+        }
     }
 
     /// The row of each file, in their order. Rows that the table has are kept, and further ones are added to it at once.
     fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
-        let names: Vec<String> = files.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+        let names: Vec<String> = files
+            .iter()
+            .map(|path| path.to_string_lossy().into_owned())
+            .collect();
         check_names(&names)?;
-        let rows = table.map(|path| self.kept(path)).transpose()?.unwrap_or_default();
-        let todo: Vec<usize> = (0..files.len()).filter(|index| !rows.contains_key(&names[*index])).collect();
+        let rows = table
+            .map(|path| self.kept(path))
+            .transpose()?
+            .unwrap_or_default();
+        let todo: Vec<usize> = (0..files.len())
+            .filter(|index| !rows.contains_key(&names[*index]))
+            .collect();
         let unwritable = |error: io::Error| {
-            CliError::named(table.map(path_name).unwrap_or_default(), format!("cannot be written: {error}"))
+            CliError::named(
+                table.map(path_name).unwrap_or_default(),
+                format!("cannot be written: {error}"),
+            )
         };
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
         let count = grouped(files.len() as u64);
         let mut line = ProgressLine::default();
-        line.show(&format!("{} of {count} curves", grouped(rows.len() as u64)), None);
+        line.show(
+            &format!("{} of {count} curves", grouped(rows.len() as u64)),
+            None,
+        );
         let progress = Mutex::new(Progress { rows, table, line });
         let worker = || {
             |number: u64| {
@@ -182,27 +231,47 @@ impl Batch<'_> {
                     .map_or(Ok(()), |table| table.write_all(last_line(&line).as_bytes()));
                 progress.rows.insert(names[index].clone(), row);
                 let done = grouped(progress.rows.len() as u64);
-                progress.line.show(&format!("{done} of {count} curves"), None);
+                progress
+                    .line
+                    .show(&format!("{done} of {count} curves"), None);
                 written
             }
         };
         on_threads(todo.len() as u64, threads(self.curves.jobs), worker).map_err(unwritable)?;
-        let progress = progress.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let progress = progress
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner);
         progress.line.clear();
         let mut rows = progress.rows;
         Ok(names.iter().filter_map(|name| rows.remove(name)).collect())
     }
 
     fn row(&self, path: &Path, name: &str) -> CurveRow {
-        let fit = self.curves.free.iter().copied().fold(Fit::of(&self.document), Fit::free);
-        CurveRow::of(name, MeasuredCurve::read(path, &self.reading), &fit, Control::default())
+        let fit = self
+            .curves
+            .free
+            .iter()
+            .copied()
+            .fold(Fit::of(&self.document), Fit::free);
+        CurveRow::of(
+            name,
+            MeasuredCurve::read(path, &self.reading),
+            &fit,
+            Control::default(),
+        )
     }
 
     /// The table with these rows as text.
     fn text_of(&self, rows: &[CurveRow]) -> String {
         let mut text = Vec::new();
-        let table = self.report(rows).table().map(|table| table.write_csv(&mut text, &self.provenance));
-        debug_assert!(matches!(table, Some(Ok(()))), "writing to memory cannot fail");
+        let table = self
+            .report(rows)
+            .table()
+            .map(|table| table.write_csv(&mut text, &self.provenance));
+        debug_assert!(
+            matches!(table, Some(Ok(()))),
+            "writing to memory cannot fail"
+        );
         String::from_utf8_lossy(&text).into_owned()
     }
 
@@ -214,11 +283,16 @@ impl Batch<'_> {
         let text = read_regular_text(path, LARGEST_TABLE)
             .map_err(|error| CliError::named(path_name(path), error))?;
         let Some(rows) = text.strip_prefix(&self.text_of(&[])) else {
-            return Err(CliError::named(path_name(path), refusal(&text, &self.text_of(&[]))));
+            return Err(CliError::named(
+                path_name(path),
+                refusal(&text, &self.text_of(&[])),
+            ));
         };
         // A row that a killed process left without its end is computed again.
         let whole = rows.rsplit_once('\n').map_or("", |(whole, _)| whole);
-        let rows = whole.lines().filter_map(|line| CurveRow::from_line(line, self.free.len()));
+        let rows = whole
+            .lines()
+            .filter_map(|line| CurveRow::from_line(line, self.free.len()));
         // A file that failed may have been mended.
         let rows = rows.filter(|row| row.error.is_empty());
         Ok(rows.map(|row| (row.file.clone(), row)).collect())
@@ -228,9 +302,13 @@ impl Batch<'_> {
     fn begun(&self, path: &Path, rows: &HashMap<String, CurveRow>) -> Result<File, CliError> {
         let mut rows: Vec<CurveRow> = rows.values().cloned().collect();
         rows.sort_by(|one, other| one.file.cmp(&other.file));
-        write_new(path, true, |out| out.write_all(self.text_of(&rows).as_bytes()))?;
+        write_new(path, true, |out| {
+            out.write_all(self.text_of(&rows).as_bytes())
+        })?;
         let opened = OpenOptions::new().append(true).open(path);
-        opened.map_err(|error| CliError::named(path_name(path), format!("cannot be written: {error}")))
+        opened.map_err(|error| {
+            CliError::named(path_name(path), format!("cannot be written: {error}"))
+        })
     }
 }
 
@@ -240,7 +318,10 @@ fn refusal(text: &str, expected: &str) -> String {
         return "this is not a table of fits; allowed: another file, or --force, which overwrites this file"
             .to_owned();
     }
-    let differing = text.lines().zip(expected.lines()).find(|(found, expected)| found != expected);
+    let differing = text
+        .lines()
+        .zip(expected.lines())
+        .find(|(found, expected)| found != expected);
     let what = match differing.map_or("", |(_, expected)| expected) {
         line if line.starts_with(PROGRAM) => "version",
         line if line.starts_with(COMMAND) => "command",
@@ -258,6 +339,9 @@ fn refusal(text: &str, expected: &str) -> String {
 }
 
 fn last_line(text: &str) -> &str {
-    let start = text.trim_end_matches('\n').rfind('\n').map_or(0, |end| end + 1);
+    let start = text
+        .trim_end_matches('\n')
+        .rfind('\n')
+        .map_or(0, |end| end + 1);
     &text[start..]
 }

@@ -31,5 +31,10 @@ pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<
     let mut simulation = simulation_of(&document);
     let made = simulation.make_line(document.scene());
     let (line, ..) = made.map_err(|error| CliError::named(document.name(), error))?;
-    arguments.output.write(stdout, line, format, Origin::Scene(&document, document.scene()))
+    arguments.output.write(
+        stdout,
+        line,
+        format,
+        Origin::Scene(&document, document.scene()),
+    )
 }

@@ -101,18 +101,32 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
     let names = names(&command);
-    let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
-    let refused = error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::UnknownArgument);
+    let words: Vec<_> = typed
+        .iter()
+        .skip(1)
+        .map(|word| word.to_string_lossy())
+        .collect();
+    let refused = error
+        .get(ContextKind::InvalidArg)
+        .filter(|_| error.kind() == ErrorKind::UnknownArgument);
     let refused = refused.map(ToString::to_string);
     let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
-    let Some(first) = words.first() else { return error };
+    let Some(first) = words.first() else {
+        return error;
+    };
     // A second word without a dash, which the parser takes for a command.
-    let second = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
-    let is_scene = || asperity_scene::library::find_scene(first).is_some() || Path::new(&**first).exists();
+    let second = error
+        .get(ContextKind::InvalidSubcommand)
+        .map(ToString::to_string);
+    let is_scene =
+        || asperity_scene::library::find_scene(first).is_some() || Path::new(&**first).exists();
     let message = match (words.iter().find(is_command), &refused, &second) {
         (Some(misplaced), ..)
             if misplaced != first
-                && matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument) =>
+                && matches!(
+                    error.kind(),
+                    ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument
+                ) =>
         {
             format!("the command '{misplaced}' comes first, its scene and options follow")
         }
@@ -129,11 +143,15 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
             )
         }
         (None, ..) if !first.starts_with('-') && (refused.is_some() || second.is_some()) => {
-            let unexpected =
-                refused.map_or_else(String::new, |option| format!("unexpected argument '{option}': "));
+            let unexpected = refused.map_or_else(String::new, |option| {
+                format!("unexpected argument '{option}': ")
+            });
             let scenes = presets().iter().map(|preset| preset.name);
             let near = did_you_mean(first, names.iter().map(String::as_str).chain(scenes));
-            format!("{unexpected}'{first}' is not a command{near} (commands: {})", names.join(", "))
+            format!(
+                "{unexpected}'{first}' is not a command{near} (commands: {})",
+                names.join(", ")
+            )
         }
         _ => return error,
     };
@@ -141,12 +159,19 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
 }
 
 fn names(program: &clap::Command) -> Vec<String> {
-    program.get_subcommands().map(|command| command.get_name().to_owned()).collect()
+    program
+        .get_subcommands()
+        .map(|command| command.get_name().to_owned())
+        .collect()
 }
 
 fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     match &arguments.command {
-        None => explore::explore(&arguments.explore, &names(&Arguments::command()).join(", "), stdout),
+        None => explore::explore(
+            &arguments.explore,
+            &names(&Arguments::command()).join(", "),
+            stdout,
+        ),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
         Some(Command::Find(arguments)) => find::find(arguments, stdout),
         Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),

@@ -17,9 +17,11 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
-pub(super) const TEXT_OR_PICTURE: &[Format] = &[Format::Text, Format::Svg, Format::Png, Format::Pdf];
+pub(super) const TEXT_OR_PICTURE: &[Format] =
+    &[Format::Text, Format::Svg, Format::Png, Format::Pdf];
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
-pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy];
+pub(super) const WITHOUT_PICTURE: &[Format] =
+    &[Format::Text, Format::Json, Format::Csv, Format::Npy];
 /// Formats of results that have neither a table nor a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
@@ -72,7 +74,11 @@ pub(super) fn without_look(option: Arg) -> Arg {
 fn length(text: &str, least: u32) -> Result<f64, String> {
     let length = parse_quantity(text, "m").map_err(|error| error.to_string())?;
     let range = 1e-3 * f64::from(least)..=1e-3 * f64::from(MOST);
-    if range.contains(&length) { Ok(length) } else { Err(format!("allowed: from {least}mm to {MOST}mm")) }
+    if range.contains(&length) {
+        Ok(length)
+    } else {
+        Err(format!("allowed: from {least}mm to {MOST}mm"))
+    }
 }
 
 /// What the results are computed from, for their provenance.
@@ -89,7 +95,9 @@ pub(super) enum Origin<'a> {
 impl OutputArguments {
     /// Path of the file; `None` if results go to standard output.
     pub(super) fn file(&self) -> Option<&Path> {
-        self.output.as_deref().filter(|path| *path != Path::new("-"))
+        self.output
+            .as_deref()
+            .filter(|path| *path != Path::new("-"))
     }
 
     /// Folder of the file; the working folder for standard output.
@@ -99,17 +107,43 @@ impl OutputArguments {
 
     /// The first given option for figures.
     fn look(&self) -> Option<&'static str> {
-        let OutputArguments { width, height, only, no_title, parameters, .. } = self;
-        let given = [width.is_some(), height.is_some(), only.is_some(), *no_title, *parameters];
-        LOOK.into_iter().zip(given).find_map(|(option, is_given)| is_given.then_some(option))
+        let OutputArguments {
+            width,
+            height,
+            only,
+            no_title,
+            parameters,
+            ..
+        } = self;
+        let given = [
+            width.is_some(),
+            height.is_some(),
+            only.is_some(),
+            *no_title,
+            *parameters,
+        ];
+        LOOK.into_iter()
+            .zip(given)
+            .find_map(|(option, is_given)| is_given.then_some(option))
     }
 
     /// A figure with the requested size, panels and title.
     fn looked(&self, figure: Figure) -> Result<Figure, CliError> {
-        let [width, height] = [self.width, self.height].map(|length| length.map(|length| PX * length));
-        let figure = Figure { width, height, untitled: self.no_title, ..figure };
-        let Some(only) = &self.only else { return Ok(figure) };
-        let letters: String = only.chars().filter(|letter| ![',', ' '].contains(letter)).collect();
+        let [width, height] =
+            [self.width, self.height].map(|length| length.map(|length| PX * length));
+        let figure = Figure {
+            width,
+            height,
+            untitled: self.no_title,
+            ..figure
+        };
+        let Some(only) = &self.only else {
+            return Ok(figure);
+        };
+        let letters: String = only
+            .chars()
+            .filter(|letter| ![',', ' '].contains(letter))
+            .collect();
         figure.with_panels(&letters).map_err(|panels| {
             let allowed = format!("{only:?}; allowed: letters of its panels, {panels}");
             CliError::named("--only", allowed)
@@ -119,7 +153,8 @@ impl OutputArguments {
     /// The format of the results: by the extension of FILE, else the chosen format, else the usual one. Before any
     /// computation, checks also that FILE can be written. A terminal gets text only.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
-        let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
+        let format =
+            Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
         if let Some(option) = self.look().filter(|_| !format.is_picture()) {
             let option = &format!("--{}", option.replace('_', "-"));
             let refused = match formats.iter().any(|format| format.is_picture()) {
@@ -134,7 +169,8 @@ impl OutputArguments {
                 && io::stdout().is_terminal() =>
             {
                 let format = format.name();
-                let refused = format!("--format {format}: not for a terminal; allowed: -o FILE.{format}");
+                let refused =
+                    format!("--format {format}: not for a terminal; allowed: -o FILE.{format}");
                 return Err(CliError::message(refused));
             }
             None => {}
@@ -151,7 +187,11 @@ impl OutputArguments {
         origin: Origin<'_>,
     ) -> Result<(), CliError> {
         let provenance = match origin {
-            _ if matches!(format, Format::Text | Format::Npy | Format::Png | Format::Pdf) => {
+            _ if matches!(
+                format,
+                Format::Text | Format::Npy | Format::Png | Format::Pdf
+            ) =>
+            {
                 Ok(String::new())
             }
             Origin::Scenes(scenes) => Ok(scenes_provenance(&command(), scenes)),
@@ -162,16 +202,25 @@ impl OutputArguments {
         };
         let provenance = provenance.map_err(CliError::message)?;
         let Some(figure) = report.figure().filter(|_| format.is_picture()) else {
-            return self.fill(stdout, |out| asperity_report::write(out, report, format, &provenance));
+            return self.fill(stdout, |out| {
+                asperity_report::write(out, report, format, &provenance)
+            });
         };
         let parameters = match origin {
             _ if !self.parameters => Vec::new(),
             Origin::Scene(_, scene) => parameter_lines(&[(String::new(), scene.clone())]),
             Origin::Scenes(scenes) => parameter_lines(scenes),
-            Origin::Files(_) => return Err(CliError::named("--parameters", "this figure has no scene")),
+            Origin::Files(_) => {
+                return Err(CliError::named("--parameters", "this figure has no scene"));
+            }
         };
-        let figure = self.looked(Figure { parameters, ..figure })?;
-        self.fill(stdout, |out| asperity_report::write(out, &figure, format, &provenance))
+        let figure = self.looked(Figure {
+            parameters,
+            ..figure
+        })?;
+        self.fill(stdout, |out| {
+            asperity_report::write(out, &figure, format, &provenance)
+        })
     }
 
     /// Writes a figure, as a picture or as text, to its destination.
@@ -249,7 +298,8 @@ pub(super) fn command_without(options: &[&str]) -> String {
     let mut typed = typed.skip(1).map(|word| word.to_string_lossy());
     while let Some(word) = typed.next() {
         let is_further = |option: &&str| {
-            word.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
+            word.strip_prefix(option)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
         };
         if ["-o", "--output", "--format"].contains(&&*word) {
             typed.next();
@@ -258,7 +308,9 @@ pub(super) fn command_without(options: &[&str]) -> String {
                 typed.next();
             }
         } else if word != "--force"
-            && !["-o", "--output=", "--format="].iter().any(|one| word.starts_with(one))
+            && !["-o", "--output=", "--format="]
+                .iter()
+                .any(|one| word.starts_with(one))
         {
             words.push(quoted(&*word));
         }
@@ -274,7 +326,11 @@ fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     let terminal = to_stdout && io::stdout().is_terminal();
     let size = crossterm::terminal::size().ok().filter(|_| terminal);
     let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
-    figure_text(figure, columns, if terminal { colours() } else { Colours::None })
+    figure_text(
+        figure,
+        columns,
+        if terminal { colours() } else { Colours::None },
+    )
 }
 
 /// Colours of the terminal, by the environment variables.

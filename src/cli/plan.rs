@@ -32,7 +32,11 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
     let document = arguments.scene.open()?;
     warn(&document, &document.scene().warnings());
     let (scene, plan) = (document.scene(), Workload::of(document.scene()));
-    arguments.format.write(stdout, || stages_text(&plan), &PlanJson { scene, plan: &plan })
+    arguments.format.write(
+        stdout,
+        || stages_text(&plan),
+        &PlanJson { scene, plan: &plan },
+    )
 }
 
 /// The stages of a scene, with the scene.

@@ -56,14 +56,25 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
 
 /// Prints the text of a scene; on a terminal with escaped control characters, since the text may come from others.
 fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let shown = if io::stdout().is_terminal() { printable_lines(text) } else { text.into() };
+    let shown = if io::stdout().is_terminal() {
+        printable_lines(text)
+    } else {
+        text.into()
+    };
     Ok(stdout.write_all(shown.as_bytes())?)
 }
 
 fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let entries =
-        asperity_scene::library::scenes(asperity_scene::library::own_folder().as_deref(), Path::new("."));
-    let row = |entry: &Entry| [entry.name.clone(), entry.error().unwrap_or_else(|| entry.title().to_owned())];
+    let entries = asperity_scene::library::scenes(
+        asperity_scene::library::own_folder().as_deref(),
+        Path::new("."),
+    );
+    let row = |entry: &Entry| {
+        [
+            entry.name.clone(),
+            entry.error().unwrap_or_else(|| entry.title().to_owned()),
+        ]
+    };
     let text = || Sheet::of_table(&entries.iter().map(row).collect::<Vec<_>>());
     let objects = entries.iter().map(|entry| {
         object! {
@@ -74,7 +85,11 @@ fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
             "error"?: entry.error(),
         }
     });
-    format.write(stdout, text, &object! { "scenes": objects.collect::<Vec<_>>() })
+    format.write(
+        stdout,
+        text,
+        &object! { "scenes": objects.collect::<Vec<_>>() },
+    )
 }
 
 fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
@@ -90,12 +105,17 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
             Err(errors) => wrong.push(errors),
         }
     }
-    if wrong.is_empty() { Ok(()) } else { Err(CliError::message(wrong.join("\n"))) }
+    if wrong.is_empty() {
+        Ok(())
+    } else {
+        Err(CliError::message(wrong.join("\n")))
+    }
 }
 
 /// The name of a valid scene with its warnings, or else all its errors, line by line.
 fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
-    let document = asperity_scene::library::open_argument(file).map_err(|errors| errors.to_string())?;
+    let document =
+        asperity_scene::library::open_argument(file).map_err(|errors| errors.to_string())?;
     match profile_error(&document) {
         None => Ok((document.name().into(), document.scene().warnings())),
         Some(error) => Err(error),
@@ -106,7 +126,9 @@ fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
     scene.measured()?;
-    let error = Simulation::new(document.resolve("")).make_line(scene).err()?;
+    let error = Simulation::new(document.resolve(""))
+        .make_line(scene)
+        .err()?;
     let (line, column) = document.place("roughness.file");
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }

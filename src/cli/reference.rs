@@ -38,20 +38,37 @@ pub struct ReferenceArguments {
     pub output: OutputArguments,
 }
 
-pub(super) fn reference(arguments: &ReferenceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn reference(
+    arguments: &ReferenceArguments,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     let usual = ReferenceOptions::of(document.scene(), arguments.maps);
     let lines = arguments.profiles.lines.map_or(usual.lines, u64::from);
-    let options = ReferenceOptions { cells: arguments.grid, lines, ..usual };
+    let options = ReferenceOptions {
+        cells: arguments.grid,
+        lines,
+        ..usual
+    };
     let found = compared(&document, options, arguments.profiles.threads())?;
     let scene = document.scene();
     let warnings = warnings_of(scene, &mut simulation_of(&document));
-    let report = ReferenceReport { title: document.title(), scene, reference: &found, warnings: &warnings };
+    let report = ReferenceReport {
+        title: document.title(),
+        scene,
+        reference: &found,
+        warnings: &warnings,
+    };
     if !holds_warnings(format) {
         warn(&document, &warnings);
     }
-    arguments.output.write(stdout, &report, format, Origin::Scene(&document, document.scene()))
+    arguments.output.write(
+        stdout,
+        &report,
+        format,
+        Origin::Scene(&document, document.scene()),
+    )
 }
 
 /// Compares a scene with three dimensions, and shows the progress.
@@ -64,13 +81,20 @@ pub(super) fn compared(
     let simulation = Simulation::new(document.resolve(""));
     let signal = stop_by_signal()?;
     let stop = || signal.load(Ordering::SeqCst) != 0;
-    let found = Reference::of(document.scene(), options, simulation, jobs, &stop, &mut |event| {
-        let (text, is_long) = progress.words(&event);
-        line.show(&text, is_long.then_some(&text));
-        if is_long {
-            line.keep();
-        }
-    });
+    let found = Reference::of(
+        document.scene(),
+        options,
+        simulation,
+        jobs,
+        &stop,
+        &mut |event| {
+            let (text, is_long) = progress.words(&event);
+            line.show(&text, is_long.then_some(&text));
+            if is_long {
+                line.keep();
+            }
+        },
+    );
     line.clear();
     found.map_err(|error| match error.is_interruption() {
         true => CliError::interrupted(&signal, progress.lost()),

@@ -40,10 +40,18 @@ const USUAL: usize = 64;
 
 /// Parses two forces and, after a colon, the number of turning points; without forces they are those of the scene.
 fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
-    let (forces, count) = text.split_once(':').map_or((text, None), |(forces, count)| (forces, Some(count)));
-    let (least, most) = (ReversalMap::TURNING_POINTS.start(), ReversalMap::TURNING_POINTS.end());
-    let allowed = || format!("allowed: after the colon a number of turning points from {least} to {most}");
-    let count = count.map_or(Ok(USUAL), |count| count.trim().parse().map_err(|_| allowed()))?;
+    let (forces, count) = text
+        .split_once(':')
+        .map_or((text, None), |(forces, count)| (forces, Some(count)));
+    let (least, most) = (
+        ReversalMap::TURNING_POINTS.start(),
+        ReversalMap::TURNING_POINTS.end(),
+    );
+    let allowed =
+        || format!("allowed: after the colon a number of turning points from {least} to {most}");
+    let count = count.map_or(Ok(USUAL), |count| {
+        count.trim().parse().map_err(|_| allowed())
+    })?;
     if !ReversalMap::TURNING_POINTS.contains(&count) {
         return Err(allowed());
     }
@@ -58,7 +66,10 @@ fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     checked.map_err(|error| error.to_string())
 }
 
-pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn reversals(
+    arguments: &ReversalsArguments,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     let output = &arguments.output;
     let format = output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
@@ -66,7 +77,9 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(&document);
     let ((ends, count), never) = (arguments.preloads.unwrap_or((None, USUAL)), || false);
-    let map = simulation.reversal_map(scene, ends, count, &never).map_err(failed)?;
+    let map = simulation
+        .reversal_map(scene, ends, count, &never)
+        .map_err(failed)?;
     let mut warnings = Vec::new();
     if let Some(deepest) = map.reversals.last() {
         warnings = deepest.warnings(&simulation.profile(scene).map_err(failed)?);
@@ -78,7 +91,11 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let (mut preloads, mut staircase) = (None, None);
     // Tables hold the turning points alone.
     if !format.is_table() {
-        let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
+        let largest = map
+            .reversals
+            .iter()
+            .map(|reversal| reversal.turn.force)
+            .fold(0.0, f64::max);
         let (from, to) = ends.unwrap_or((0.0, largest));
         if let Ok(asked) = Axis::of_preloads((from, to), count, AxisScale::Linear) {
             let (record, folder) = (&Results::OF_PRELOADS, document.resolve(""));
@@ -86,7 +103,8 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
             preloads = Some(solved.map_err(|error| CliError::named(document.name(), error))?);
             if format.is_picture() {
                 staircase = Some(
-                    Staircase::find(scene, &asked, &mut simulation, &never, &mut |_| ()).map_err(failed)?,
+                    Staircase::find(scene, &asked, &mut simulation, &never, &mut |_| ())
+                        .map_err(failed)?,
                 );
             }
         }

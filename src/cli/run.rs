@@ -11,7 +11,8 @@ use asperity_contact::motion::Leg;
 use asperity_data::{Warning, grouped, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
-    ComparedScene, ContactSets, Format, PreloadReport, Report, RunReport, ScenesReport, check_measured_files,
+    ComparedScene, ContactSets, Format, PreloadReport, Report, RunReport, ScenesReport,
+    check_measured_files,
 };
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
 use asperity_scene::{CheckedScene, Document, Scene, Simulation, estimate};
@@ -127,18 +128,32 @@ impl RunArguments {
             _ => (&Format::ALL[..], Format::Text),
         };
         let format = self.output.format(formats, usual)?;
-        if several && format.is_picture() && self.profiles.lines.is_some() && self.preloads.is_none() {
+        if several
+            && format.is_picture()
+            && self.profiles.lines.is_some()
+            && self.preloads.is_none()
+        {
             let allowed = "allowed: one scene, text, or --preloads";
-            return Err(CliError::named("--profiles", format!("a figure of several scenes; {allowed}")));
+            return Err(CliError::named(
+                "--profiles",
+                format!("a figure of several scenes; {allowed}"),
+            ));
         }
         Ok(format)
     }
 
     fn documents(&self) -> Result<Vec<Document>, CliError> {
-        let more = self.more.iter().map(|scene| self.scene.overrides.apply(open_scene(scene)?));
-        let documents =
-            std::iter::once(self.scene.open()).chain(more).collect::<Result<Vec<_>, CliError>>()?;
-        documents.iter().try_for_each(check_measured_files).map_err(CliError::message)?;
+        let more = self
+            .more
+            .iter()
+            .map(|scene| self.scene.overrides.apply(open_scene(scene)?));
+        let documents = std::iter::once(self.scene.open())
+            .chain(more)
+            .collect::<Result<Vec<_>, CliError>>()?;
+        documents
+            .iter()
+            .try_for_each(check_measured_files)
+            .map_err(CliError::message)?;
         Ok(documents)
     }
 
@@ -146,37 +161,67 @@ impl RunArguments {
     /// of a single scene, otherwise on standard error.
     fn chosen<'a>(&self, document: &'a Document, format: Format) -> Result<Chosen<'a>, CliError> {
         let Some(tolerance) = self.tolerance else {
-            return Ok(Chosen { document, scene: document.scene().clone(), choice: None });
+            return Ok(Chosen {
+                document,
+                scene: document.scene().clone(),
+                choice: None,
+            });
         };
         let mut progress = ProgressLine::default();
-        let mut trying = |points| progress.show(&format!("trying {} springs", grouped(points)), None);
-        let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut trying);
+        let mut trying =
+            |points| progress.show(&format!("trying {} springs", grouped(points)), None);
+        let choice = choose(
+            document.scene(),
+            &document.resolve(""),
+            tolerance,
+            &|| false,
+            &mut trying,
+        );
         progress.clear();
         let choice = choice.map_err(|error| CliError::named(document.name(), error))?;
         if format != Format::Text || !self.more.is_empty() {
-            let _ = writeln!(io::stderr(), "{}", wrap(&choice.sentence(), WIDTH).join("\n"));
+            let _ = writeln!(
+                io::stderr(),
+                "{}",
+                wrap(&choice.sentence(), WIDTH).join("\n")
+            );
         }
-        Ok(Chosen { document, scene: choice.apply(document.scene())?, choice: Some(choice) })
+        Ok(Chosen {
+            document,
+            scene: choice.apply(document.scene())?,
+            choice: Some(choice),
+        })
     }
 
     /// Results of a scene on its random profiles, unless a single one is asked for. Shares and heights of the profiles are
     /// recorded only for a table.
     fn ensemble(&self, chosen: &Chosen<'_>, format: Format) -> Result<Option<Ensemble>, CliError> {
-        let Chosen { document, scene, .. } = chosen;
+        let Chosen {
+            document, scene, ..
+        } = chosen;
         let count = self.profiles.count(scene);
         let is_curve = format.is_table() && self.profiles.lines.is_none();
         if count < 2 || is_curve || format.is_picture() && !self.more.is_empty() {
             return Ok(None);
         }
-        let further = if self.profiles.lines.is_some() { &Ensemble::FURTHER[..] } else { &[] };
+        let further = if self.profiles.lines.is_some() {
+            &Ensemble::FURTHER[..]
+        } else {
+            &[]
+        };
         let mut progress = ProgressLine::default();
         let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| {
             progress.show(&format!("{computed} of {count} random profiles"), None);
         };
-        let simulation = (Simulation::new(document.resolve("")), self.profiles.threads());
+        let simulation = (
+            Simulation::new(document.resolve("")),
+            self.profiles.threads(),
+        );
         let ensemble = Ensemble::of(scene, further, count, simulation, &|| false, &mut report);
         progress.clear();
-        ensemble.map(Some).map_err(|error| CliError::named(document.name(), error))
+        ensemble
+            .map(Some)
+            .map_err(|error| CliError::named(document.name(), error))
     }
 
     /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads are below zero.
@@ -186,20 +231,30 @@ impl RunArguments {
         preloads: &Axis,
         is_drawn: bool,
     ) -> Result<(Results, Option<Staircase>), CliError> {
-        let Chosen { document, scene, .. } = chosen;
+        let Chosen {
+            document, scene, ..
+        } = chosen;
         let mut simulation = simulation_of(document);
         let staircase = (is_drawn || self.curves || preloads.values[0] < 0.0)
             .then(|| Staircase::find(scene, preloads, &mut simulation, &|| false, &mut |_| ()))
             .transpose()
             .map_err(|error| CliError::named(document.name(), error))?;
         let results = self.adhesion_on_profiles(chosen, preloads);
-        Ok((results.map_err(|error| CliError::named(document.name(), error))?, staircase))
+        Ok((
+            results.map_err(|error| CliError::named(document.name(), error))?,
+            staircase,
+        ))
     }
 
     /// Adhesion force against preload on one or several random profiles, which are counted on the terminal.
-    fn adhesion_on_profiles(&self, chosen: &Chosen<'_>, preloads: &Axis) -> Result<Results, StudyError> {
+    fn adhesion_on_profiles(
+        &self,
+        chosen: &Chosen<'_>,
+        preloads: &Axis,
+    ) -> Result<Results, StudyError> {
         let count = self.profiles.lines.map_or(1, u64::from);
-        let mut results = Results::begin(&chosen.scene, &Results::OF_PRELOADS, count, Some(preloads))?;
+        let mut results =
+            Results::begin(&chosen.scene, &Results::OF_PRELOADS, count, Some(preloads))?;
         let simulation = if count == 1 {
             simulation_of(chosen.document)
         } else {
@@ -211,7 +266,11 @@ impl RunArguments {
             computed += 1;
             progress.show(&format!("{computed} of {count} random profiles"), None);
         };
-        let solved = results.extend((simulation, self.profiles.threads()), &|| false, &mut report);
+        let solved = results.extend(
+            (simulation, self.profiles.threads()),
+            &|| false,
+            &mut report,
+        );
         progress.clear();
         solved.map(|()| results)
     }
@@ -220,17 +279,25 @@ impl RunArguments {
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.format()?;
     let documents = arguments.documents()?;
-    let chosen = documents.iter().map(|document| arguments.chosen(document, format));
+    let chosen = documents
+        .iter()
+        .map(|document| arguments.chosen(document, format));
     let chosen = chosen.collect::<Result<Vec<_>, CliError>>()?;
     let mut write = |report: &dyn Report| {
         let of = |one: &Chosen<'_>| (one.document.title().to_owned(), Scene::clone(&one.scene));
         match &chosen[..] {
-            [Chosen { document, scene, .. }] => {
-                arguments.output.write(stdout, report, format, Origin::Scene(document, scene))
-            }
+            [
+                Chosen {
+                    document, scene, ..
+                },
+            ] => arguments
+                .output
+                .write(stdout, report, format, Origin::Scene(document, scene)),
             several => {
                 let scenes: Vec<_> = several.iter().map(of).collect();
-                arguments.output.write(stdout, report, format, Origin::Scenes(&scenes))
+                arguments
+                    .output
+                    .write(stdout, report, format, Origin::Scenes(&scenes))
             }
         }
     };
@@ -253,15 +320,29 @@ fn run_loadings(
     let [one] = chosen else {
         let mut scenes = Vec::new();
         for one in chosen {
-            let (outcome, ensemble) = (compute(one.document, &one.scene)?, arguments.ensemble(one, format)?);
+            let (outcome, ensemble) = (
+                compute(one.document, &one.scene)?,
+                arguments.ensemble(one, format)?,
+            );
             if !holds_warnings(format) {
                 warn(one.document, &outcome.warnings);
             }
-            scenes.push(ComparedScene { document: one.document, outcome, ensemble });
+            scenes.push(ComparedScene {
+                document: one.document,
+                outcome,
+                ensemble,
+            });
         }
-        return write(&ScenesReport { scenes: &scenes, panels: arguments.draw == Some(Drawn::Panels) });
+        return write(&ScenesReport {
+            scenes: &scenes,
+            panels: arguments.draw == Some(Drawn::Panels),
+        });
     };
-    let Chosen { document, scene, choice } = one;
+    let Chosen {
+        document,
+        scene,
+        choice,
+    } = one;
     let choice = choice.as_ref();
     // First the profile of the scene, whose failure is that of the scene.
     let outcome = compute(document, scene)?;
@@ -281,9 +362,21 @@ fn run_loadings(
     };
     let (title, estimate, ensemble) = (document.title(), estimate.as_ref(), ensemble.as_ref());
     let deviation = ensemble.and_then(|ensemble| {
-        MeasuredAdhesion::quick_deviation(document, ensemble.profiles(), arguments.profiles.threads())
+        MeasuredAdhesion::quick_deviation(
+            document,
+            ensemble.profiles(),
+            arguments.profiles.threads(),
+        )
     });
-    write(&RunReport { title, scene, outcome: &outcome, choice, estimate, ensemble, deviation })
+    write(&RunReport {
+        title,
+        scene,
+        outcome: &outcome,
+        choice,
+        estimate,
+        ensemble,
+        deviation,
+    })
 }
 
 fn run_preloads(
@@ -297,18 +390,37 @@ fn run_preloads(
     if let [one] = chosen {
         let (results, staircase) = report(one, format.is_picture())?;
         if !holds_warnings(format) {
-            let warnings: Vec<Warning> = results.all_warnings().into_iter().map(|one| one.warning).collect();
+            let warnings: Vec<Warning> = results
+                .all_warnings()
+                .into_iter()
+                .map(|one| one.warning)
+                .collect();
             warn(one.document, &warnings);
         }
         let (title, choice) = (one.document.title(), one.choice.as_ref());
         let (results, staircase, curves) = (&results, staircase.as_ref(), arguments.curves);
-        return write(&PreloadReport { title, choice, results, staircase, curves });
+        return write(&PreloadReport {
+            title,
+            choice,
+            results,
+            staircase,
+            curves,
+        });
     }
     let mut figures = Vec::new();
     for one in chosen {
         let (results, staircase) = report(one, true)?;
         let (title, results, staircase) = (one.document.title(), &results, staircase.as_ref());
-        figures.extend(PreloadReport { title, choice: None, results, staircase, curves: false }.drawn(false));
+        figures.extend(
+            PreloadReport {
+                title,
+                choice: None,
+                results,
+                staircase,
+                curves: false,
+            }
+            .drawn(false),
+        );
     }
     write(&Figure::of_panels(figures))
 }
@@ -316,7 +428,10 @@ fn run_preloads(
 /// Figure of the profiles of the scenes with their contact, or of their contact patches.
 fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, CliError> {
     let (mut figures, has_patches) = (Vec::new(), arguments.draw == Some(Drawn::Patches));
-    for Chosen { document, scene, .. } in chosen {
+    for Chosen {
+        document, scene, ..
+    } in chosen
+    {
         let failed = |error| CliError::named(document.name(), error);
         let mut simulation = simulation_of(document);
         let mut sets = ContactSets::new(has_patches);
@@ -324,7 +439,9 @@ fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, C
             sets.observe(record, leg);
             Ok(())
         };
-        let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
+        let outcome = simulation
+            .run(scene, &|| false, &mut observe)
+            .map_err(failed)?;
         warn(document, &outcome.warnings);
         figures.push(match has_patches {
             true => sets.patches_figure(document.title(), &outcome),
@@ -334,5 +451,9 @@ fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, C
             }
         });
     }
-    Ok(if figures.len() == 1 { figures.remove(0) } else { Figure::of_panels(figures) })
+    Ok(if figures.len() == 1 {
+        figures.remove(0)
+    } else {
+        Figure::of_panels(figures)
+    })
 }

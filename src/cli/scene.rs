@@ -42,7 +42,8 @@ pub struct ProfileArguments {
 impl ProfileArguments {
     /// Number of profiles of a scene.
     pub(super) fn count(&self, scene: &Scene) -> u64 {
-        self.lines.map_or_else(|| Ensemble::profiles_of(scene), u64::from)
+        self.lines
+            .map_or_else(|| Ensemble::profiles_of(scene), u64::from)
     }
 
     pub(super) fn threads(&self) -> usize {
@@ -75,7 +76,11 @@ impl SceneArguments {
 pub(super) fn warn(document: &Document, warnings: &[Warning]) {
     for warning in warnings {
         // The command continues even if standard error is closed.
-        let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(document.name()));
+        let _ = writeln!(
+            io::stderr(),
+            "warning: {}: {warning}",
+            printable(document.name())
+        );
     }
 }
 
@@ -94,7 +99,11 @@ pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
 
 impl Overrides {
     pub(super) fn apply(&self, document: Document) -> Result<Document, CliError> {
-        if self.set.is_empty() { Ok(document) } else { Ok(document.set_all(&self.set)?) }
+        if self.set.is_empty() {
+            Ok(document)
+        } else {
+            Ok(document.set_all(&self.set)?)
+        }
     }
 }
 
@@ -128,7 +137,10 @@ mod tests {
     #[test]
     fn overrides_are_a_path_and_all_that_follows() {
         let both = |path: &str, value: &str| Ok((path.to_string(), value.to_string()));
-        assert_eq!(path_and_value("adhesion.work=0.1"), both("adhesion.work", "0.1"));
+        assert_eq!(
+            path_and_value("adhesion.work=0.1"),
+            both("adhesion.work", "0.1")
+        );
         assert_eq!(path_and_value("title = \"a=b\""), both("title", " \"a=b\""));
         assert!(path_and_value("adhesion.work").is_err());
         assert!(path_and_value("=0.1").is_err());

@@ -31,21 +31,34 @@ pub struct SensitivityArguments {
     pub output: OutputArguments,
 }
 
-pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn sensitivity(
+    arguments: &SensitivityArguments,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let mut progress = ProgressLine::default();
-    let mut report = |found: &Sensitivity| progress.show(&format!("{} profiles", found.profiles), None);
-    let simulation = (Simulation::new(document.resolve("")), threads(arguments.jobs));
+    let mut report =
+        |found: &Sensitivity| progress.show(&format!("{} profiles", found.profiles), None);
+    let simulation = (
+        Simulation::new(document.resolve("")),
+        threads(arguments.jobs),
+    );
     let found = Sensitivity::of(scene, simulation, &|| false, &mut report);
     progress.clear();
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     let warnings = warnings_of(scene, &mut simulation_of(&document));
-    let report =
-        SensitivityReport { title: document.title(), scene, sensitivity: &found, warnings: &warnings };
+    let report = SensitivityReport {
+        title: document.title(),
+        scene,
+        sensitivity: &found,
+        warnings: &warnings,
+    };
     if !holds_warnings(format) {
         warn(&document, &warnings);
     }
-    arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
+    arguments
+        .output
+        .write(stdout, &report, format, Origin::Scene(&document, scene))
 }

@@ -73,7 +73,13 @@ pub struct SurfaceArguments {
     /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
     /// The scene names the files and contains all options of their reading and analysis.
-    #[arg(long, value_name = "FILE", requires = "modulus", group = "written", verbatim_doc_comment)]
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "modulus",
+        group = "written",
+        verbatim_doc_comment
+    )]
     pub scene: Option<PathBuf>,
     /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
@@ -105,7 +111,13 @@ impl SurfaceArguments {
     /// The length given with an option, in m.
     fn in_metres(&self, option: &str, length: Option<Length>) -> Result<Option<f64>, CliError> {
         match (length, self.measured.unit.parse::<Unit>().ok()) {
-            (Some(Length { value, has_unit: true }), _) => Ok(Some(value)),
+            (
+                Some(Length {
+                    value,
+                    has_unit: true,
+                }),
+                _,
+            ) => Ok(Some(value)),
             (Some(Length { value, .. }), Some(unit)) => Ok(Some(unit.to_metres(value))),
             (None, _) => Ok(None),
             (Some(_), None) => Err(CliError::named(
@@ -126,7 +138,10 @@ impl SurfaceArguments {
         }
         let name = |file: &PathBuf| file.to_string_lossy().into_owned();
         let mut files = self.files.iter().map(name);
-        let number = self.channel.as_ref().and_then(|channel| channel.parse::<u32>().ok());
+        let number = self
+            .channel
+            .as_ref()
+            .and_then(|channel| channel.parse::<u32>().ok());
         Ok(Measured {
             channel: number.map(u64::from),
             surface_name: self.channel.clone().filter(|_| number.is_none()),
@@ -155,8 +170,11 @@ impl SurfaceArguments {
     /// again.
     fn check_outputs(&self) -> Result<(), CliError> {
         let place = |file: &Path| file.canonicalize().ok();
-        let outputs: Vec<PathBuf> =
-            [self.output.file(), self.scene.as_deref()].into_iter().flatten().filter_map(place).collect();
+        let outputs: Vec<PathBuf> = [self.output.file(), self.scene.as_deref()]
+            .into_iter()
+            .flatten()
+            .filter_map(place)
+            .collect();
         let mut files = self.files.iter().chain(&self.opposite);
         match files.find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
             Some(file) => Err(CliError::named(
@@ -197,7 +215,10 @@ impl SurfaceTask {
 
     /// Returns the files of the surface, without the file of the opposite face.
     pub fn files(&self) -> Vec<PathBuf> {
-        std::iter::once(&self.measured.file).chain(&self.measured.further_files).map(PathBuf::from).collect()
+        std::iter::once(&self.measured.file)
+            .chain(&self.measured.further_files)
+            .map(PathBuf::from)
+            .collect()
     }
 
     /// Reads and analyses the files of the surface, and the file of the opposite face if there is one.
@@ -224,16 +245,27 @@ impl SurfaceTask {
     /// Creates a scene of the equivalent line over the length of the scan, on a body of this effective modulus in Pa. Of two
     /// faces the shorter scan counts.
     pub fn scene(&self, modulus: f64, faces: &[MeasuredFace], line: &EquivalentLine) -> Scene {
-        let name = Path::new(&self.measured.file).file_name().unwrap_or_default();
-        let length = faces.iter().map(|face| face.analysis.length).fold(f64::INFINITY, f64::min);
+        let name = Path::new(&self.measured.file)
+            .file_name()
+            .unwrap_or_default();
+        let length = faces
+            .iter()
+            .map(|face| face.analysis.length)
+            .fold(f64::INFINITY, f64::min);
         // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
         let length = round_to(length, 12);
         Scene {
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
             roughness: Some(Roughness::Measured(self.measured.clone())),
             adhesion: self.work.map(Adhesion::by_work),
-            loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
-            numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
+            loading: vec![
+                self.preload.map_or(Move::ToZeroForce, Move::ToForce),
+                Move::ToSeparation,
+            ],
+            numerics: Numerics {
+                points: equivalent_springs(line, length),
+                ..Numerics::default()
+            },
             ..Scene::new(Material::effective(modulus), length)
         }
     }
@@ -250,10 +282,19 @@ impl SurfaceTask {
         computes_adhesion: bool,
         progress: &(dyn Fn(u64, u32) + Sync),
     ) -> Result<SurfaceReport, CliError> {
-        let line =
-            EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
-        let mut report =
-            SurfaceReport { faces, line, modulus: self.modulus, work: self.work, adhesion: None };
+        let line = EquivalentLine {
+            faces: faces
+                .iter()
+                .map(|face| face.analysis.isotropic.clone())
+                .collect(),
+        };
+        let mut report = SurfaceReport {
+            faces,
+            line,
+            modulus: self.modulus,
+            work: self.work,
+            adhesion: None,
+        };
         let (true, Some(modulus), Some(_)) = (computes_adhesion, self.modulus, self.work) else {
             return Ok(report);
         };
@@ -263,7 +304,8 @@ impl SurfaceTask {
         let mut solved = None;
         if let Some(count) = profiles {
             let report_profile = |computed: u64| progress(computed, count);
-            let adhesion = MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs, &report_profile);
+            let adhesion =
+                MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs, &report_profile);
             let file = Path::new(&self.measured.file);
             solved = Some(adhesion.map_err(|error| CliError::named(path_name(file), error))?);
         }
@@ -272,7 +314,10 @@ impl SurfaceTask {
     }
 }
 
-pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn surface(
+    arguments: &SurfaceArguments,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     arguments.check_outputs()?;
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
@@ -284,14 +329,25 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let progress = Mutex::new(Counted::default());
     let count = |computed: u64, profiles: u32| count_profiles(&progress, computed, profiles);
     let report = task.report(task.faces()?, computes_adhesion, &count);
-    progress.lock().unwrap_or_else(PoisonError::into_inner).line.clear();
+    progress
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .line
+        .clear();
     let report = report?;
     if let (Some(file), Some(modulus)) = (&arguments.scene, task.modulus) {
         let scene = task.scene(modulus, &report.faces, &report.line);
         write_scene(file, scene, arguments.output.force)?;
     }
-    let files: Vec<PathBuf> = arguments.files.iter().chain(&arguments.opposite).cloned().collect();
-    arguments.output.write(stdout, &report, format, Origin::Files(&files))
+    let files: Vec<PathBuf> = arguments
+        .files
+        .iter()
+        .chain(&arguments.opposite)
+        .cloned()
+        .collect();
+    arguments
+        .output
+        .write(stdout, &report, format, Origin::Files(&files))
 }
 
 /// Number of computed profiles on the terminal.
@@ -306,7 +362,9 @@ fn count_profiles(progress: &Mutex<Counted>, computed: u64, profiles: u32) {
     let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
     if computed > progress.computed {
         progress.computed = computed;
-        progress.line.show(&format!("{computed} of {profiles} random profiles"), None);
+        progress
+            .line
+            .show(&format!("{computed} of {profiles} random profiles"), None);
     }
 }
 
@@ -314,15 +372,25 @@ fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, Cl
     let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
     for file in files {
         let read = read(file, &options.reading);
-        let read = read.map_err(|error| CliError::named(path_name(file), no_surface(file, &error)))?;
-        facts.extend(read.iter().map(|surface| SurfaceFile::new(file.clone(), surface)));
+        let read =
+            read.map_err(|error| CliError::named(path_name(file), no_surface(file, &error)))?;
+        facts.extend(
+            read.iter()
+                .map(|surface| SurfaceFile::new(file.clone(), surface)),
+        );
         surfaces.extend(read);
     }
     let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
         let file = facts.get(error.surface().unwrap_or(0));
-        CliError::named(file.map(|file| path_name(&file.path)).unwrap_or_default(), error)
+        CliError::named(
+            file.map(|file| path_name(&file.path)).unwrap_or_default(),
+            error,
+        )
     })?;
-    Ok(MeasuredFace { files: facts, analysis })
+    Ok(MeasuredFace {
+        files: facts,
+        analysis,
+    })
 }
 
 /// Writes a scene, in which the measured files are named relative to its own folder.
@@ -334,12 +402,17 @@ fn write_scene(file: &Path, mut scene: Scene, overwrite: bool) -> Result<(), Cli
         named_from(&name, measured.parent().unwrap_or(Path::new("")), folder)
     });
     let document = Document::from_scene(&scene, &path_name(file))?;
-    Ok(write_new(file, overwrite, |out| out.write_all(document.text().as_bytes()))?)
+    Ok(write_new(file, overwrite, |out| {
+        out.write_all(document.text().as_bytes())
+    })?)
 }
 
 fn length(text: &str) -> Result<Length, String> {
     let value = positive(text, "m")?;
-    Ok(Length { value, has_unit: text.trim().parse::<f64>().is_err() })
+    Ok(Length {
+        value,
+        has_unit: text.trim().parse::<f64>().is_err(),
+    })
 }
 
 /// Parses a value above 0, with its unit.

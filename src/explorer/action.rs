@@ -84,8 +84,15 @@ pub enum Content {
     Pane(Format),
 }
 
-pub const EXPORTS: [Format; 7] =
-    [Format::Csv, Format::Npy, Format::Json, Format::Svg, Format::Png, Format::Pdf, Format::Text];
+pub const EXPORTS: [Format; 7] = [
+    Format::Csv,
+    Format::Npy,
+    Format::Json,
+    Format::Svg,
+    Format::Png,
+    Format::Pdf,
+    Format::Text,
+];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mouse {

@@ -99,7 +99,12 @@ pub struct App {
 
 impl App {
     /// Creates the state of an explorer that has just opened on a scene.
-    pub fn new(document: Document, size: (u16, u16), appearance: Appearance, config: Config) -> Self {
+    pub fn new(
+        document: Document,
+        size: (u16, u16),
+        appearance: Appearance,
+        config: Config,
+    ) -> Self {
         App {
             edit: Editor::new(document),
             play: Player::START,
@@ -152,7 +157,10 @@ impl App {
             None => (None, None),
         };
         let is_error = warning.is_some() || error.is_some();
-        let notices: Vec<String> = [warning, error, done, offer].into_iter().flatten().collect();
+        let notices: Vec<String> = [warning, error, done, offer]
+            .into_iter()
+            .flatten()
+            .collect();
         let text = notices.join(" · ");
         match (is_error, text.is_empty()) {
             (_, true) => {}
@@ -166,12 +174,17 @@ impl App {
     }
 
     pub fn is_typing_value(&self) -> bool {
-        self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
+        self.prompt
+            .as_ref()
+            .is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
     /// Opens a prompt again with a text that could not be used; `why` is the reason, which may begin with the text.
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
-        let reason = why.strip_prefix(text).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
+        let reason = why
+            .strip_prefix(text)
+            .and_then(|rest| rest.strip_prefix(": "))
+            .unwrap_or(why);
         self.ask(purpose, text);
         if let Some(prompt) = &mut self.prompt {
             // A refused text is corrected, not replaced.
@@ -220,14 +233,22 @@ impl App {
 
     /// The computed scene, if it is the present one.
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
-        self.solved.as_ref().filter(|computed| computed.generation == self.edit.generation)
+        self.solved
+            .as_ref()
+            .filter(|computed| computed.generation == self.edit.generation)
     }
 
     /// The premises of the model that the present result does not meet, in the words of all reports: on the random profiles
     /// as far as they are computed, otherwise on the profile of the scene.
     pub fn warnings(&self) -> Vec<String> {
-        let Some(computed) = self.current() else { return Vec::new() };
-        match self.studies.value::<Ensemble>().filter(|ensemble| ensemble.computed() > 0) {
+        let Some(computed) = self.current() else {
+            return Vec::new();
+        };
+        match self
+            .studies
+            .value::<Ensemble>()
+            .filter(|ensemble| ensemble.computed() > 0)
+        {
             Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.computed()),
             None => warning_texts(&computed.outcome.warnings),
         }
@@ -253,7 +274,9 @@ impl App {
     /// Returns true if the outcome for the typed value itself is known.
     pub fn is_tried(&self) -> bool {
         let tried = self.tried.as_ref().map(Document::text);
-        self.studies.value::<Preview>().is_some_and(|preview| tried == Some(&preview.text))
+        self.studies
+            .value::<Preview>()
+            .is_some_and(|preview| tried == Some(&preview.text))
     }
 
     /// Position of the scene on the map: its values on the axes. `None` if the scene has no such quantity, or its value is
@@ -279,7 +302,12 @@ impl App {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
         }
-        let mut axes = self.map.plan(self.edit.document.scene())?.axes.into_iter().rev();
+        let mut axes = self
+            .map
+            .plan(self.edit.document.scene())?
+            .axes
+            .into_iter()
+            .rev();
         Some((axes.next()?, axes.next()))
     }
 
@@ -294,7 +322,10 @@ impl App {
     pub fn next_mapped(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let now = self.mapped();
-        let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
+        let place = all
+            .iter()
+            .position(|one| *one == now)
+            .map_or(0, |place| place + 1);
         all.get(place).or(all.first()).copied().unwrap_or(now)
     }
 
@@ -316,7 +347,11 @@ impl App {
     /// wants its keys.
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
-        if self.is_shown(pane) && is_in_use { self.show_force_curve() } else { self.show(pane) }
+        if self.is_shown(pane) && is_in_use {
+            self.show_force_curve()
+        } else {
+            self.show(pane)
+        }
     }
 
     /// Shows and selects the force curve at its usual place.
@@ -326,7 +361,11 @@ impl App {
 
     /// Shows a pane at its place and selects it.
     pub fn show(&mut self, pane: Pane) {
-        let large = if pane.is_large() { Some(pane) } else { self.view.large };
+        let large = if pane.is_large() {
+            Some(pane)
+        } else {
+            self.view.large
+        };
         self.show_large(large, pane);
     }
 
@@ -359,29 +398,45 @@ impl App {
     }
 
     pub fn drive(&self) -> Drive {
-        if self.manual.is_some() { Drive::Manual } else { Drive::Leg(self.play.leg) }
+        if self.manual.is_some() {
+            Drive::Manual
+        } else {
+            Drive::Leg(self.play.leg)
+        }
     }
 
     /// The newest snapshot, if it belongs to the present scene and kind of loading.
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
-        (snapshot.generation == self.edit.generation && snapshot.drive == self.drive()).then_some(snapshot)
+        (snapshot.generation == self.edit.generation && snapshot.drive == self.drive())
+            .then_some(snapshot)
     }
 
     pub fn legs(&self) -> &[LegRecord] {
-        self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
+        self.solved
+            .as_ref()
+            .map_or(&[], |computed| &computed.outcome.history.legs)
     }
 
     /// Returns true if the shown scene has a compliant instrument.
     pub fn deflects(&self) -> bool {
-        self.solved.as_ref().is_some_and(|computed| computed.outcome.instrument.is_some())
+        self.solved
+            .as_ref()
+            .is_some_and(|computed| computed.outcome.instrument.is_some())
     }
 
     /// Returns a force of the shown scene, N; zero if it is a rounding error of the largest marked force, as after a stage
     /// to zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
-        let largest = Mark::all(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
-        if force.abs() < 1e-12 * largest { 0.0 } else { force }
+        let largest = Mark::all(self.legs())
+            .iter()
+            .map(|(_, point)| point.force.abs())
+            .fold(0.0, f64::max);
+        if force.abs() < 1e-12 * largest {
+            0.0
+        } else {
+            force
+        }
     }
 
     /// Returns true if forces are shown in units of F_a,max, which the shown scene has.
@@ -391,7 +446,11 @@ impl App {
 
     /// F_a,max of the shown scene, N; `None` if that is not above zero.
     pub fn ideal_adhesion_force(&self) -> Option<f64> {
-        self.solved.as_ref()?.outcome.ideal_adhesion_force.filter(|force| *force > 0.0)
+        self.solved
+            .as_ref()?
+            .outcome
+            .ideal_adhesion_force
+            .filter(|force| *force > 0.0)
     }
 
     /// A force of the shown scene in words: in N, or in units of F_a,max.
@@ -410,7 +469,10 @@ impl App {
 
     /// The median of F_a/F_a,max over random profiles in words.
     pub fn median_share_in_words(&self) -> Option<String> {
-        let all = self.studies.value::<Ensemble>()?.statistics(Quantity::AdhesionShare)?;
+        let all = self
+            .studies
+            .value::<Ensemble>()?
+            .statistics(Quantity::AdhesionShare)?;
         Some(format!("median {}", share_in_words(all.quartiles[1])))
     }
 

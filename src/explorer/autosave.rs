@@ -58,9 +58,14 @@ pub struct Newest {
 
 /// Returns the newest unsaved changes of an ended session that can be read, and the newer files that cannot.
 pub fn newest(folder: &Path) -> Newest {
-    let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut files: Vec<PathBuf> =
-        files.filter(|path| path.extension().is_some_and(|end| end == "ron")).collect();
+    let files = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path());
+    let mut files: Vec<PathBuf> = files
+        .filter(|path| path.extension().is_some_and(|end| end == "ron"))
+        .collect();
     files.sort_by_key(|path| fs::metadata(path).and_then(|found| found.modified()).ok());
     let mut newest = Newest::default();
     while let Some(path) = files.pop() {
@@ -70,7 +75,9 @@ pub fn newest(folder: &Path) -> Newest {
                 break;
             }
             Ok(None) => {}
-            Err(why) => newest.unreadable.push(format!("{}: {why}", path_name(&path))),
+            Err(why) => newest
+                .unreadable
+                .push(format!("{}: {why}", path_name(&path))),
         }
     }
     newest
@@ -86,23 +93,40 @@ fn open(path: PathBuf) -> Result<Option<Kept>, String> {
     if documents.is_empty() {
         return Err("there is no scene in it".to_owned());
     }
-    Ok(Some(Kept { path, lock, documents }))
+    Ok(Some(Kept {
+        path,
+        lock,
+        documents,
+    }))
 }
 
 /// Returns the message that offers the newest unsaved changes of an ended session.
 pub fn offer(folder: &Path) -> Option<String> {
     let Kept { documents, .. } = newest(folder).kept?;
-    let name = |document: &Document| Some(Path::new(document.name()).file_name()?.display().to_string());
+    let name = |document: &Document| {
+        Some(
+            Path::new(document.name())
+                .file_name()?
+                .display()
+                .to_string(),
+        )
+    };
     let names: Vec<String> = documents.iter().filter_map(name).collect();
-    Some(format!("unsaved changes of {} are kept: asperity --restore opens them", names.join(", ")))
+    Some(format!(
+        "unsaved changes of {} are kept: asperity --restore opens them",
+        names.join(", ")
+    ))
 }
 
 /// Reads the scenes in a file, the explored one first.
 fn read(file: &File) -> Result<Vec<Document>, String> {
-    let text = read_limited(file, LONGEST).and_then(into_text).map_err(|error| error.to_string())?;
+    let text = read_limited(file, LONGEST)
+        .and_then(into_text)
+        .map_err(|error| error.to_string())?;
     let copies: Vec<Copy> = ron::from_str(&text).map_err(|error| error.to_string())?;
     let document = |copy: Copy| {
-        let document = Document::parse(&copy.text, &copy.name).map_err(|errors| errors.to_string())?;
+        let document =
+            Document::parse(&copy.text, &copy.name).map_err(|errors| errors.to_string())?;
         Ok(document.resumed(copy.opened, copy.overrides))
     };
     copies.into_iter().map(document).collect()
@@ -112,22 +136,37 @@ impl Autosave {
     /// Begins a session without a file, or with the file of an ended session.
     pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
         if let Some(Kept { path, lock, .. }) = restored {
-            return Autosave { path, own: Some(lock) };
+            return Autosave {
+                path,
+                own: Some(lock),
+            };
         }
-        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos();
-        Autosave { path: folder.join(format!("{}-{now}.ron", std::process::id())), own: None }
+        let now = SystemTime::now()
+            .duration_since(UNIX_EPOCH)
+            .unwrap_or_default()
+            .as_nanos();
+        Autosave {
+            path: folder.join(format!("{}-{now}.ron", std::process::id())),
+            own: None,
+        }
     }
 
     /// Keeps these scenes in place of all kept before; for an empty list the file is removed. The file is complete at every
     /// moment.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
-            return self.own.take().map_or(Ok(()), |_| fs::remove_file(&self.path));
+            return self
+                .own
+                .take()
+                .map_or(Ok(()), |_| fs::remove_file(&self.path));
         }
         let copy = |document: &&Document| {
             let file = absolute(document.name()).ok().filter(|path| path.is_file());
             Copy {
-                name: file.map_or_else(|| document.name().to_owned(), |path| path.display().to_string()),
+                name: file.map_or_else(
+                    || document.name().to_owned(),
+                    |path| path.display().to_string(),
+                ),
                 opened: document.opened().to_owned(),
                 text: document.text().to_owned(),
                 overrides: document.overrides().to_vec(),
@@ -159,8 +198,14 @@ mod tests {
         let folder = folder.path().join("state/unsaved");
         let kept = || newest(&folder).kept;
         assert!(kept().is_none());
-        let changed = open_scene("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
-        let other = open_scene("rough-sphere").unwrap().set("length", "2.0e-4").unwrap();
+        let changed = open_scene("pressure-sensitive")
+            .unwrap()
+            .set("adhesion.kappa", "3.0")
+            .unwrap();
+        let other = open_scene("rough-sphere")
+            .unwrap()
+            .set("length", "2.0e-4")
+            .unwrap();
         let mut session = Autosave::new(&folder, None);
         session.keep(&[&changed]).unwrap();
         session.keep(&[&changed, &other]).unwrap();
@@ -169,12 +214,22 @@ mod tests {
         let restored = kept().unwrap();
         assert_eq!(restored.documents, [changed.clone(), other]);
         assert_eq!(restored.documents[0].overrides(), changed.overrides());
-        assert!(kept().is_none(), "another process that restores at the same time has nothing left to open");
+        assert!(
+            kept().is_none(),
+            "another process that restores at the same time has nothing left to open"
+        );
         let mut next = Autosave::new(&folder, Some(restored));
         next.keep(&[&changed]).unwrap();
-        assert!(kept().is_none(), "the session that opened the scenes continues their file");
+        assert!(
+            kept().is_none(),
+            "the session that opened the scenes continues their file"
+        );
         next.keep(&[]).unwrap();
-        assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing is unsaved any more");
+        assert_eq!(
+            fs::read_dir(&folder).unwrap().count(),
+            0,
+            "nothing is unsaved any more"
+        );
     }
 
     /// A power cut may have damaged the newest file, and anything may be in the folder. What is older is found all the same.
@@ -182,7 +237,10 @@ mod tests {
     fn files_that_cannot_be_read_are_stated_and_hide_no_older_one() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
-        let changed = open_scene("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
+        let changed = open_scene("pressure-sensitive")
+            .unwrap()
+            .set("adhesion.kappa", "3.0")
+            .unwrap();
         let mut session = Autosave::new(folder, None);
         session.keep(&[&changed]).unwrap();
         drop(session);
@@ -196,9 +254,19 @@ mod tests {
         for (name, text) in wrong {
             fs::write(folder.join(name), text).unwrap();
             let Newest { kept, unreadable } = newest(folder);
-            assert!(unreadable.len() == 1 && unreadable[0].contains(name), "{unreadable:?}");
-            assert_eq!(kept.expect("the older file").documents, std::slice::from_ref(&changed), "{name}");
-            assert!(offer(folder).is_some_and(|offer| offer.contains("pressure-sensitive")), "{name}");
+            assert!(
+                unreadable.len() == 1 && unreadable[0].contains(name),
+                "{unreadable:?}"
+            );
+            assert_eq!(
+                kept.expect("the older file").documents,
+                std::slice::from_ref(&changed),
+                "{name}"
+            );
+            assert!(
+                offer(folder).is_some_and(|offer| offer.contains("pressure-sensitive")),
+                "{name}"
+            );
             fs::remove_file(folder.join(name)).unwrap();
         }
         fs::create_dir(folder.join("folder.ron")).unwrap();
@@ -206,6 +274,9 @@ mod tests {
             fs::write(folder.join(name), text).unwrap();
         }
         let Newest { kept, unreadable } = newest(folder);
-        assert!(kept.is_some() && unreadable.len() == wrong.len() + 1, "{unreadable:?}");
+        assert!(
+            kept.is_some() && unreadable.len() == wrong.len() + 1,
+            "{unreadable:?}"
+        );
     }
 }

@@ -13,7 +13,9 @@ pub fn caption(app: &App) -> Option<&'static str> {
         Drive::Manual => Some("manual loading"),
         Drive::Leg(index) => {
             let branches = Branch::all(app.legs());
-            let branch = branches.iter().find(|branch| branch.stages.contains(&index))?;
+            let branch = branches
+                .iter()
+                .find(|branch| branch.stages.contains(&index))?;
             let rests = app.legs()[index].curve.len() == 1;
             event(app.legs(), branch, snapshot.point).filter(|_| !rests)
         }

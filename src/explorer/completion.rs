@@ -11,12 +11,24 @@ const MOST_ENTRIES: usize = 10_000;
 pub fn complete(typed: &str) -> Vec<String> {
     let typed = typed.trim_start();
     let (folder, name) = typed.split_at(typed.rfind(is_separator).map_or(0, |at| at + 1));
-    let directory = if folder.is_empty() { Path::new(".").to_path_buf() } else { typed_path(folder) };
+    let directory = if folder.is_empty() {
+        Path::new(".").to_path_buf()
+    } else {
+        typed_path(folder)
+    };
     let path = |entry: std::io::Result<std::fs::DirEntry>| {
         let entry = entry.ok()?;
-        let found = entry.file_name().into_string().ok().filter(|found| !found.chars().any(is_control))?;
+        let found = entry
+            .file_name()
+            .into_string()
+            .ok()
+            .filter(|found| !found.chars().any(is_control))?;
         let fits = found.starts_with(name) && (name.starts_with('.') || !found.starts_with('.'));
-        let end = if entry.path().is_dir() { String::from(MAIN_SEPARATOR) } else { String::new() };
+        let end = if entry.path().is_dir() {
+            String::from(MAIN_SEPARATOR)
+        } else {
+            String::new()
+        };
         fits.then(|| format!("{folder}{found}{end}"))
     };
     let entries = read_dir(directory).into_iter().flatten().take(MOST_ENTRIES);
@@ -28,10 +40,16 @@ pub fn complete(typed: &str) -> Vec<String> {
 /// Returns the longest text with which all paths begin.
 pub fn common_start(paths: &[String]) -> String {
     let shared = |start: String, path: &String| {
-        let same = start.chars().zip(path.chars()).take_while(|(one, other)| one == other);
+        let same = start
+            .chars()
+            .zip(path.chars())
+            .take_while(|(one, other)| one == other);
         same.map(|(one, _)| one).collect()
     };
-    paths.iter().skip(1).fold(paths.first().cloned().unwrap_or_default(), shared)
+    paths
+        .iter()
+        .skip(1)
+        .fold(paths.first().cloned().unwrap_or_default(), shared)
 }
 
 #[cfg(test)]
@@ -49,14 +67,28 @@ mod tests {
         let base = format!("{}{MAIN_SEPARATOR}", folder.path().display());
         let found = |typed: &str| -> Vec<String> {
             let paths = complete(&format!("{base}{typed}"));
-            paths.into_iter().map(|path| path.strip_prefix(&base).unwrap().to_owned()).collect()
+            paths
+                .into_iter()
+                .map(|path| path.strip_prefix(&base).unwrap().to_owned())
+                .collect()
         };
         let results = format!("results{MAIN_SEPARATOR}");
-        assert_eq!(found(""), [results.as_str(), "rough-sphere.ron", "rough.ron", "sphere.ron"]);
+        assert_eq!(
+            found(""),
+            [
+                results.as_str(),
+                "rough-sphere.ron",
+                "rough.ron",
+                "sphere.ron"
+            ]
+        );
         assert_eq!(common_start(&found("rou")), "rough");
         assert_eq!(found("re"), [results.as_str()]);
         assert_eq!(found("."), [".hidden"]);
-        assert!(found("nothing").is_empty() && complete(&format!("{base}none{MAIN_SEPARATOR}")).is_empty());
+        assert!(
+            found("nothing").is_empty()
+                && complete(&format!("{base}none{MAIN_SEPARATOR}")).is_empty()
+        );
         assert_eq!(common_start(&[]), "");
     }
 }

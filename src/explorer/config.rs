@@ -60,24 +60,40 @@ impl Default for Config {
 
 /// Path of this user's file, `asperity/config.ron` in the configuration folder; the file need not exist.
 pub fn default_path() -> Option<PathBuf> {
-    Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("config.ron"))
+    Some(
+        choose_base_strategy()
+            .ok()?
+            .config_dir()
+            .join("asperity")
+            .join("config.ron"),
+    )
 }
 
 impl Config {
     pub fn new(bindings: Bindings) -> Config {
-        Config { bindings, ..Config::default() }
+        Config {
+            bindings,
+            ..Config::default()
+        }
     }
 
     /// Reads a configuration file that may change these keys. A missing file is an error if the user has named it
     /// (`is_named`), and otherwise means the defaults.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         // A broken link is a file that cannot be read.
-        let is_missing = || path.symlink_metadata().is_err_and(|error| error.kind() == NotFound);
+        let is_missing = || {
+            path.symlink_metadata()
+                .is_err_and(|error| error.kind() == NotFound)
+        };
         if !is_named && is_missing() {
             return Ok(Config::new(bindings));
         }
         let text = read_regular_text(path, LONGEST);
-        Config::parse(&text.map_err(|error| format!("{}: {error}", path.display()))?, path, bindings)
+        Config::parse(
+            &text.map_err(|error| format!("{}: {error}", path.display()))?,
+            path,
+            bindings,
+        )
     }
 
     /// Reads the text of a configuration file that may change these keys.
@@ -98,20 +114,31 @@ impl Config {
         };
         let check = |field: &str, value: f64, range: RangeInclusive<f64>, allowed: &str| {
             let message = || format!("{field} = {value}: allowed: {allowed}");
-            if range.contains(&value) { Ok(()) } else { Err(wrong(field, message())) }
+            if range.contains(&value) {
+                Ok(())
+            } else {
+                Err(wrong(field, message()))
+            }
         };
         check("version", config.version.into(), 1.0..=1.0, "1")?;
-        check("frame_rate", config.frame_rate.into(), 1.0..=60.0, "from 1 to 60 frames per second")?;
+        check(
+            "frame_rate",
+            config.frame_rate.into(),
+            1.0..=60.0,
+            "from 1 to 60 frames per second",
+        )?;
         check("speed", config.speed, 0.1..=10.0, "from 0.1 to 10")?;
         for (number, KeySetting { action, keys }) in config.keys.iter().enumerate() {
             let rebound = config.bindings.rebind(action, keys);
-            rebound.map_err(|(field, message)| wrong(&format!("keys.{number}.{field}"), message))?;
+            rebound
+                .map_err(|(field, message)| wrong(&format!("keys.{number}.{field}"), message))?;
         }
         if let Some((key, one, other)) = config.bindings.conflict() {
             // The setting with the key, or the last one.
             let has = |setting: &KeySetting| setting.action == one || setting.action == other;
             let number = config.keys.iter().rposition(has).unwrap_or_default();
-            let message = format!("{key}: bound to {one} and to {other}; allowed: one action for each key");
+            let message =
+                format!("{key}: bound to {one} and to {other}; allowed: one action for each key");
             return Err(wrong(&format!("keys.{number}.keys"), message));
         }
         Ok(config)
@@ -143,22 +170,61 @@ mod tests {
     #[test]
     fn what_is_wrong_has_its_line_and_column() {
         let config = parse(FULL).unwrap();
-        assert_eq!((config.theme, config.markers), (Some(Theme::Dark), Some(Marker::Braille)));
+        assert_eq!(
+            (config.theme, config.markers),
+            (Some(Theme::Dark), Some(Marker::Braille))
+        );
         for (from, to, said) in [
-            ("version: 1", "version: 2", "config.ron:3:14: version = 2: allowed: 1"),
-            ("theme: Dark", "theme: Drak", "config.ron:4:12: theme = Drak: allowed: Neutral, Dark, Light,"),
-            ("markers: Braille", "marker: Braille", "config.ron:5:5: marker: "),
-            ("frame_rate: 30", "frame_rate: 61", "config.ron:6:17: frame_rate = 61: allowed: from 1 to 60"),
-            ("speed: 1.0", "speed: 0.0", "config.ron:7:12: speed = 0: allowed: from 0.1 to 10"),
-            ("speed: 1.0", "speed: NaN", "config.ron:7:12: speed = NaN: allowed"),
-            ("toggle-play", "togle-play", "config.ron:10:21: togle-play: there is no such action; did you"),
+            (
+                "version: 1",
+                "version: 2",
+                "config.ron:3:14: version = 2: allowed: 1",
+            ),
+            (
+                "theme: Dark",
+                "theme: Drak",
+                "config.ron:4:12: theme = Drak: allowed: Neutral, Dark, Light,",
+            ),
+            (
+                "markers: Braille",
+                "marker: Braille",
+                "config.ron:5:5: marker: ",
+            ),
+            (
+                "frame_rate: 30",
+                "frame_rate: 61",
+                "config.ron:6:17: frame_rate = 61: allowed: from 1 to 60",
+            ),
+            (
+                "speed: 1.0",
+                "speed: 0.0",
+                "config.ron:7:12: speed = 0: allowed: from 0.1 to 10",
+            ),
+            (
+                "speed: 1.0",
+                "speed: NaN",
+                "config.ron:7:12: speed = NaN: allowed",
+            ),
+            (
+                "toggle-play",
+                "togle-play",
+                "config.ron:10:21: togle-play: there is no such action; did you",
+            ),
             (
                 "\"F5\"",
                 "\"Pp\"",
                 "config.ron:10:42: Pp: there is no such key; allowed: one character, Ctrl+c, Shift+Left",
             ),
-            ("\"F5\"", "\"r\"", "config.ron:10:42: r: bound to toggle-play and to restart"),
-            ("repeat: false", "repeat: false, repeat: true", "config.ron:8:"),
+            (
+                "\"F5\"",
+                "\"r\"",
+                "config.ron:10:42: r: bound to toggle-play and to restart",
+            ),
+            (
+                "repeat: false",
+                "repeat: false, repeat: true",
+                "config.ron:8:",
+            ),
             ("    keys", "  ] keys", "config.ron:10:"),
         ] {
             let text = FULL.replace(from, to);
@@ -171,9 +237,13 @@ mod tests {
     #[test]
     fn keys_are_exchanged_and_quit_stays_in_reach() {
         let keys = |settings: &str| parse(&format!("(version: 1, keys: [{settings}])"));
-        let swapped = keys(r#"(action: "restart", keys: ["R"]), (action: "reseed", keys: ["r"])"#).unwrap();
+        let swapped =
+            keys(r#"(action: "restart", keys: ["R"]), (action: "reseed", keys: ["r"])"#).unwrap();
         let keys_of = |config: &Config, name: &str| {
-            let mut rows = config.bindings.rows().filter(|binding| binding.row.name == name);
+            let mut rows = config
+                .bindings
+                .rows()
+                .filter(|binding| binding.row.name == name);
             rows.next().unwrap().names()
         };
         assert_eq!(
@@ -182,7 +252,10 @@ mod tests {
         );
         let config = keys(r#"(action: "quit", keys: ["_"])"#).unwrap();
         assert_eq!(keys_of(&config, "quit"), "_ Ctrl+c");
-        assert!(keys(r#"(action: "restart", keys: [])"#).is_ok(), "a key may be taken away");
+        assert!(
+            keys(r#"(action: "restart", keys: [])"#).is_ok(),
+            "a key may be taken away"
+        );
         let why = keys(r#"(action: "accept", keys: ["y"])"#).unwrap_err();
         assert!(why.contains("accept: there is no such action"), "{why}");
     }

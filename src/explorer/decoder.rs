@@ -1,7 +1,9 @@
 //! Bytes of a terminal become keys, pastes and gestures of the mouse. What a terminal begins and does not finish, as on
 //! a broken line, is given up after a pause, so that it swallows no later key.
 
-use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 use std::time::Duration;
 
 /// Longest pause within the sequence of a key. A slow line may separate the bytes of a sequence.
@@ -99,7 +101,11 @@ impl Decoder {
             }
         }
         let is_interrupted = text.contains(&INTERRUPT);
-        let kept: Vec<u8> = text[..end].iter().copied().filter(|byte| *byte != INTERRUPT).collect();
+        let kept: Vec<u8> = text[..end]
+            .iter()
+            .copied()
+            .filter(|byte| *byte != INTERRUPT)
+            .collect();
         self.paste(&kept);
         if is_interrupted {
             self.read_byte(INTERRUPT);
@@ -107,7 +113,8 @@ impl Decoder {
     }
 
     fn paste(&mut self, text: &[u8]) {
-        self.events.push(Event::Paste(String::from_utf8_lossy(text).into_owned()));
+        self.events
+            .push(Event::Paste(String::from_utf8_lossy(text).into_owned()));
     }
 
     fn press(&mut self, code: KeyCode, modifiers: KeyModifiers) {
@@ -152,7 +159,11 @@ impl Decoder {
 
     /// The first byte of a key.
     fn begin(&mut self, byte: u8, is_alt: bool) {
-        let alt = if is_alt { KeyModifiers::ALT } else { KeyModifiers::NONE };
+        let alt = if is_alt {
+            KeyModifiers::ALT
+        } else {
+            KeyModifiers::NONE
+        };
         let control = alt | KeyModifiers::CONTROL;
         match byte {
             ESCAPE => self.pending = Pending::Escape,
@@ -163,7 +174,12 @@ impl Decoder {
             0x01..=0x1a => self.press(KeyCode::Char(char::from(byte - 1 + b'a')), control),
             0x1c..=0x1f => self.press(KeyCode::Char(char::from(byte - 0x1c + b'4')), control),
             0x20..=0x7e => self.press_character(char::from(byte), is_alt),
-            0xc2..=0xf4 => self.pending = Pending::Character { bytes: vec![byte], is_alt },
+            0xc2..=0xf4 => {
+                self.pending = Pending::Character {
+                    bytes: vec![byte],
+                    is_alt,
+                }
+            }
             // No character begins with these bytes.
             0x80..=0xc1 | 0xf5..=0xff => {}
         }
@@ -236,11 +252,14 @@ impl Decoder {
 
     fn continue_gesture(&mut self, mut bytes: Vec<u8>, byte: u8) {
         // Each of the three bytes is a number plus 32.
-        let Some(number) = byte.checked_sub(b' ') else { return self.begin(byte, false) };
+        let Some(number) = byte.checked_sub(b' ') else {
+            return self.begin(byte, false);
+        };
         bytes.push(number);
         match bytes[..] {
             [button, column, row] => {
-                self.events.extend(mouse_event(button, column.into(), row.into(), false));
+                self.events
+                    .extend(mouse_event(button, column.into(), row.into(), false));
             }
             _ => self.pending = Pending::Gesture(bytes),
         }
@@ -290,7 +309,11 @@ fn numbered_key(number: u8) -> Option<KeyCode> {
 /// the explorer does not use.
 fn control_event(parameters: &str, last: u8) -> Option<Event> {
     if let Some(gesture) = parameters.strip_prefix('<') {
-        return if matches!(last, b'M' | b'm') { sgr_mouse_event(gesture, last == b'm') } else { None };
+        return if matches!(last, b'M' | b'm') {
+            sgr_mouse_event(gesture, last == b'm')
+        } else {
+            None
+        };
     }
     let mut numbers = parameters.split(';');
     let first = numbers.next().unwrap_or_default();
@@ -306,7 +329,12 @@ fn control_event(parameters: &str, last: u8) -> Option<Event> {
     let code = match last {
         b'~' => numbered_key(first.parse().ok()?)?,
         b'u' => coded_key(first.split(':').next()?.parse().ok()?)?,
-        b'Z' => return Some(Event::Key(KeyEvent::new(KeyCode::BackTab, modifiers | KeyModifiers::SHIFT))),
+        b'Z' => {
+            return Some(Event::Key(KeyEvent::new(
+                KeyCode::BackTab,
+                modifiers | KeyModifiers::SHIFT,
+            )));
+        }
         // ESC [ … R is an answer: the position of the cursor.
         b'P' | b'Q' | b'S' if matches!(first, "" | "1") => application_key(last)?,
         _ if matches!(first, "" | "1") => moving_key(last)?,
@@ -360,7 +388,12 @@ fn mouse_event(button: u8, column: u16, row: u16, is_release: bool) -> Option<Ev
         _ => return None,
     };
     let (column, row) = (column.checked_sub(1)?, row.checked_sub(1)?);
-    Some(Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }))
+    Some(Event::Mouse(MouseEvent {
+        kind,
+        column,
+        row,
+        modifiers: KeyModifiers::NONE,
+    }))
 }
 
 #[cfg(test)]
@@ -385,7 +418,12 @@ mod tests {
     }
 
     fn mouse(kind: MouseEventKind, column: u16, row: u16) -> Event {
-        Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE })
+        Event::Mouse(MouseEvent {
+            kind,
+            column,
+            row,
+            modifiers: KeyModifiers::NONE,
+        })
     }
 
     /// Sequences of terminals and the event of each.
@@ -427,12 +465,27 @@ mod tests {
             (b"\x1b[24~", plain(KeyCode::F(12))),
             (b"\x1b[1;2P", key(KeyCode::F(1), shift)),
             (b"\x1b[97;5u", key(KeyCode::Char('a'), control)),
-            (b"\x1b[<0;30;7M", mouse(MouseEventKind::Down(MouseButton::Left), 29, 6)),
-            (b"\x1b[<0;30;7m", mouse(MouseEventKind::Up(MouseButton::Left), 29, 6)),
-            (b"\x1b[<36;1;300M", mouse(MouseEventKind::Drag(MouseButton::Left), 0, 299)),
+            (
+                b"\x1b[<0;30;7M",
+                mouse(MouseEventKind::Down(MouseButton::Left), 29, 6),
+            ),
+            (
+                b"\x1b[<0;30;7m",
+                mouse(MouseEventKind::Up(MouseButton::Left), 29, 6),
+            ),
+            (
+                b"\x1b[<36;1;300M",
+                mouse(MouseEventKind::Drag(MouseButton::Left), 0, 299),
+            ),
             (b"\x1b[<64;2;3M", mouse(MouseEventKind::ScrollUp, 1, 2)),
-            (b"\x1b[M\x61\x22\x23", mouse(MouseEventKind::ScrollDown, 1, 2)),
-            (b"\x1b[200~1\r\n \x1b[A\x03 mN\x1b[201~", Event::Paste("1\r\n \x1b[A\x03 mN".to_owned())),
+            (
+                b"\x1b[M\x61\x22\x23",
+                mouse(MouseEventKind::ScrollDown, 1, 2),
+            ),
+            (
+                b"\x1b[200~1\r\n \x1b[A\x03 mN\x1b[201~",
+                Event::Paste("1\r\n \x1b[A\x03 mN".to_owned()),
+            ),
         ]
     }
 
@@ -443,7 +496,12 @@ mod tests {
                 let mut decoder = Decoder::default();
                 let mut events = decoder.read(&bytes[..split]);
                 events.extend(decoder.read(&bytes[split..]));
-                assert_eq!(events, std::slice::from_ref(&event), "{} at {split}", bytes.escape_ascii());
+                assert_eq!(
+                    events,
+                    std::slice::from_ref(&event),
+                    "{} at {split}",
+                    bytes.escape_ascii()
+                );
                 assert_eq!(decoder.pause(), None, "{} at {split}", bytes.escape_ascii());
             }
         }
@@ -452,12 +510,18 @@ mod tests {
     #[test]
     fn all_sequences_in_a_row_are_their_events() {
         let sequences = sequences();
-        let bytes: Vec<u8> = sequences.iter().flat_map(|(bytes, _)| bytes.iter().copied()).collect();
+        let bytes: Vec<u8> = sequences
+            .iter()
+            .flat_map(|(bytes, _)| bytes.iter().copied())
+            .collect();
         let events: Vec<Event> = sequences.into_iter().map(|(_, event)| event).collect();
         // A piece of one byte in a paste may be a Ctrl+C.
         for size in 2..40 {
             let mut decoder = Decoder::default();
-            let read: Vec<Event> = bytes.chunks(size).flat_map(|piece| decoder.read(piece)).collect();
+            let read: Vec<Event> = bytes
+                .chunks(size)
+                .flat_map(|piece| decoder.read(piece))
+                .collect();
             assert_eq!(read, events, "pieces of {size}");
         }
     }
@@ -482,7 +546,11 @@ mod tests {
         ];
         for answer in answers {
             let mut decoder = Decoder::default();
-            assert_eq!(decoder.read(format!("{answer}j").as_bytes()), [letter('j')], "{answer:?}");
+            assert_eq!(
+                decoder.read(format!("{answer}j").as_bytes()),
+                [letter('j')],
+                "{answer:?}"
+            );
         }
     }
 
@@ -497,7 +565,10 @@ mod tests {
             decoder.read(b"\x1b\x1b\x1b[A"),
             [plain(KeyCode::Esc), plain(KeyCode::Esc), plain(KeyCode::Up)]
         );
-        assert_eq!(decoder.read(b"\x1b\x03"), [plain(KeyCode::Esc), interrupt()]);
+        assert_eq!(
+            decoder.read(b"\x1b\x03"),
+            [plain(KeyCode::Esc), interrupt()]
+        );
     }
 
     #[test]
@@ -511,7 +582,10 @@ mod tests {
         };
         assert_eq!(begun(b"\x1b[200~abc").give_up(), [paste("abc")]);
         assert_eq!(begun(b"\x1b[200~abc\x1b[20").give_up(), [paste("abc")]);
-        assert_eq!(begun(b"\x1b[200~abc\x03").give_up(), [paste("abc"), interrupt()]);
+        assert_eq!(
+            begun(b"\x1b[200~abc\x03").give_up(),
+            [paste("abc"), interrupt()]
+        );
         let mut decoder = begun(b"\x1b[200~abc");
         assert_eq!(decoder.read(b"\x03"), [paste("abc"), interrupt()]);
         assert_eq!(decoder.pause(), None);

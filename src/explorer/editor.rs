@@ -23,7 +23,9 @@ impl Edited {
     /// Returns true if an edit from one to the other changes something that an undo restores.
     fn differs(&self, other: &Edited) -> bool {
         let options = |one: &Edited| {
-            one.measured.as_ref().map(|measured| (measured.path.clone(), measured.options.clone()))
+            one.measured
+                .as_ref()
+                .map(|measured| (measured.path.clone(), measured.options.clone()))
         };
         self.document.name() != other.document.name()
             || self.document.text() != other.document.text()
@@ -90,16 +92,26 @@ impl Editor {
     /// the row that switched an effect off can switch it on again.
     fn row_of(&self, path: &str) -> usize {
         // A loading stage with a number has its row at the path of the number.
-        let is_at =
-            |one: &Parameter, path: &str| one.path == path || one.path.strip_suffix(".0") == Some(path);
-        let row = |path: &str| self.parameters.iter().position(|parameter| is_at(parameter, path));
-        let around = successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
+        let is_at = |one: &Parameter, path: &str| {
+            one.path == path || one.path.strip_suffix(".0") == Some(path)
+        };
+        let row = |path: &str| {
+            self.parameters
+                .iter()
+                .position(|parameter| is_at(parameter, path))
+        };
+        let around = successors(Some(path), |path| {
+            path.rsplit_once('.').map(|(group, _)| group)
+        });
         around.filter_map(row).next().unwrap_or(self.selected)
     }
 
     /// Makes a document the explored one; an undo returns to the former document, unless both are the same.
     pub fn adopt(&mut self, document: Document) {
-        self.adopt_all(Edited { document, measured: self.measured.clone() });
+        self.adopt_all(Edited {
+            document,
+            measured: self.measured.clone(),
+        });
     }
 
     /// Makes a document and a measured curve the explored ones, in one edit.
@@ -116,7 +128,10 @@ impl Editor {
     }
 
     fn edited(&self) -> Edited {
-        Edited { document: self.document.clone(), measured: self.measured.clone() }
+        Edited {
+            document: self.document.clone(),
+            measured: self.measured.clone(),
+        }
     }
 
     /// Puts document and measured curve in the place of the present ones, which are returned.
@@ -137,9 +152,17 @@ impl Editor {
     /// Undoes the last edit or, unless `back`, redoes the last undone edit. Returns the change in words; `None` without
     /// such an edit.
     pub fn undo(&mut self, back: bool) -> Option<String> {
-        let next = if back { self.past.pop()? } else { self.future.pop()? };
+        let next = if back {
+            self.past.pop()?
+        } else {
+            self.future.pop()?
+        };
         let before = self.exchange(next);
-        let to = if back { &mut self.future } else { &mut self.past };
+        let to = if back {
+            &mut self.future
+        } else {
+            &mut self.past
+        };
         to.push(before.clone());
         let changes = before.document.changes_to(&self.document);
         let mut changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
@@ -168,10 +191,14 @@ impl Editor {
     }
 
     fn renew(&mut self) {
-        let selected = self.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
+        let selected = self
+            .parameter()
+            .map(|parameter| parameter.path.clone())
+            .unwrap_or_default();
         // A scene left before is the present one again.
         let document = &self.document;
-        self.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
+        self.left
+            .retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
         self.parameters = parameters(&self.document, self.measured.as_ref());
         self.scene = scene_of(&self.document);
         self.select(self.row_of(&selected));
@@ -206,7 +233,8 @@ impl Editor {
                 Err(_) => drop(self.saved.remove(document.name())),
             }
             if number > 0 {
-                self.left.insert(document.name().to_owned(), document.clone());
+                self.left
+                    .insert(document.name().to_owned(), document.clone());
             }
         }
     }
@@ -224,7 +252,9 @@ impl Editor {
 
     /// Marks the scene as saved to a file, which becomes its own file.
     pub fn set_saved_as(&mut self, path: &Path) {
-        if let Ok(document) = Document::parse(&self.document.text_for_own_file(), &path.to_string_lossy()) {
+        if let Ok(document) =
+            Document::parse(&self.document.text_for_own_file(), &path.to_string_lossy())
+        {
             self.scene = scene_of(&document);
             self.document = document;
         }
@@ -233,7 +263,8 @@ impl Editor {
 
     pub fn set_saved(&mut self) {
         self.saves += 1;
-        self.saved.insert(self.document.name().to_owned(), self.document.clone());
+        self.saved
+            .insert(self.document.name().to_owned(), self.document.clone());
     }
 }
 

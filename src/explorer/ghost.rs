@@ -15,7 +15,11 @@ impl Ghost {
     pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
         let changes = self.document.changes_to(present);
         let parts: Vec<String> = changes.iter().map(words).collect();
-        if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
+        if parts.is_empty() {
+            "the same scene".to_owned()
+        } else {
+            parts.join(", ")
+        }
     }
 }
 

@@ -13,7 +13,9 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
     // One piece: further bytes wait in the terminal.
     let (pieces, received) = sync_channel(1);
     let terminal = keyboard()?;
-    spawn("terminal", move || read_pieces(terminal, |piece| pieces.send(piece).is_ok()))?;
+    spawn("terminal", move || {
+        read_pieces(terminal, |piece| pieces.send(piece).is_ok())
+    })?;
     spawn("input", move || {
         let mut decoder = Decoder::default();
         loop {
@@ -41,7 +43,10 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
 
 #[cfg(unix)]
 fn spawn(name: &str, work: impl FnOnce() + Send + 'static) -> std::io::Result<()> {
-    std::thread::Builder::new().name(name.to_owned()).spawn(work).map(drop)
+    std::thread::Builder::new()
+        .name(name.to_owned())
+        .spawn(work)
+        .map(drop)
 }
 
 /// The terminal as the user's keyboard: standard input, or the terminal of the process if input comes from elsewhere.
@@ -112,7 +117,11 @@ pub fn action_of(event: Event) -> Option<Action> {
     }
 }
 
-fn gesture_of(MouseEvent { kind, column, row, .. }: MouseEvent) -> Option<Action> {
+fn gesture_of(
+    MouseEvent {
+        kind, column, row, ..
+    }: MouseEvent,
+) -> Option<Action> {
     let gesture = match kind {
         MouseEventKind::Down(MouseButton::Left) => Gesture::Press,
         MouseEventKind::Drag(MouseButton::Left) => Gesture::Drag,
@@ -120,5 +129,9 @@ fn gesture_of(MouseEvent { kind, column, row, .. }: MouseEvent) -> Option<Action
         MouseEventKind::ScrollDown => Gesture::Wheel(-1),
         _ => return None,
     };
-    Some(Action::Mouse(Mouse { column, row, gesture }))
+    Some(Action::Mouse(Mouse {
+        column,
+        row,
+        gesture,
+    }))
 }

@@ -25,11 +25,18 @@ impl Layout {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
         // The lines around the panes give way before the panes.
         let footer = height >= 6;
-        let top = if height >= 32 { 2 } else { u16::from(height >= 8) };
+        let top = if height >= 32 {
+            2
+        } else {
+            u16::from(height >= 8)
+        };
         let bottom = 1 + u16::from(footer);
         let body = Rect::new(0, top, width, height.saturating_sub(top + bottom));
         Layout {
-            title: (top > 0).then(|| Rect { height: top, ..row(0) }),
+            title: (top > 0).then(|| Rect {
+                height: top,
+                ..row(0)
+            }),
             panes: panes(app, body),
             status: row(height.saturating_sub(bottom)),
             footer: footer.then(|| row(height - 1)),
@@ -37,21 +44,30 @@ impl Layout {
     }
 
     pub fn body(&self) -> Rect {
-        self.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
+        self.panes
+            .iter()
+            .map(|(_, area)| *area)
+            .reduce(Rect::union)
+            .unwrap_or_default()
     }
 
     /// The area of a pane with its title; `None` for a pane that is not shown.
     pub fn pane(&self, wanted: Pane) -> Option<Rect> {
-        self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
+        self.panes
+            .iter()
+            .find(|(pane, _)| *pane == wanted)
+            .map(|(_, area)| *area)
     }
 
     /// Width of the profile in cells, without its histogram.
     pub fn profile_cells(&self) -> usize {
-        self.pane(Pane::Profile).map_or(0, |area| usize::from(split(inside(area)).0.width))
+        self.pane(Pane::Profile)
+            .map_or(0, |area| usize::from(split(inside(area)).0.width))
     }
 
     pub fn close_up_cells(&self) -> usize {
-        self.pane(Pane::CloseUp).map_or(0, |area| usize::from(inside(area).width))
+        self.pane(Pane::CloseUp)
+            .map_or(0, |area| usize::from(inside(area).width))
     }
 }
 
@@ -60,7 +76,12 @@ pub fn inside(area: Rect) -> Rect {
     if !has_title(area) {
         return area;
     }
-    Rect { y: area.y + 1, height: area.height - 1, width: area.width - 1, ..area }
+    Rect {
+        y: area.y + 1,
+        height: area.height - 1,
+        width: area.width - 1,
+        ..area
+    }
 }
 
 /// Returns true if a pane is large enough for a title.
@@ -98,28 +119,60 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
             _ => 1,
         };
         let height = body.height - rows;
-        let list = Rect { y: body.y + height, height: rows, ..body };
+        let list = Rect {
+            y: body.y + height,
+            height: rows,
+            ..body
+        };
         return vec![(only, Rect { height, ..body }), (Pane::Parameters, list)];
     }
     let list = (u32::from(body.width) * 35 / 100).clamp(LIST.0.into(), LIST.1.into()) as u16;
-    let left = Rect { width: body.width - list, ..body };
-    let list = (Pane::Parameters, Rect { x: left.right(), width: list, ..body });
+    let left = Rect {
+        width: body.width - list,
+        ..body
+    };
+    let list = (
+        Pane::Parameters,
+        Rect {
+            x: left.right(),
+            width: list,
+            ..body
+        },
+    );
     // All that it states needs the height of the window.
     let is_alone = main == Pane::Trust && selected != Pane::Force;
     if body.height < WITH_LOWER || is_alone {
         return vec![(only, left), list];
     }
-    let upper = Rect { height: (u32::from(body.height) * 62 / 100) as u16, ..left };
-    let lower = Rect { y: upper.bottom(), height: left.height - upper.height, ..left };
+    let upper = Rect {
+        height: (u32::from(body.height) * 62 / 100) as u16,
+        ..left
+    };
+    let lower = Rect {
+        y: upper.bottom(),
+        height: left.height - upper.height,
+        ..left
+    };
     let below = match app.view.large {
         Some(_) => vec![(Pane::Force, lower)],
         None if left.width >= WITH_CLOSE_UP => {
-            let profile = Rect { width: lower.width * 3 / 5, ..lower };
-            let close_up = Rect { x: profile.right(), width: lower.width - profile.width, ..lower };
+            let profile = Rect {
+                width: lower.width * 3 / 5,
+                ..lower
+            };
+            let close_up = Rect {
+                x: profile.right(),
+                width: lower.width - profile.width,
+                ..lower
+            };
             vec![(Pane::Profile, profile), (Pane::CloseUp, close_up)]
         }
         None if selected == Pane::CloseUp => vec![(Pane::CloseUp, lower)],
         None => vec![(Pane::Profile, lower)],
     };
-    [(main, upper)].into_iter().chain(below).chain([list]).collect()
+    [(main, upper)]
+        .into_iter()
+        .chain(below)
+        .chain([list])
+        .collect()
 }

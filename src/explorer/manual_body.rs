@@ -36,8 +36,17 @@ impl ManualBody {
             body.move_to(Move::ToSeparation).ok()?;
         }
         let reach = Reach::of(leg.contact());
-        let travel = ManualPath { loading, ..ManualPath::default() };
-        Some(ManualBody { body, travel, step, reach, direction })
+        let travel = ManualPath {
+            loading,
+            ..ManualPath::default()
+        };
+        Some(ManualBody {
+            body,
+            travel,
+            step,
+            reach,
+            direction,
+        })
     }
 
     pub fn point(&self) -> CurvePoint {
@@ -50,7 +59,14 @@ impl ManualBody {
 
     pub fn travel(&mut self) -> ManualPath {
         let (released_energy, loading) = (self.travel.released_energy, self.travel.loading.clone());
-        std::mem::replace(&mut self.travel, ManualPath { released_energy, loading, ..ManualPath::default() })
+        std::mem::replace(
+            &mut self.travel,
+            ManualPath {
+                released_energy,
+                loading,
+                ..ManualPath::default()
+            },
+        )
     }
 
     /// Moves the body; a refused move leaves it where it is.
@@ -72,8 +88,13 @@ impl ManualBody {
         if let Some(why) = self.reach.refusal(target) {
             return Err(why);
         }
-        let moved = self.body.move_to(target).map_err(|error| error.in_words(target))?;
-        let Some(Motion { leg, low, high, .. }) = moved else { return Ok(()) };
+        let moved = self
+            .body
+            .move_to(target)
+            .map_err(|error| error.in_words(target))?;
+        let Some(Motion { leg, low, high, .. }) = moved else {
+            return Ok(());
+        };
         let to = self.body.point();
         let way = to.indentation - from.indentation;
         let points = match target {
@@ -84,7 +105,9 @@ impl ManualBody {
             Move::ToSeparation => -self.step,
             _ => way / f64::from(POINTS),
         };
-        let mut at: Vec<f64> = (1..=points).map(|k| from.indentation + step * f64::from(k)).collect();
+        let mut at: Vec<f64> = (1..=points)
+            .map(|k| from.indentation + step * f64::from(k))
+            .collect();
         at.sort_by(f64::total_cmp);
         let mut path = leg.curve(&at).map_err(|error| error.to_string())?;
         if way < 0.0 {
@@ -92,7 +115,11 @@ impl ManualBody {
         }
         // All springs attach or detach between contact and separation.
         let passes_separation = from.springs == 0 || to.springs == 0;
-        let below = if passes_separation { f64::NEG_INFINITY } else { low };
+        let below = if passes_separation {
+            f64::NEG_INFINITY
+        } else {
+            low
+        };
         // Motions in one direction are one stage, to the last target.
         let direction = Some(leg.direction());
         if std::mem::replace(&mut self.direction, direction) == direction {
@@ -100,7 +127,9 @@ impl ManualBody {
         }
         let stage = self.travel.loading.len();
         self.travel.loading.push(target);
-        self.travel.path.extend(path.into_iter().chain([to]).map(|point| (stage, point)));
+        self.travel
+            .path
+            .extend(path.into_iter().chain([to]).map(|point| (stage, point)));
         self.travel.changed += to.springs.abs_diff(from.springs);
         self.travel.released_energy += leg.released_energy(below, high);
         Ok(())

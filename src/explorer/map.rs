@@ -33,14 +33,23 @@ pub struct Live {
 
 impl Default for MapState {
     fn default() -> Self {
-        MapState { quantity: Quantity::Regime, study: None, of_study: false, moving: false }
+        MapState {
+            quantity: Quantity::Regime,
+            study: None,
+            of_study: false,
+            moving: false,
+        }
     }
 }
 
 impl OpenStudy {
     pub fn new(study_map: Arc<StudyMap>, slice: u64) -> Self {
         let grid = Arc::new(study_map.grid(slice));
-        OpenStudy { study_map, slice, grid }
+        OpenStudy {
+            study_map,
+            slice,
+            grid,
+        }
     }
 
     /// Number of the map `steps` after the shown one; the first follows the last.
@@ -52,7 +61,10 @@ impl OpenStudy {
 
 impl Live {
     pub fn of(map: &LiveMap) -> Self {
-        Live { map: map.clone(), grid: map.grid() }
+        Live {
+            map: map.clone(),
+            grid: map.grid(),
+        }
     }
 }
 

@@ -27,7 +27,13 @@ impl Measured {
     pub fn read(path: &Path, options: CurveOptions) -> Result<Self, ExperimentError> {
         let curve = MeasuredCurve::read(path, &options)?;
         let (name, offset) = (path_name(path), curve.touch);
-        Ok(Measured { name, path: path.to_owned(), curve: curve.into(), options, offset })
+        Ok(Measured {
+            name,
+            path: path.to_owned(),
+            curve: curve.into(),
+            options,
+            offset,
+        })
     }
 
     /// The curve as read with other options. First touch stays where it was found if the displacements are the same.
@@ -42,9 +48,18 @@ impl Measured {
     pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
         let point = |(at, force): (&f64, &f64)| {
             let indentation = at - self.offset - force / stiffness;
-            CurvePoint { indentation, force: *force, ..CurvePoint::default() }
+            CurvePoint {
+                indentation,
+                force: *force,
+                ..CurvePoint::default()
+            }
         };
-        self.curve.displacement.iter().zip(&self.curve.force).map(point).collect()
+        self.curve
+            .displacement
+            .iter()
+            .zip(&self.curve.force)
+            .map(point)
+            .collect()
     }
 
     /// Differences of the measured forces from the forces of a model, N, in units of the noise.

@@ -18,7 +18,9 @@ pub fn act(app: &mut App, mouse: Mouse) {
         return;
     }
     let here = Position::new(mouse.column, mouse.row);
-    let Some((pane, under)) = under(app, here) else { return };
+    let Some((pane, under)) = under(app, here) else {
+        return;
+    };
     match mouse.gesture {
         Gesture::Wheel(turns) => wheel(app, pane, under, turns),
         // A drag stays in the pane in which it began.
@@ -38,7 +40,15 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
         }
         (Pane::Profile | Pane::CloseUp, under) => {
             app.view.pane = pane;
-            view::zoom_at(app, turns, if let Under::Data(x, _) = under { Some(x) } else { None });
+            view::zoom_at(
+                app,
+                turns,
+                if let Under::Data(x, _) = under {
+                    Some(x)
+                } else {
+                    None
+                },
+            );
         }
         _ => {}
     }

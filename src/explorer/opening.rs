@@ -38,7 +38,12 @@ pub enum OpeningError {
 
 impl From<Document> for Opening {
     fn from(document: Document) -> Self {
-        Opening { document, study_map: None, ghost: None, measured: None }
+        Opening {
+            document,
+            study_map: None,
+            ghost: None,
+            measured: None,
+        }
     }
 }
 
@@ -54,17 +59,30 @@ impl Opening {
         Self::with(name, open_argument)
     }
 
-    fn with(name: &str, open: impl Fn(&str) -> Result<Document, SceneErrors>) -> Result<Self, OpeningError> {
+    fn with(
+        name: &str,
+        open: impl Fn(&str) -> Result<Document, SceneErrors>,
+    ) -> Result<Self, OpeningError> {
         let folder = Path::new(name);
         if !folder.is_dir() {
-            return open(name).map(Opening::from).map_err(|errors| OpeningError::Scene(Box::new(errors)));
+            return open(name)
+                .map(Opening::from)
+                .map_err(|errors| OpeningError::Scene(Box::new(errors)));
         }
         if Folder::is_at(folder) {
-            let study_map = StudyMap::open(folder).map_err(|error| OpeningError::Study(Box::new(error)))?;
-            let document = study_map.document().map_err(|errors| OpeningError::Scene(Box::new(errors)))?;
-            return Ok(Opening { study_map: Some(Arc::new(study_map)), ..Opening::from(document) });
+            let study_map =
+                StudyMap::open(folder).map_err(|error| OpeningError::Study(Box::new(error)))?;
+            let document = study_map
+                .document()
+                .map_err(|errors| OpeningError::Scene(Box::new(errors)))?;
+            return Ok(Opening {
+                study_map: Some(Arc::new(study_map)),
+                ..Opening::from(document)
+            });
         }
-        open(name).map(Opening::from).map_err(|_| OpeningError::Folder(name.to_owned()))
+        open(name)
+            .map(Opening::from)
+            .map_err(|_| OpeningError::Folder(name.to_owned()))
     }
 }
 

@@ -24,7 +24,10 @@ impl Pane {
 
     /// Returns true for a pane that takes the place of profile and close-up.
     pub fn is_large(self) -> bool {
-        !matches!(self, Self::Force | Self::Profile | Self::CloseUp | Self::Parameters)
+        !matches!(
+            self,
+            Self::Force | Self::Profile | Self::CloseUp | Self::Parameters
+        )
     }
 
     /// Name for a file with the content of the pane; the parameters export the force curve.

@@ -41,23 +41,43 @@ const NARROW: u16 = 40;
 const FEWEST_ROWS: u16 = 6;
 impl Panel {
     pub fn of_chart(title: String, chart: Chart) -> Panel {
-        Panel { body: Body::Chart(Box::new(PaneChart::new(chart))), ..Panel::of_text(title, "") }
+        Panel {
+            body: Body::Chart(Box::new(PaneChart::new(chart))),
+            ..Panel::of_text(title, "")
+        }
     }
 
     pub fn of_text(title: String, text: &str) -> Panel {
         let body = Body::Text(text.to_owned());
-        Panel { title, head: Vec::new(), body, foot: Vec::new(), edge: Vec::new() }
+        Panel {
+            title,
+            head: Vec::new(),
+            body,
+            foot: Vec::new(),
+            edge: Vec::new(),
+        }
     }
 
     pub fn chart(&self) -> Option<&Chart> {
-        if let Body::Chart(plot) = &self.body { Some(&plot.chart) } else { None }
+        if let Body::Chart(plot) = &self.body {
+            Some(&plot.chart)
+        } else {
+            None
+        }
     }
 
     /// Adds a vertical line at a share of the horizontal axis, with the values of all named curves there: beside the
     /// title or, if they need more than this width, below the chart.
     pub fn read_at(&mut self, share: f64, look: Appearance, width: u16) {
-        let Body::Chart(plot) = &mut self.body else { return };
-        let Chart { x: across, y: up, layers, .. } = &mut plot.chart;
+        let Body::Chart(plot) = &mut self.body else {
+            return;
+        };
+        let Chart {
+            x: across,
+            y: up,
+            layers,
+            ..
+        } = &mut plot.chart;
         let at = across.span.low + share * across.span.width();
         let x = across.scale.number(at);
         let value = |axis: &ChartAxis, number| format_rounded(number, 3, &axis.unit);
@@ -65,7 +85,9 @@ impl Panel {
         for layer in layers.iter().filter(|layer| !layer.name.is_empty()) {
             let read = |points: &[(f64, f64)]| {
                 let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), point.1);
-                let mut between = points.windows(2).map(|pair| (place(&pair[0]), place(&pair[1])));
+                let mut between = points
+                    .windows(2)
+                    .map(|pair| (place(&pair[0]), place(&pair[1])));
                 let (from, to) = between.find(|(from, to)| {
                     // Also at an end that is rounded.
                     let far = HAIR * across.span.width() * (to.0 - from.0).abs();
@@ -75,7 +97,11 @@ impl Panel {
                 // The ends themselves where there is nothing between them, or no coordinate.
                 let share = (at - from.0) / (to.0 - from.0);
                 let is_level = low == high || !(low.is_finite() && high.is_finite());
-                Some(if is_level { from.1 } else { up.scale.number(low + (high - low) * share) })
+                Some(if is_level {
+                    from.1
+                } else {
+                    up.scale.number(low + (high - low) * share)
+                })
             };
             match &layer.shape {
                 Shape::Curve { points, .. } => {
@@ -83,7 +109,12 @@ impl Panel {
                 }
                 Shape::Band(points) => {
                     let end = |of: fn(&(f64, f64, f64)) -> f64| {
-                        read(&points.iter().map(|point| (point.0, of(point))).collect::<Vec<_>>())
+                        read(
+                            &points
+                                .iter()
+                                .map(|point| (point.0, of(point)))
+                                .collect::<Vec<_>>(),
+                        )
                     };
                     let ends = end(|point| point.1).zip(end(|point| point.2));
                     let range = ends.map(|ends| format_range(ends, 3, &up.unit));
@@ -94,21 +125,37 @@ impl Panel {
         }
         let upright = || asperity_plot::Layer::unnamed(Ink::Cursor, Shape::Upright(x));
         layers.insert(0, upright());
-        plot.below.iter_mut().for_each(|below| below.layers.insert(0, upright()));
+        plot.below
+            .iter_mut()
+            .for_each(|below| below.layers.insert(0, upright()));
         let style = look.theme.style(Meaning::Cursor);
-        self.show(parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect(), width);
+        self.show(
+            parts
+                .into_iter()
+                .map(|text| vec![Span::styled(text, style)])
+                .collect(),
+            width,
+        );
     }
 
     /// Shows readings beside the title or, if there is no room for all of them, below the chart.
     pub fn show(&mut self, readings: Vec<Part>, width: u16) {
         let taken = self.title.chars().count() + 8;
-        let lines = filled(readings.clone(), "  ", usize::from(width).saturating_sub(taken));
+        let lines = filled(
+            readings.clone(),
+            "  ",
+            usize::from(width).saturating_sub(taken),
+        );
         let is_whole = lines.len() == 1 && lines[0].spans.len() + 1 >= 2 * readings.len();
         if is_whole {
             self.edge = readings;
         } else {
             // A low pane has no rows below its chart.
-            self.edge = if width < NARROW { readings.clone() } else { Vec::new() };
+            self.edge = if width < NARROW {
+                readings.clone()
+            } else {
+                Vec::new()
+            };
             self.foot.splice(..0, filled(readings, "  ", width.into()));
         }
     }
@@ -125,7 +172,9 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     let scale = chart.map().map(|map| {
         let name = title(format!("{} ", map.key.label_with_unit()));
         let scale = key(map, width.saturating_sub(name.width()), Colours::None);
-        std::iter::once(name).chain(scale.into_iter().map(|(text, _)| Span::raw(text))).collect()
+        std::iter::once(name)
+            .chain(scale.into_iter().map(|(text, _)| Span::raw(text)))
+            .collect()
     });
     let label = vec![title(format!("↑ {}", chart.y.label_with_unit()))];
     std::iter::once(label).chain(scale).collect()
@@ -134,7 +183,10 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
 /// Calls `draw` with the styles of charts for this appearance.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
     let ink = |ink| look.theme.style(meaning(ink));
-    draw(&CellStyle { ink: &ink, colours: Colours::None })
+    draw(&CellStyle {
+        ink: &ink,
+        colours: Colours::None,
+    })
 }
 
 pub fn meaning(ink: Ink) -> Meaning {
@@ -174,11 +226,22 @@ impl Places {
         let room = area.height.saturating_sub(least);
         let above = ((panel.head.len() + legend) as u16).min(room);
         let below = (panel.foot.len() as u16).min(room - above);
-        let body = Rect { y: area.y + above, height: area.height - above - below, ..area };
+        let body = Rect {
+            y: area.y + above,
+            height: area.height - above - below,
+            ..area
+        };
         Places {
-            head: Rect { height: above, ..area },
+            head: Rect {
+                height: above,
+                ..area
+            },
             body,
-            foot: Rect { y: body.bottom(), height: below, ..area },
+            foot: Rect {
+                y: body.bottom(),
+                height: below,
+                ..area
+            },
         }
     }
 }
@@ -192,7 +255,11 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
     draw_lines(&panel.foot, foot, buffer);
     match &panel.body {
         Body::Text(text) => {
-            draw_lines(&wrapped(&Line::styled(text.clone(), quiet), body.width), body, buffer);
+            draw_lines(
+                &wrapped(&Line::styled(text.clone(), quiet), body.width),
+                body,
+                buffer,
+            );
         }
         Body::Rows { rows, selected } => {
             let first = first_row(*selected, rows.len(), body.height);
@@ -202,8 +269,20 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
                 let mut state = ScrollbarState::new(hidden + 1).position(first);
                 state = state.viewport_content_length(body.height.into());
                 let bar = Scrollbar::new(ScrollbarOrientation::VerticalRight).style(quiet);
-                let bar = bar.begin_symbol(None).end_symbol(None).track_symbol(Some("│")).thumb_symbol("█");
-                bar.render(Rect { x: area.right() - 1, width: 1, ..body }, buffer, &mut state);
+                let bar = bar
+                    .begin_symbol(None)
+                    .end_symbol(None)
+                    .track_symbol(Some("│"))
+                    .thumb_symbol("█");
+                bar.render(
+                    Rect {
+                        x: area.right() - 1,
+                        width: 1,
+                        ..body
+                    },
+                    buffer,
+                    &mut state,
+                );
             }
         }
         Body::Chart(plot) => drop(in_theme(look, |style| plot.draw(body, style, buffer))),
@@ -219,15 +298,24 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
 /// Entries of the legend that have no room beside their curves: as lines above the chart, or if there is room for all of
 /// them on the right of the title, with the texts that are there.
 fn legend_of(panel: &Panel, area: Rect, look: Appearance) -> (Vec<Line<'static>>, Vec<Part>) {
-    let Body::Chart(plot) = &panel.body else { return (Vec::new(), panel.edge.clone()) };
+    let Body::Chart(plot) = &panel.body else {
+        return (Vec::new(), panel.edge.clone());
+    };
     let inner = inside(area);
     let (mut kept, mut legend): (Vec<Part>, _) = (Vec::new(), Vec::new());
     // Rows of the legend leave less room for names beside the curves.
     for _ in 0..MOST_ROUNDS {
         let body = Places::within(panel, legend.len(), inner).body;
-        let left_out = in_theme(look, |style| plot.draw(body, style, &mut Buffer::empty(body)));
+        let left_out = in_theme(look, |style| {
+            plot.draw(body, style, &mut Buffer::empty(body))
+        });
         let before = kept.len();
-        kept.extend(left_out.into_iter().filter(|entry| !kept.contains(entry)).collect::<Vec<_>>());
+        kept.extend(
+            left_out
+                .into_iter()
+                .filter(|entry| !kept.contains(entry))
+                .collect::<Vec<_>>(),
+        );
         let all: Vec<Part> = kept.iter().chain(&panel.edge).cloned().collect();
         let width = |part: &Part| part.iter().map(Span::width).sum::<usize>() + 1;
         let taken = panel.title.chars().count() + 8 + all.iter().map(width).sum::<usize>();
@@ -251,14 +339,28 @@ fn title_line(
     look: Appearance,
 ) -> Line<'static> {
     let quiet = look.theme.style(Meaning::Quiet);
-    let (mark, style) = if is_selected { ("▸", look.theme.style(Meaning::Title)) } else { ("─", quiet) };
+    let (mark, style) = if is_selected {
+        ("▸", look.theme.style(Meaning::Title))
+    } else {
+        ("─", quiet)
+    };
     let mut line = fitted(Line::styled(format!("{mark} {title} "), style), width);
     let room = usize::from(width) - line.width();
     let edge = spaced(edge, room.saturating_sub(4));
-    let dashes = room - if edge.width() > 0 { edge.width() + 2 } else { 0 };
+    let dashes = room
+        - if edge.width() > 0 {
+            edge.width() + 2
+        } else {
+            0
+        };
     line.push_span(Span::styled("─".repeat(dashes), quiet));
     if edge.width() > 0 {
-        line.spans.extend([Span::raw(" ")].into_iter().chain(edge.spans).chain([Span::raw(" ")]));
+        line.spans.extend(
+            [Span::raw(" ")]
+                .into_iter()
+                .chain(edge.spans)
+                .chain([Span::raw(" ")]),
+        );
     }
     line
 }
@@ -283,7 +385,11 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
 /// otherwise one.
 fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
-    let between = if widths + 2 * parts.len().saturating_sub(1) <= columns { "  " } else { " " };
+    let between = if widths + 2 * parts.len().saturating_sub(1) <= columns {
+        "  "
+    } else {
+        " "
+    };
     let mut taken = 0;
     let fits = parts.iter().take_while(|part| {
         taken += part.iter().map(Span::width).sum::<usize>() + between.len();
@@ -291,7 +397,10 @@ fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
     });
     let count = fits.count();
     parts.truncate(count);
-    filled(parts, between, columns).into_iter().next().unwrap_or_default()
+    filled(parts, between, columns)
+        .into_iter()
+        .next()
+        .unwrap_or_default()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -313,7 +422,11 @@ pub fn under(panel: &Panel, area: Rect, look: Appearance, cell: Position) -> Und
         }
         Body::Rows { rows, selected } if body.contains(cell) => {
             let row = first_row(*selected, rows.len(), body.height) + usize::from(cell.y - body.y);
-            if row < rows.len() { Under::Row(row) } else { Under::Frame }
+            if row < rows.len() {
+                Under::Row(row)
+            } else {
+                Under::Frame
+            }
         }
         _ => Under::Frame,
     }
@@ -328,16 +441,45 @@ mod tests {
 
     #[test]
     fn the_crosshair_reads_curves_and_both_ends_of_bands() {
-        let axis =
-            |symbol: &str| ChartAxis::new(AxisScale::Linear, Range { low: 0.0, high: 4.0 }, "", symbol, "1");
+        let axis = |symbol: &str| {
+            ChartAxis::new(
+                AxisScale::Linear,
+                Range {
+                    low: 0.0,
+                    high: 4.0,
+                },
+                "",
+                symbol,
+                "1",
+            )
+        };
         let layers = vec![
-            Layer::new("quartiles".into(), Ink::Kept, Shape::Band(vec![(0.0, 1.0, 2.0), (4.0, 3.0, 4.0)])),
-            Layer::new("median".into(), Ink::Kept, Shape::line(vec![(0.0, 2.0), (4.0, 3.0)], Stroke::Solid)),
+            Layer::new(
+                "quartiles".into(),
+                Ink::Kept,
+                Shape::Band(vec![(0.0, 1.0, 2.0), (4.0, 3.0, 4.0)]),
+            ),
+            Layer::new(
+                "median".into(),
+                Ink::Kept,
+                Shape::line(vec![(0.0, 2.0), (4.0, 3.0)], Stroke::Solid),
+            ),
             Layer::unnamed(Ink::Quiet, Shape::Level(1.0)),
         ];
         let mut panel = Panel::of_chart(String::new(), Chart::new(axis("x"), axis("y"), layers));
-        panel.read_at(0.25, Appearance { theme: Theme::Plain, marker: Marker::Braille }, 80);
-        let read: Vec<String> = panel.edge.iter().map(|part| part[0].content.to_string()).collect();
+        panel.read_at(
+            0.25,
+            Appearance {
+                theme: Theme::Plain,
+                marker: Marker::Braille,
+            },
+            80,
+        );
+        let read: Vec<String> = panel
+            .edge
+            .iter()
+            .map(|part| part[0].content.to_string())
+            .collect();
         assert_eq!(read, ["x 1", "quartiles 1.5 to 2.5", "median 2.25"]);
     }
 }

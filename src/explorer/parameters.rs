@@ -11,21 +11,46 @@ use asperity_scene::{Document, RoughnessParameter, Scene};
 
 /// Groups in the order of the list. Parameters that are varied most come first: adhesion, load and roughness; form and
 /// material are usually chosen once for a scene, and a measured curve is beside the scene.
-const GROUPS: [&str; 8] =
-    ["adhesion", "loading", "roughness", "form", "material", "numerics", "title", reading::GROUP];
+const GROUPS: [&str; 8] = [
+    "adhesion",
+    "loading",
+    "roughness",
+    "form",
+    "material",
+    "numerics",
+    "title",
+    reading::GROUP,
+];
 
 /// Fields of the scene file without a row in the list; the choice of a tolerance sets the edges.
-const HIDDEN: [&str; 5] = ["version", "observe", "numerics.samples", "numerics.edges", "numerics.solver"];
+const HIDDEN: [&str; 5] = [
+    "version",
+    "observe",
+    "numerics.samples",
+    "numerics.edges",
+    "numerics.solver",
+];
 
 /// Three ways to give the adhesion; each determines the others.
-const ADHESION: [&str; 3] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
+const ADHESION: [&str; 3] = [
+    "adhesion.work",
+    "adhesion.kappa",
+    "adhesion.elastic_energy_ratio",
+];
 
 /// Two ways to give the amplitude of the roughness, of which the other follows.
 const AMPLITUDE: [&str; 2] = ["roughness.rms_height", "roughness.rms_gradient"];
 
 /// Order in a group: the first row, these fields, and the others as in the scene file.
-const FIRST: [&str; 7] =
-    [ADHESION[0], ADHESION[1], ADHESION[2], AMPLITUDE[0], AMPLITUDE[1], "roughness.hurst", "roughness.seed"];
+const FIRST: [&str; 7] = [
+    ADHESION[0],
+    ADHESION[1],
+    ADHESION[2],
+    AMPLITUDE[0],
+    AMPLITUDE[1],
+    "roughness.hurst",
+    "roughness.seed",
+];
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
@@ -81,7 +106,10 @@ impl Parameter {
 
     /// Returns true if the value is typed as a number.
     pub fn takes_number(&self) -> bool {
-        let is_text = matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. });
+        let is_text = matches!(
+            self.field.range,
+            Range::Choice(_) | Range::List { .. } | Range::Text { .. }
+        );
         match self.setting {
             Setting::Heading => false,
             // Numbers of segments and of points are typed as texts.
@@ -119,16 +147,32 @@ impl Parameter {
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         let words = self.path.replace(['.', '_'], " ");
-        vec![symbol.to_owned(), spelled(symbol), words, self.name(), self.field.meaning.to_owned()]
+        vec![
+            symbol.to_owned(),
+            spelled(symbol),
+            words,
+            self.name(),
+            self.field.meaning.to_owned(),
+        ]
     }
 }
 
 /// Greek letters of symbols, which keyboards rarely have, with their names.
-const GREEK: [(char, &str); 6] =
-    [('γ', "gamma"), ('κ', "kappa"), ('λ', "lambda"), ('θ', "theta"), ('ν', "nu"), ('Δ', "delta ")];
+const GREEK: [(char, &str); 6] = [
+    ('γ', "gamma"),
+    ('κ', "kappa"),
+    ('λ', "lambda"),
+    ('θ', "theta"),
+    ('ν', "nu"),
+    ('Δ', "delta "),
+];
 
 fn spelled(symbol: &str) -> String {
-    GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
+    GREEK
+        .iter()
+        .fold(symbol.to_owned(), |text, (letter, name)| {
+            text.replace(*letter, name)
+        })
 }
 
 /// The group of a field: that of its path, but the form for the diameter, the loading for the stiffness of the instrument,
@@ -139,7 +183,10 @@ fn group_of(path: &str) -> &'static str {
         "loading_stiffness" => "loading",
         _ => path.split('.').next().unwrap_or(path),
     };
-    GROUPS.into_iter().find(|group| *group == first).unwrap_or("form")
+    GROUPS
+        .into_iter()
+        .find(|group| *group == first)
+        .unwrap_or("form")
 }
 
 /// Path of the field that a field replaces where it gets a value: modes and wavelengths, rms height and rms gradient.
@@ -161,10 +208,16 @@ pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Param
         }
         if field.range == Range::Group {
             let heading = Parameter::new(field, field.path);
-            parameters.push(Parameter { effect: None, setting: Setting::Heading, ..heading });
+            parameters.push(Parameter {
+                effect: None,
+                setting: Setting::Heading,
+                ..heading
+            });
             continue;
         }
-        let Some(written) = document.value(field.path) else { continue };
+        let Some(written) = document.value(field.path) else {
+            continue;
+        };
         // A rigid instrument has a row where a stage prescribes its displacement.
         let displaces = |stage: &Move| matches!(stage, Move::ToDisplacement(_));
         if field.path == "loading_stiffness"
@@ -179,7 +232,11 @@ pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Param
             parameters.push(Parameter::new(field, field.path));
             continue;
         }
-        let written = if is_given { Some(written.to_owned()) } else { waves(document, field) };
+        let written = if is_given {
+            Some(written.to_owned())
+        } else {
+            waves(document, field)
+        };
         let Some(written) = written else { continue };
         let shown = match field.path {
             "loading" => loading_text(&document.scene().loading, format_quantity),
@@ -187,7 +244,11 @@ pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Param
             _ if !is_given => format!("= {}", shown(field, &written)),
             _ => shown(field, &written),
         };
-        parameters.push(Parameter { written, shown, ..Parameter::new(field, field.path) });
+        parameters.push(Parameter {
+            written,
+            shown,
+            ..Parameter::new(field, field.path)
+        });
         if field.path == "loading" {
             parameters.extend(stage_rows(&document.scene().loading));
         }
@@ -220,7 +281,10 @@ fn setting_of(path: &str) -> Setting {
 /// Adds rows for the two of γ, κ and e_el/γ that follow from the stated one.
 fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     let is_listed = |path: &str| parameters.iter().any(|one| one.path == path);
-    let others: Vec<&str> = ADHESION.into_iter().filter(|path| !is_listed(path)).collect();
+    let others: Vec<&str> = ADHESION
+        .into_iter()
+        .filter(|path| !is_listed(path))
+        .collect();
     if others.len() < ADHESION.len() {
         let fields = others.into_iter().filter_map(|path| field(path, None));
         parameters.extend(fields.map(|field| Parameter::new(field, field.path)));
@@ -231,8 +295,8 @@ fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
 /// without effect the longest wave.
 fn waves(document: &Document, field: &Field) -> Option<String> {
     let spectrum = document.scene().spectrum()?;
-    let [longest, shortest] =
-        [spectrum.first, spectrum.last].map(|mode| ron_float(document.scene().length / mode as f64));
+    let [longest, shortest] = [spectrum.first, spectrum.last]
+        .map(|mode| ron_float(document.scene().length / mode as f64));
     match field.path {
         "roughness.modes" => Some(format!("({}, {})", spectrum.first, spectrum.last)),
         "roughness.wavelengths" => Some(format!("({longest}, {shortest})")),
@@ -243,19 +307,32 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
 
 /// A row with the name of the measured curve, and one for each option of reading.
 fn reading_rows(measured: &Measured) -> impl Iterator<Item = Parameter> {
-    let row = |field, setting, shown| Parameter { setting, shown, ..Parameter::new(field, field.path) };
+    let row = |field, setting, shown| Parameter {
+        setting,
+        shown,
+        ..Parameter::new(field, field.path)
+    };
     let option = move |(index, option): (usize, &'static reading::ReadingOption)| {
-        row(&option.field, Setting::Reading(index), option.shown(measured))
+        row(
+            &option.field,
+            Setting::Reading(index),
+            option.shown(measured),
+        )
     };
     let head = row(&reading::HEAD, Setting::Heading, measured.name.clone());
-    [head].into_iter().chain(reading::OPTIONS.iter().enumerate().map(option))
+    [head]
+        .into_iter()
+        .chain(reading::OPTIONS.iter().enumerate().map(option))
 }
 
 /// A row for each loading stage, at the path of its number if it has one.
 fn stage_rows(loading: &[Move]) -> impl Iterator<Item = Parameter> {
     loading.iter().enumerate().map(|(index, stage)| {
         let number = target_field(*stage);
-        let path = format!("loading.{index}{}", if number.is_some() { ".0" } else { "" });
+        let path = format!(
+            "loading.{index}{}",
+            if number.is_some() { ".0" } else { "" }
+        );
         Parameter {
             leg: Some(index),
             written: number.map_or_else(|| stage_in_ron(stage), |(_, value)| ron_float(value)),
@@ -301,7 +378,12 @@ pub(super) fn text_of(written: &str) -> String {
 
 /// The first name in a group, in words: `work` of `(work: 0.05)`.
 fn first_name(written: &str) -> &str {
-    let name = written.trim_start_matches('(').split(':').next().unwrap_or("").trim();
+    let name = written
+        .trim_start_matches('(')
+        .split(':')
+        .next()
+        .unwrap_or("")
+        .trim();
     match name {
         "work" => "by work of adhesion",
         "kappa" => "by κ",

@@ -24,13 +24,21 @@ pub struct Player {
 }
 
 impl Player {
-    pub const START: Player = Player { leg: 0, at: At::Start, playing: true };
+    pub const START: Player = Player {
+        leg: 0,
+        at: At::Start,
+        playing: true,
+    };
 
     /// The state in which the animation of these loading stages rests: at the pull-off, or without one at the end.
     pub fn at_rest(legs: &[LegRecord]) -> Player {
         let last = legs.len().saturating_sub(1);
         let (leg, at) = pull_off(legs).map_or((last, At::End), |(leg, _)| (leg, At::PullOff));
-        Player { leg, at, playing: false }
+        Player {
+            leg,
+            at,
+            playing: false,
+        }
     }
 
     /// This state for loading stages that may have changed: at the end of the last stage if its own does not exist any
@@ -38,8 +46,15 @@ impl Player {
     pub fn within(self, legs: &[LegRecord]) -> Player {
         match legs.len().checked_sub(1) {
             Some(_) if self.at == At::PullOff => Player::at_rest(legs),
-            Some(last) if self.leg > last => Player { leg: last, at: At::End, playing: false },
-            Some(_) => Player { at: self.advanced(legs, 0.0), ..self },
+            Some(last) if self.leg > last => Player {
+                leg: last,
+                at: At::End,
+                playing: false,
+            },
+            Some(_) => Player {
+                at: self.advanced(legs, 0.0),
+                ..self
+            },
             None => self,
         }
     }
@@ -56,7 +71,9 @@ impl Player {
 
     /// Played share of the stage, from 0 to 1.
     pub fn share(&self, legs: &[LegRecord]) -> f64 {
-        let Some(end) = legs.get(self.leg).map(LegRecord::end) else { return 0.0 };
+        let Some(end) = legs.get(self.leg).map(LegRecord::end) else {
+            return 0.0;
+        };
         let start = start_of(legs, self.leg);
         match self.at {
             At::Start => 0.0,
@@ -88,7 +105,10 @@ fn pull_off(legs: &[LegRecord]) -> Option<(usize, f64)> {
 
 /// Lowest and highest indentation of the curves of loading stages, m; `None` without points.
 pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
-    let points = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
+    let points = legs
+        .iter()
+        .flat_map(|leg| &leg.curve)
+        .map(|point| point.indentation);
     points.fold(None, |range: Option<(f64, f64)>, d| {
         Some(range.map_or((d, d), |(low, high)| (low.min(d), high.max(d))))
     })

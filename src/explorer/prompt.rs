@@ -81,7 +81,13 @@ impl Topic {
     pub fn of(binding: &Binding) -> Self {
         let Binding { row, .. } = binding;
         let (text, words) = (row.help.to_owned(), row.words.to_owned());
-        Topic { section: row.section, name: binding.names(), text, words, aim: Aim::Command(row) }
+        Topic {
+            section: row.section,
+            name: binding.names(),
+            text,
+            words,
+            aim: Aim::Command(row),
+        }
     }
 
     pub fn of_parameter((row, parameter): (usize, &Parameter)) -> Self {
@@ -95,7 +101,8 @@ impl Topic {
     }
 
     pub fn of_preset(preset: &Preset) -> Self {
-        let title = Document::parse(preset.text, preset.name).map(|document| document.title().to_owned());
+        let title =
+            Document::parse(preset.text, preset.name).map(|document| document.title().to_owned());
         Topic {
             section: "Built-in scenes",
             name: preset.name.to_owned(),
@@ -108,7 +115,12 @@ impl Topic {
     /// Texts that a search compares: each key, name, other words, description, section.
     fn texts(&self) -> Vec<String> {
         let words = [&self.name, &self.words, &self.text].map(String::clone);
-        self.name.split(' ').map(str::to_owned).chain(words).chain([self.section.to_owned()]).collect()
+        self.name
+            .split(' ')
+            .map(str::to_owned)
+            .chain(words)
+            .chain([self.section.to_owned()])
+            .collect()
     }
 }
 
@@ -116,10 +128,25 @@ impl Prompt {
     /// Creates a prompt with this text; `parameters` are the parameters of the scene. The first typed character replaces a value or
     /// the name of a file.
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
-        let is_replaced = matches!(purpose, Purpose::Value | Purpose::Save { .. } | Purpose::Export);
-        let line = if is_replaced { TextLine::selected(text) } else { TextLine::new(text) };
+        let is_replaced = matches!(
+            purpose,
+            Purpose::Value | Purpose::Save { .. } | Purpose::Export
+        );
+        let line = if is_replaced {
+            TextLine::selected(text)
+        } else {
+            TextLine::new(text)
+        };
         let (found, paths) = (Vec::new(), Vec::new());
-        let mut prompt = Prompt { purpose, line, found, selected: 0, corrected: None, paths, refused: None };
+        let mut prompt = Prompt {
+            purpose,
+            line,
+            found,
+            selected: 0,
+            corrected: None,
+            paths,
+            refused: None,
+        };
         prompt.search(parameters);
         prompt
     }
@@ -127,7 +154,9 @@ impl Prompt {
     /// Returns the context of the keys: help, a list, a line or a question.
     pub fn context(&self) -> Context {
         match self.purpose {
-            Purpose::Topics { is_typed: false, .. } => Context::Help,
+            Purpose::Topics {
+                is_typed: false, ..
+            } => Context::Help,
             Purpose::Scene(_) | Purpose::Parameter { .. } | Purpose::Topics { .. } => Context::List,
             Purpose::Overwrite(_) => Context::Overwrite,
             Purpose::Leave => Context::Leave,
@@ -147,8 +176,14 @@ impl Prompt {
             Purpose::Topics { topics, .. } => {
                 let texts = || topics.iter().map(Topic::texts);
                 let found = find(texts(), query);
-                self.corrected = if found.is_empty() { corrected(texts(), query) } else { None };
-                self.corrected.as_ref().map_or(found, |other| find(texts(), other))
+                self.corrected = if found.is_empty() {
+                    corrected(texts(), query)
+                } else {
+                    None
+                };
+                self.corrected
+                    .as_ref()
+                    .map_or(found, |other| find(texts(), other))
             }
             _ => Vec::new(),
         };
@@ -159,12 +194,25 @@ impl Prompt {
     }
 
     pub fn scene(&self) -> Option<&Entry> {
-        if let Purpose::Scene(entries) = &self.purpose { entries.get(self.choice()?) } else { None }
+        if let Purpose::Scene(entries) = &self.purpose {
+            entries.get(self.choice()?)
+        } else {
+            None
+        }
     }
 }
 
 /// Texts that a search compares: number of a built-in scene (these come first), name, title and notice.
 fn scene_texts((place, entry): (usize, &Entry)) -> Vec<String> {
-    let number = if entry.origin == Source::BuiltIn { (place + 1).to_string() } else { String::new() };
-    vec![number, entry.name.clone(), entry.title().to_owned(), entry.notice().to_owned()]
+    let number = if entry.origin == Source::BuiltIn {
+        (place + 1).to_string()
+    } else {
+        String::new()
+    };
+    vec![
+        number,
+        entry.name.clone(),
+        entry.title().to_owned(),
+        entry.notice().to_owned(),
+    ]
 }

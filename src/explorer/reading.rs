@@ -29,14 +29,23 @@ pub struct ReadingOption {
     take: fn(&mut CurveOptions, &str) -> Result<(), String>,
 }
 
-const TEXT: Range = Range::Text { least: 0, most: 4096, lines: false };
+const TEXT: Range = Range::Text {
+    least: 0,
+    most: 4096,
+    lines: false,
+};
 const FORCE: Range = Range::Real(Included(-1e6), Included(1e6));
 /// Allowed lengths, m.
 const LENGTH: Range = Range::Real(Excluded(0.0), Included(1e3));
 const NEGATED: &[&str] = &["by the approach", "none", "displacement", "force", "both"];
 const KEPT: &[&str] = &["keep", "remove"];
 
-const fn option(path: &'static str, name: &'static str, range: Range, meaning: &'static str) -> Field {
+const fn option(
+    path: &'static str,
+    name: &'static str,
+    range: Range,
+    meaning: &'static str,
+) -> Field {
     Field::beside(path, name, range, meaning)
 }
 
@@ -219,7 +228,11 @@ pub static OPTIONS: [ReadingOption; 10] = [
 
 /// The words between commas, without blanks around them.
 fn words(typed: &str) -> Vec<String> {
-    typed.split(',').map(|word| word.trim().to_owned()).filter(|word| !word.is_empty()).collect()
+    typed
+        .split(',')
+        .map(|word| word.trim().to_owned())
+        .filter(|word| !word.is_empty())
+        .collect()
 }
 
 fn listed(words: &[String]) -> Option<String> {
@@ -230,7 +243,9 @@ fn quantity(typed: &str, unit: &str) -> Result<Option<f64>, String> {
     if typed.is_empty() {
         return Ok(None);
     }
-    parse_quantity(typed, unit).map(Some).map_err(|error| error.to_string())
+    parse_quantity(typed, unit)
+        .map(Some)
+        .map_err(|error| error.to_string())
 }
 
 fn one_of(typed: &str, choices: &'static [&'static str]) -> String {
@@ -270,7 +285,9 @@ impl ReadingOption {
     pub fn value(&self, options: &CurveOptions) -> Option<String> {
         let is_force = self.field.unit == "N";
         let written = (self.written)(options, exact_quantity).filter(|_| is_force)?;
-        parse_quantity(&written, self.field.unit).ok().map(ron_float)
+        parse_quantity(&written, self.field.unit)
+            .ok()
+            .map(ron_float)
     }
 
     /// A typed value, with the unit of the noise if it is a force without a unit.
@@ -281,7 +298,11 @@ impl ReadingOption {
             unit if is_force && unit.ends_with('N') => unit.to_owned(),
             _ => unit_of(&format_quantity(measured.curve.noise, "N")).to_owned(),
         };
-        if is_force { in_unit(typed, &unit) } else { typed.to_owned() }
+        if is_force {
+            in_unit(typed, &unit)
+        } else {
+            typed.to_owned()
+        }
     }
 
     /// The options with a typed value of this one; an empty text, or the words of the usual value, leave the option out.
@@ -322,8 +343,13 @@ mod tests {
     #[test]
     fn options_are_typed_as_on_the_command_line() {
         let with = |path: &str, typed: &str| {
-            let option = OPTIONS.iter().find(|option| option.field.last() == path).unwrap();
-            option.with(&CurveOptions::default(), typed).map(|options| options.to_string())
+            let option = OPTIONS
+                .iter()
+                .find(|option| option.field.last() == path)
+                .unwrap();
+            option
+                .with(&CurveOptions::default(), typed)
+                .map(|options| options.to_string())
         };
         for row in [
             "columns|height, force| --columns=height,force",
@@ -341,7 +367,9 @@ mod tests {
             "free_points|40| --free-points=40",
             "free_points||",
         ] {
-            let [path, typed, written] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            let [path, typed, written] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
             assert_eq!(with(path, typed).as_deref(), Ok(written), "{row}");
         }
         for row in [
@@ -352,7 +380,9 @@ mod tests {
             "noise|2 nm|nm is not a unit of force: use N, mN, µN, nN",
             "free_points|few|few: allowed: a whole number of points",
         ] {
-            let [path, typed, why] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            let [path, typed, why] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
             assert_eq!(with(path, typed), Err(why.to_owned()), "{row}");
         }
     }
@@ -360,9 +390,14 @@ mod tests {
     #[test]
     fn every_option_of_the_command_line_has_its_row() {
         let command = CurveOptions::augment_args(clap::Command::new("curve"));
-        let names: BTreeSet<&str> =
-            command.get_arguments().map(|argument| argument.get_id().as_str()).collect();
-        assert_eq!(names, OPTIONS.iter().map(|option| option.field.last()).collect());
+        let names: BTreeSet<&str> = command
+            .get_arguments()
+            .map(|argument| argument.get_id().as_str())
+            .collect();
+        assert_eq!(
+            names,
+            OPTIONS.iter().map(|option| option.field.last()).collect()
+        );
     }
 
     #[test]

@@ -67,7 +67,10 @@ pub struct LineView {
 }
 
 impl LineView {
-    pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0 };
+    pub const WHOLE: LineView = LineView {
+        centre: 0.5,
+        share: 1.0,
+    };
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +82,10 @@ pub struct CloseUpTarget {
 
 impl CloseUpTarget {
     /// The patch at first touch as a whole.
-    pub const WHOLE: CloseUpTarget = CloseUpTarget { focus: Focus::Summit, springs: None };
+    pub const WHOLE: CloseUpTarget = CloseUpTarget {
+        focus: Focus::Summit,
+        springs: None,
+    };
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -54,7 +54,10 @@ impl Engine {
             }
             found
         };
-        Engine { solve: Box::new(solve), perform: Box::new(perform) }
+        Engine {
+            solve: Box::new(solve),
+            perform: Box::new(perform),
+        }
     }
 }
 
@@ -79,7 +82,11 @@ impl Runtime {
     /// need the terminal.
     pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
-        let elsewhere = || bindings.named(name, Context::Explore).filter(|_| self.app.prompt.is_none());
+        let elsewhere = || {
+            bindings
+                .named(name, Context::Explore)
+                .filter(|_| self.app.prompt.is_none())
+        };
         let command = bindings.named(name, self.app.keys()).or_else(elsewhere);
         command.map_or_else(Vec::new, |command| self.act(Action::Command(command)))
     }
@@ -101,7 +108,13 @@ impl Runtime {
 
     /// Performs one task; returns the actions that follow at once.
     pub fn answer(&mut self, effect: Task) -> Vec<Action> {
-        let Runtime { app, engine, folder, asked, .. } = self;
+        let Runtime {
+            app,
+            engine,
+            folder,
+            asked,
+            ..
+        } = self;
         let action = match effect {
             Task::Ask => {
                 let request = request(app);
@@ -126,7 +139,9 @@ impl Runtime {
                 Action::Opened(name, opened)
             }
             Task::Read(reading) => {
-                let Some(measured) = &app.edit.measured else { return Vec::new() };
+                let Some(measured) = &app.edit.measured else {
+                    return Vec::new();
+                };
                 let read = measured.read_again(reading.options.clone()).map(Box::new);
                 Action::Read(reading, read.map_err(|error| error.to_string()))
             }

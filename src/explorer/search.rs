@@ -22,7 +22,11 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
         };
         Some((words.iter().map(of_word).sum::<Option<usize>>()?, index))
     };
-    let mut found: Vec<(usize, usize)> = candidates.into_iter().enumerate().filter_map(cost).collect();
+    let mut found: Vec<(usize, usize)> = candidates
+        .into_iter()
+        .enumerate()
+        .filter_map(cost)
+        .collect();
     found.sort_unstable();
     found.into_iter().map(|(_, index)| index).collect()
 }
@@ -35,9 +39,19 @@ pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str)
     }
     let texts: Vec<String> = candidates.into_iter().flatten().collect();
     let is_known = |word: &str| texts.iter().any(|text| rank(text, word).is_some());
-    let known = || texts.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric()));
+    let known = || {
+        texts
+            .iter()
+            .flat_map(|text| text.split(|c: char| !c.is_alphanumeric()))
+    };
     let words = query.split_whitespace();
-    let words = words.map(|word| if is_known(word) { Some(word) } else { nearest(word, known()) });
+    let words = words.map(|word| {
+        if is_known(word) {
+            Some(word)
+        } else {
+            nearest(word, known())
+        }
+    });
     let corrected = words.collect::<Option<Vec<&str>>>()?.join(" ");
     (!corrected.is_empty() && corrected != query.split_whitespace().collect::<Vec<_>>().join(" "))
         .then_some(corrected)
@@ -81,13 +95,22 @@ mod tests {
         assert_eq!(find(candidates(), "sphere"), [3, 5, 2, 4, 1, 0]);
         assert_eq!(find(candidates(), " Rough  sphere "), [2, 3]);
         assert!(find(candidates(), "sphere nothing").is_empty());
-        assert!(find(candidates(), "rghsph").is_empty(), "letters are not scattered");
+        assert!(
+            find(candidates(), "rghsph").is_empty(),
+            "letters are not scattered"
+        );
         assert_eq!(find(candidates(), " "), [0, 1, 2, 3, 4, 5]);
         assert!(find(candidates(), &"a".repeat(300)).is_empty());
         let near = |query: &str| corrected(candidates(), query);
         assert_eq!(near("shpere rough"), Some("SPHERE rough".to_owned()));
-        assert_eq!((near("sphere"), near("qqqqqq"), near("")), (None, None, None));
+        assert_eq!(
+            (near("sphere"), near("qqqqqq"), near("")),
+            (None, None, None)
+        );
         let symbols = || ["h", "H"].map(|symbol| texts(&[symbol]));
-        assert_eq!((find(symbols(), "h"), find(symbols(), "H")), (vec![0, 1], vec![1, 0]));
+        assert_eq!(
+            (find(symbols(), "h"), find(symbols(), "H")),
+            (vec![0, 1], vec![1, 0])
+        );
     }
 }

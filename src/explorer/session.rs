@@ -55,7 +55,14 @@ pub struct Options {
 impl Options {
     /// Options of a session with this configuration.
     pub fn new(config: Config) -> Self {
-        Options { theme: None, marker: None, restored: None, config, warning: None, unsaved: None }
+        Options {
+            theme: None,
+            marker: None,
+            restored: None,
+            config,
+            warning: None,
+            unsaved: None,
+        }
     }
 }
 
@@ -89,11 +96,13 @@ pub fn open(
     let (sender, inbox) = channel();
     let sender = || sender.clone();
     let to = sender();
-    let solver =
-        SolverThread::start(solve, move |report| drop(to.send(Message::Act(Action::Reply(report).into()))))?;
+    let solver = SolverThread::start(solve, move |report| {
+        drop(to.send(Message::Act(Action::Reply(report).into())))
+    })?;
     let to = sender();
-    let studies =
-        StudyThread::start(move |finding| drop(to.send(Message::Act(Action::Found(finding).into()))))?;
+    let studies = StudyThread::start(move |finding| {
+        drop(to.send(Message::Act(Action::Found(finding).into())))
+    })?;
     let to = sender();
     terminal::watch_for_hang_up(move || drop(to.send(Message::Input(None))))?;
     let to = sender();
@@ -107,11 +116,24 @@ pub fn open(
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
     let environment = Appearance::of_environment();
     let appearance = Appearance {
-        theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
-        marker: options.marker.or(options.config.markers).unwrap_or(environment.marker),
+        theme: options
+            .theme
+            .or(options.config.theme)
+            .unwrap_or(environment.theme),
+        marker: options
+            .marker
+            .or(options.config.markers)
+            .unwrap_or(environment.marker),
     };
-    let mut app = begin(opening.into(), (size.width, size.height), appearance, options.config);
-    let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
+    let mut app = begin(
+        opening.into(),
+        (size.width, size.height),
+        appearance,
+        options.config,
+    );
+    let remote = ["SSH_CONNECTION", "SSH_TTY"]
+        .iter()
+        .any(|name| std::env::var_os(name).is_some());
     let frame_rate = app.config.frame_rate;
     let offer = match &options.restored {
         Some(kept) => {
@@ -122,16 +144,27 @@ pub fn open(
     };
     app.state_beside(options.warning, offer);
     let mut session = Session {
-        runtime: Runtime { app, engine: Engine::threads(solver, studies), asked: 0, folder: PathBuf::new() },
+        runtime: Runtime {
+            app,
+            engine: Engine::threads(solver, studies),
+            asked: 0,
+            folder: PathBuf::new(),
+        },
         terminal: &mut terminal,
         guard,
         redraw: false,
         draw,
         remote,
-        frames: if remote { frame_rate.min(REMOTE_FRAMES) } else { frame_rate },
+        frames: if remote {
+            frame_rate.min(REMOTE_FRAMES)
+        } else {
+            frame_rate
+        },
         inbox,
         waiting,
-        autosave: options.unsaved.map(|folder| Autosave::new(&folder, options.restored)),
+        autosave: options
+            .unsaved
+            .map(|folder| Autosave::new(&folder, options.restored)),
         kept: (0, 0),
     };
     let end = session.run();
@@ -143,7 +176,11 @@ pub fn open(
         let _ = autosave.keep(&[]);
     }
     let computed = app.current().cloned();
-    Ok(SessionEnd { document: app.edit.document, computed, signal })
+    Ok(SessionEnd {
+        document: app.edit.document,
+        computed,
+        signal,
+    })
 }
 
 type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
@@ -218,7 +255,11 @@ impl Session<'_> {
                 }
                 // Keys faster than their effects would else be drawn after the last one.
                 let is_late = since.elapsed() >= DRAINING;
-                next = if is_late { None } else { self.inbox.try_recv().ok() };
+                next = if is_late {
+                    None
+                } else {
+                    self.inbox.try_recv().ok()
+                };
             }
             if playing && moved.elapsed() >= frame_time {
                 // Time alone shows nothing: the requested snapshot does.
@@ -242,7 +283,12 @@ impl Session<'_> {
             let size = self.terminal.size()?;
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
-        let Session { runtime, terminal, draw, .. } = self;
+        let Session {
+            runtime,
+            terminal,
+            draw,
+            ..
+        } = self;
         terminal.draw(|frame| draw(frame, &runtime.app)).map(drop)
     }
 
@@ -254,7 +300,10 @@ impl Session<'_> {
             match effect {
                 // Sent with the next frame; the terminal does not confirm a copy.
                 Task::Copy(text) => {
-                    queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
+                    queue!(
+                        self.terminal.backend_mut(),
+                        CopyToClipboard::to_clipboard_from(text)
+                    )?;
                 }
                 Task::Redraw => self.redraw = true,
                 Task::Suspend => {
@@ -275,7 +324,9 @@ impl Session<'_> {
             self.kept = now;
             if let Err(error) = autosave.keep(&app.edit.unsaved()) {
                 self.autosave = None;
-                app.set_error(format!("unsaved changes are not kept for another session: {error}"));
+                app.set_error(format!(
+                    "unsaved changes are not kept for another session: {error}"
+                ));
             }
         }
     }

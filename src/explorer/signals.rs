@@ -29,7 +29,11 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
             for signal in signals.forever() {
                 if let SIGCONT | SIGWINCH = signal {
                     let is_size = signal == SIGWINCH;
-                    report(if is_size { SystemSignal::Resize } else { SystemSignal::Continue });
+                    report(if is_size {
+                        SystemSignal::Resize
+                    } else {
+                        SystemSignal::Continue
+                    });
                     continue;
                 }
                 if report(SystemSignal::End(signal)) {

@@ -73,7 +73,11 @@ impl Probe {
             spring,
             height: contact.height(spring),
             level: contact.level(),
-            patch: contact.patches.get(next).filter(|patch| patch.first <= spring).map(|_| next),
+            patch: contact
+                .patches
+                .get(next)
+                .filter(|patch| patch.first <= spring)
+                .map(|_| next),
         })
     }
 }
@@ -83,7 +87,12 @@ impl ContactSnapshot {
     pub fn section(&self, part: Part) -> Option<Section> {
         let SpringsInContact { gaps, patches } = &self.springs;
         let (gaps, indentation) = (gaps.upgrade()?, self.point.indentation);
-        let contact = SectionContact { gaps: &gaps, summit: self.line.summit, indentation, patches };
+        let contact = SectionContact {
+            gaps: &gaps,
+            summit: self.line.summit,
+            indentation,
+            patches,
+        };
         Some(contact.section(part, &mut LineColumns::default()))
     }
 }
@@ -92,9 +101,14 @@ impl ContactSnapshot {
 pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
     let LineView { centre, share } = request.profile;
     let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
-    let first =
-        ((count as f64 * centre) as usize).saturating_sub(springs / 2).min(count.saturating_sub(springs));
-    Part { first, springs, columns: request.profile_columns }
+    let first = ((count as f64 * centre) as usize)
+        .saturating_sub(springs / 2)
+        .min(count.saturating_sub(springs));
+    Part {
+        first,
+        springs,
+        columns: request.profile_columns,
+    }
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]

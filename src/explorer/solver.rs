@@ -10,7 +10,9 @@ use asperity_contact::motion::Leg;
 use asperity_contact::{ContactError, CurvePoint, Direction, LegRecord, Move};
 use asperity_report::{LineColumns, SectionContact};
 use asperity_scene::stages::{AfterLeg, Reach};
-use asperity_scene::{CheckedScene, Observer, Outcome, RunError, Simulation, Solver as SceneSolver};
+use asperity_scene::{
+    CheckedScene, Observer, Outcome, RunError, Simulation, Solver as SceneSolver,
+};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -24,8 +26,12 @@ const BYTES_KEPT: usize = 1 << 29;
 const STEPS_OF_A_PULL: f64 = 200.0;
 
 /// Function that computes a scene, as [`Simulation::run`] does.
-pub type Solve =
-    fn(&mut Simulation, &CheckedScene, &dyn Fn() -> bool, &mut AfterLeg<'_>) -> Result<Outcome, RunError>;
+pub type Solve = fn(
+    &mut Simulation,
+    &CheckedScene,
+    &dyn Fn() -> bool,
+    &mut AfterLeg<'_>,
+) -> Result<Outcome, RunError>;
 
 pub struct Solver {
     solve: Solve,
@@ -52,7 +58,12 @@ struct Newest {
 impl Solver {
     /// Creates a solver with this function; it computes only the scene of the awaited generation.
     pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
-        Solver { solve, simulation: Simulation::default(), awaited, newest: Newest::default() }
+        Solver {
+            solve,
+            simulation: Simulation::default(),
+            awaited,
+            newest: Newest::default(),
+        }
     }
 
     /// Marks the scene of a request as awaited, and answers the request.
@@ -65,22 +76,36 @@ impl Solver {
     pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let generation = request.generation;
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report))) {
-            self.newest = Newest { generation, ..Newest::default() };
+            self.newest = Newest {
+                generation,
+                ..Newest::default()
+            };
             self.simulation = Simulation::default();
-            let error = format!("internal error, please report it: {}", panic_text(panic.as_ref()));
+            let error = format!(
+                "internal error, please report it: {}",
+                panic_text(panic.as_ref())
+            );
             report(Reply::Failed { generation, error });
         }
     }
 
     fn try_serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
-        let Request { generation, scene, moves, snapshot } = request;
+        let Request {
+            generation,
+            scene,
+            moves,
+            snapshot,
+        } = request;
         let is_new = generation != self.newest.generation;
         if is_new {
             match self.compute(generation, scene, report) {
                 Ok(()) => {}
                 // Unless the scene is awaited again.
                 Err(error) if error.is_interruption() => return self.newest.generation = 0,
-                Err(error) => report(Reply::Failed { generation, error: error.to_string() }),
+                Err(error) => report(Reply::Failed {
+                    generation,
+                    error: error.to_string(),
+                }),
             }
         }
         for order in moves {
@@ -100,22 +125,44 @@ impl Solver {
         scene: Arc<CheckedScene>,
         report: &mut dyn FnMut(Reply),
     ) -> Result<(), RunError> {
-        self.newest = Newest { generation, ..Newest::default() };
+        self.newest = Newest {
+            generation,
+            ..Newest::default()
+        };
         // The histogram beside the profile needs the heights.
         let observed = scene.observing(Observer::HeightHistogram);
         let stop = || self.awaited.load(Ordering::Relaxed) != generation;
         let (mut bytes, mut legs, mut reach) = (0, Vec::new(), Reach::default());
-        let outcome = (self.solve)(&mut self.simulation, &observed, &stop, &mut |stage, _, leg| {
-            if stage == 0 {
-                reach = Reach::of(leg.contact());
-            }
-            legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
-            bytes += leg.bytes();
-            report(Reply::Progress { generation, legs: stage + 1 });
-            Ok(())
-        })?;
-        let solved = Some(Arc::new(SolvedScene { generation, scene, outcome, reach }));
-        self.newest = Newest { generation, scene: Some(observed), solved, legs, ..Newest::default() };
+        let outcome = (self.solve)(
+            &mut self.simulation,
+            &observed,
+            &stop,
+            &mut |stage, _, leg| {
+                if stage == 0 {
+                    reach = Reach::of(leg.contact());
+                }
+                legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
+                bytes += leg.bytes();
+                report(Reply::Progress {
+                    generation,
+                    legs: stage + 1,
+                });
+                Ok(())
+            },
+        )?;
+        let solved = Some(Arc::new(SolvedScene {
+            generation,
+            scene,
+            outcome,
+            reach,
+        }));
+        self.newest = Newest {
+            generation,
+            scene: Some(observed),
+            solved,
+            legs,
+            ..Newest::default()
+        };
         Ok(())
     }
 
@@ -137,15 +184,28 @@ impl Solver {
             self.leg(number)
         } else {
             // The stepwise solver knows no leg but those of the loading.
-            let exact = solved.scene.with(|scene| scene.numerics.solver = SceneSolver::Exact).ok()?;
+            let exact = solved
+                .scene
+                .with(|scene| scene.numerics.solver = SceneSolver::Exact)
+                .ok()?;
             self.leg_of(&exact, number)
         }?;
         let legs = &solved.outcome.history.legs;
-        let indentation = Player { leg: number, at, playing: false }.indentation(legs);
+        let indentation = Player {
+            leg: number,
+            at,
+            playing: false,
+        }
+        .indentation(legs);
         let (low, high) = indentations(legs).unwrap_or_default();
         let so_far = stages_until(&solved, number, at);
         let is_separated = at == At::End && is_separated(legs.get(number));
-        ManualBody::take(&leg, (indentation, is_separated), (high - low) / STEPS_OF_A_PULL, so_far)
+        ManualBody::take(
+            &leg,
+            (indentation, is_separated),
+            (high - low) / STEPS_OF_A_PULL,
+            so_far,
+        )
     }
 
     /// Makes the requested snapshot; `None` if there is no such stage or manual loading has not begun.
@@ -155,10 +215,17 @@ impl Solver {
                 self.newest.body = None;
                 let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
                 // The existing leg nearest to the requested one.
-                let player = Player { leg: number, at: request.at, playing: false }.within(legs);
+                let player = Player {
+                    leg: number,
+                    at: request.at,
+                    playing: false,
+                }
+                .within(legs);
                 let (number, indentation) = (player.leg, player.indentation(legs));
                 // After a separation nothing is in contact, at the same indentation.
-                let end = legs.get(number).filter(|leg| player.at == At::End && is_separated(Some(leg)));
+                let end = legs
+                    .get(number)
+                    .filter(|leg| player.at == At::End && is_separated(Some(leg)));
                 let end = end.and_then(|leg| leg.curve.last().copied());
                 let leg = self.leg(number)?;
                 let point = end.map_or_else(|| leg.point(indentation).ok(), Some)?;
@@ -169,12 +236,28 @@ impl Solver {
                 (Drive::Manual, body.leg(), body.point())
             }
         };
-        let Newest { generation, solved, body, profile, close_up: columns, .. } = &mut self.newest;
+        let Newest {
+            generation,
+            solved,
+            body,
+            profile,
+            close_up: columns,
+            ..
+        } = &mut self.newest;
         let line = solved.as_deref()?.outcome.line;
-        let patches = if point.springs == 0 { Vec::new() } else { leg.patches(point.indentation) };
+        let patches = if point.springs == 0 {
+            Vec::new()
+        } else {
+            leg.patches(point.indentation)
+        };
         let CurvePoint { indentation, .. } = point;
         let gaps = leg.contact().gaps();
-        let contact = SectionContact { gaps, summit: line.summit, indentation, patches: &patches };
+        let contact = SectionContact {
+            gaps,
+            summit: line.summit,
+            indentation,
+            patches: &patches,
+        };
         let close_up = close_up(&contact, &leg, request, columns);
         let part = profile_part(request, gaps.len());
         Some(ContactSnapshot {
@@ -186,7 +269,9 @@ impl Solver {
             contact_radius: leg.contact().contact_radius(&patches, point),
             profile: contact.section(part, profile),
             close_up,
-            probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
+            probe: request
+                .crosshair
+                .and_then(|position| Probe::at(&contact, position)),
             manual: body.as_mut().map(ManualBody::travel),
             springs: SpringsInContact {
                 gaps: Arc::downgrade(leg.contact().profile().shared_gaps()),
@@ -202,8 +287,14 @@ impl Solver {
             let found = self.leg_of(&scene, number);
             self.newest.scene = Some(scene);
             // Only one recalled leg is kept at a time.
-            let firsts = found.as_ref().map_or(0, |leg| BYTES_KEPT / leg.bytes().max(1));
-            self.newest.legs.iter_mut().skip(firsts + 1).for_each(|leg| *leg = None);
+            let firsts = found
+                .as_ref()
+                .map_or(0, |leg| BYTES_KEPT / leg.bytes().max(1));
+            self.newest
+                .legs
+                .iter_mut()
+                .skip(firsts + 1)
+                .for_each(|leg| *leg = None);
             self.newest.legs[number] = found;
         }
         self.newest.legs[number].clone()
@@ -213,32 +304,45 @@ impl Solver {
     fn leg_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Leg> {
         let mut found = None;
         // The run ends as soon as the leg is found.
-        let _ = (self.solve)(&mut self.simulation, scene, &|| false, &mut |stage, _, leg| {
-            if stage < wanted {
-                return Ok(());
-            }
-            found = Some(leg.clone());
-            Err(ContactError::Interrupted)
-        });
+        let _ = (self.solve)(
+            &mut self.simulation,
+            scene,
+            &|| false,
+            &mut |stage, _, leg| {
+                if stage < wanted {
+                    return Ok(());
+                }
+                found = Some(leg.clone());
+                Err(ContactError::Interrupted)
+            },
+        );
         found
     }
 }
 
 /// Returns true if nothing is in contact at the end of a stage.
 fn is_separated(leg: Option<&LegRecord>) -> bool {
-    leg.and_then(|leg| leg.curve.last()).is_some_and(|end| end.springs == 0)
+    leg.and_then(|leg| leg.curve.last())
+        .is_some_and(|end| end.springs == 0)
 }
 
 /// The loading history up to a position in a stage, and the direction of its last stage.
 fn stages_until(solved: &SolvedScene, number: usize, at: At) -> (Vec<Move>, Option<Direction>) {
     let (legs, loading) = (&solved.outcome.history.legs, &solved.scene.loading);
     let mut stages = loading.iter().take(number).copied().collect::<Vec<_>>();
-    let before = number.checked_sub(1).and_then(|before| legs.get(before)).map(|leg| leg.direction);
-    let Some(leg) = legs.get(number) else { return (stages, None) };
+    let before = number
+        .checked_sub(1)
+        .and_then(|before| legs.get(before))
+        .map(|leg| leg.direction);
+    let Some(leg) = legs.get(number) else {
+        return (stages, None);
+    };
     match at {
         At::Start => return (stages, before),
         // The animation begins above the foundation.
-        At::Indentation(indentation) if number == 0 && indentation <= leg.start() => return (stages, before),
+        At::Indentation(indentation) if number == 0 && indentation <= leg.start() => {
+            return (stages, before);
+        }
         At::Indentation(indentation) => stages.push(Move::ToIndentation(indentation)),
         At::PullOff | At::End => stages.push(leg.target),
     }
@@ -247,7 +351,8 @@ fn stages_until(solved: &SolvedScene, number: usize, at: At) -> (Vec<Move>, Opti
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("unknown cause")
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("unknown cause")
 }
 
 pub struct SolverThread {
@@ -269,7 +374,9 @@ impl SolverThread {
             }
         };
         let serve = move || serve(solver, &inbox, &mut report);
-        std::thread::Builder::new().name("simulation".to_owned()).spawn(serve)?;
+        std::thread::Builder::new()
+            .name("simulation".to_owned())
+            .spawn(serve)?;
         Ok(SolverThread { requests, awaited })
     }
 
@@ -284,7 +391,9 @@ impl SolverThread {
 /// Answers the newest request, again and again, until the explorer is gone.
 pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Reply)) {
     while let Ok(first) = requests.recv() {
-        let newest = requests.try_iter().fold(first, |earlier, later| later.after(earlier));
+        let newest = requests
+            .try_iter()
+            .fold(first, |earlier, later| later.after(earlier));
         solver.serve(newest, report);
     }
 }

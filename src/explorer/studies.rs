@@ -21,7 +21,8 @@ type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
 /// Computation of a value, on a simulation that other studies may have used, until `stop` returns true. Parts of the value
 /// are reported as they are computed.
-type Run = dyn FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(Value)) -> Result<Value, String> + Send;
+type Run =
+    dyn FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(Value)) -> Result<Value, String> + Send;
 
 pub struct Study {
     kind: TypeId,
@@ -36,13 +37,20 @@ impl Study {
     pub fn new<T: Any + Send + Sync>(
         key: impl ToString,
         is_long: bool,
-        run: impl FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(T)) -> Result<T, String> + Send + 'static,
+        run: impl FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(T)) -> Result<T, String>
+        + Send
+        + 'static,
     ) -> Self {
         let run: Box<Run> = Box::new(move |simulation, stop, report| {
             let value = run(simulation, stop, &mut |part| report(Arc::new(part)))?;
             Ok(Arc::new(value))
         });
-        Study { kind: TypeId::of::<T>(), key: key.to_string(), is_long, run }
+        Study {
+            kind: TypeId::of::<T>(),
+            key: key.to_string(),
+            is_long,
+            run,
+        }
     }
 
     /// Returns true if the study computes a value of this type.
@@ -51,21 +59,37 @@ impl Study {
     }
 
     /// Performs the study. Nothing is reported once `stop` has returned true; a panic counts as a failure.
-    pub fn perform(self, simulation: &mut Simulation, stop: &Stop<'_>, report: &mut dyn FnMut(Finding)) {
+    pub fn perform(
+        self,
+        simulation: &mut Simulation,
+        stop: &Stop<'_>,
+        report: &mut dyn FnMut(Finding),
+    ) {
         let Study { kind, key, run, .. } = self;
         let mut report = |value, end| {
             if !stop() {
-                report(Finding { kind, slot: Slot { key: key.clone(), value, end } });
+                report(Finding {
+                    kind,
+                    slot: Slot {
+                        key: key.clone(),
+                        value,
+                        end,
+                    },
+                });
             }
         };
-        let done =
-            catch_unwind(AssertUnwindSafe(|| run(simulation, stop, &mut |part| report(Some(part), None))));
+        let done = catch_unwind(AssertUnwindSafe(|| {
+            run(simulation, stop, &mut |part| report(Some(part), None))
+        }));
         match done {
             Ok(Ok(value)) => report(Some(value), Some(Ok(()))),
             Ok(Err(why)) => report(None, Some(Err(why))),
             Err(_) => {
                 *simulation = Simulation::default();
-                report(None, Some(Err("internal error, please report it".to_owned())));
+                report(
+                    None,
+                    Some(Err("internal error, please report it".to_owned())),
+                );
             }
         }
     }
@@ -73,7 +97,12 @@ impl Study {
 
 /// Key of the random profiles of a scene, which do not depend on its texts.
 pub fn ensemble_key(scene: &Scene) -> String {
-    let scene = Scene { title: String::new(), notice: String::new(), observe: Vec::new(), ..scene.clone() };
+    let scene = Scene {
+        title: String::new(),
+        notice: String::new(),
+        observe: Vec::new(),
+        ..scene.clone()
+    };
     format!("ensemble of {scene:?}")
 }
 
@@ -108,18 +137,31 @@ impl Findings {
 
     /// Returns true if the value of a type is complete.
     pub fn is_done<T: Any>(&self) -> bool {
-        self.slot::<T>().is_some_and(|slot| slot.end == Some(Ok(())))
+        self.slot::<T>()
+            .is_some_and(|slot| slot.end == Some(Ok(())))
     }
 
     /// Reason why the value of a type is missing or incomplete, if its study failed.
     pub fn failure<T: Any>(&self) -> Option<&str> {
-        self.slot::<T>()?.end.as_ref()?.as_ref().err().map(String::as_str)
+        self.slot::<T>()?
+            .end
+            .as_ref()?
+            .as_ref()
+            .err()
+            .map(String::as_str)
     }
 
     /// Sets a value; complete, or to be completed by a study with this key.
     pub fn set<T: Any + Send + Sync>(&mut self, key: impl ToString, value: T, is_done: bool) {
         let end = is_done.then_some(Ok(()));
-        self.0.insert(TypeId::of::<T>(), Slot { key: key.to_string(), value: Some(Arc::new(value)), end });
+        self.0.insert(
+            TypeId::of::<T>(),
+            Slot {
+                key: key.to_string(),
+                value: Some(Arc::new(value)),
+                end,
+            },
+        );
     }
 
     pub fn forget<T: Any>(&mut self) {
@@ -133,7 +175,11 @@ impl Findings {
 
     /// Stores a finding, unless its value was dropped or depends on another key by now.
     pub fn take_in(&mut self, finding: Finding) {
-        if let Some(slot) = self.0.get_mut(&finding.kind).filter(|slot| slot.key == finding.slot.key) {
+        if let Some(slot) = self
+            .0
+            .get_mut(&finding.kind)
+            .filter(|slot| slot.key == finding.slot.key)
+        {
             slot.value = finding.slot.value.or(slot.value.take());
             slot.end = finding.slot.end;
         }
@@ -168,7 +214,9 @@ impl StudyThread {
         let newest = Arc::new(AtomicU64::new(0));
         let watched = Arc::clone(&newest);
         let serve = move || serve(&watched, &inbox, &report);
-        std::thread::Builder::new().name("studies".to_owned()).spawn(serve)?;
+        std::thread::Builder::new()
+            .name("studies".to_owned())
+            .spawn(serve)?;
         Ok(StudyThread { orders, newest })
     }
 

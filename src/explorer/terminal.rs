@@ -47,7 +47,12 @@ impl TerminalGuard {
     fn enter(&self) -> io::Result<()> {
         enable_raw_mode()?;
         let mouse = if self.mouse { MOUSE_ON } else { "" };
-        execute!(io::stdout(), EnterAlternateScreen, EnableBracketedPaste, Print(mouse))
+        execute!(
+            io::stdout(),
+            EnterAlternateScreen,
+            EnableBracketedPaste,
+            Print(mouse)
+        )
     }
 
     /// Takes the terminal over again, after another program may have used it.
@@ -81,7 +86,13 @@ impl Drop for TerminalGuard {
 /// the terminal has not read yet.
 fn give_back(mouse: bool) -> io::Result<()> {
     let mouse = if mouse { MOUSE_OFF } else { "" };
-    let left = execute!(io::stdout(), Print(mouse), DisableBracketedPaste, LeaveAlternateScreen, Show);
+    let left = execute!(
+        io::stdout(),
+        Print(mouse),
+        DisableBracketedPaste,
+        LeaveAlternateScreen,
+        Show
+    );
     wait_until_written();
     left.and(disable_raw_mode())
 }
@@ -102,7 +113,8 @@ fn wait_until_written() {}
 pub fn checked(size: Size) -> io::Result<Size> {
     let Size { width, height } = size;
     if u32::from(width) * u32::from(height) > MOST_CELLS {
-        let fault = format!("a window of {width} × {height} cells; allowed: at most {MOST_CELLS} cells");
+        let fault =
+            format!("a window of {width} × {height} cells; allowed: at most {MOST_CELLS} cells");
         return Err(io::Error::other(fault));
     }
     Ok(size)
@@ -163,7 +175,10 @@ pub struct FrameWriter<W: Write> {
 
 impl<W: Write> FrameWriter<W> {
     pub fn new(out: W) -> Self {
-        FrameWriter { frame: Vec::with_capacity(64 * 1024), out }
+        FrameWriter {
+            frame: Vec::with_capacity(64 * 1024),
+            out,
+        }
     }
 }
 
@@ -171,7 +186,9 @@ impl<W: Write> FrameWriter<W> {
 fn shows_something(frame: &[u8]) -> bool {
     let mut rest = frame;
     while let Some(sequence) = rest.strip_prefix(b"\x1b[") {
-        let Some(end) = sequence.iter().position(|byte| (0x40..0x7f).contains(byte)) else { return true };
+        let Some(end) = sequence.iter().position(|byte| (0x40..0x7f).contains(byte)) else {
+            return true;
+        };
         let (sequence, after) = sequence.split_at(end + 1);
         if !(sequence.ends_with(b"m") || sequence == b"?25l" || sequence == b"?2026h") {
             return true;
@@ -196,7 +213,10 @@ impl<W: Write> Write for FrameWriter<W> {
             return Ok(());
         }
         queue!(self.frame, EndSynchronizedUpdate)?;
-        let written = self.out.write_all(&self.frame).and_then(|()| self.out.flush());
+        let written = self
+            .out
+            .write_all(&self.frame)
+            .and_then(|()| self.out.flush());
         self.frame.clear();
         written
     }
@@ -208,10 +228,17 @@ mod tests {
 
     #[test]
     fn a_window_beyond_memory_is_refused() {
-        for (width, height, is_allowed) in
-            [(0, 0, true), (2000, 2000, true), (2000, 2001, false), (65535, 65535, false)]
-        {
-            assert_eq!(checked(Size { width, height }).is_ok(), is_allowed, "{width} × {height}");
+        for (width, height, is_allowed) in [
+            (0, 0, true),
+            (2000, 2000, true),
+            (2000, 2001, false),
+            (65535, 65535, false),
+        ] {
+            assert_eq!(
+                checked(Size { width, height }).is_ok(),
+                is_allowed,
+                "{width} × {height}"
+            );
         }
     }
 
@@ -219,13 +246,20 @@ mod tests {
     fn frames_that_show_nothing_are_not_written() {
         let mut out = Vec::new();
         let mut writer = FrameWriter::new(&mut out);
-        writer.write_all(b"\x1b[39m\x1b[49m\x1b[59m\x1b[0m\x1b[?25l").unwrap();
+        writer
+            .write_all(b"\x1b[39m\x1b[49m\x1b[59m\x1b[0m\x1b[?25l")
+            .unwrap();
         writer.flush().unwrap();
         assert!(writer.out.is_empty());
         writer.write_all(b"\x1b[0m\x1b[3;4Hx").unwrap();
         writer.flush().unwrap();
         assert_eq!(out, b"\x1b[?2026h\x1b[0m\x1b[3;4Hx\x1b[?2026l");
-        for shown in [b"\x1b[2J".as_slice(), b"\x1b]52;c;eA==\x07", b"\x1b[0", b"x"] {
+        for shown in [
+            b"\x1b[2J".as_slice(),
+            b"\x1b]52;c;eA==\x07",
+            b"\x1b[0",
+            b"x",
+        ] {
             assert!(shows_something(shown), "{shown:?}");
         }
     }

@@ -15,19 +15,27 @@ pub type Part = Vec<Span<'static>>;
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
     let is_blank = |grapheme: &StyledGrapheme<'_>| grapheme.symbol.trim().is_empty();
-    let width =
-        |part: &[StyledGrapheme<'_>]| part.iter().map(|one| Span::raw(one.symbol).width()).sum::<usize>();
+    let width = |part: &[StyledGrapheme<'_>]| {
+        part.iter()
+            .map(|one| Span::raw(one.symbol).width())
+            .sum::<usize>()
+    };
     let room = usize::from(columns);
     let words: Vec<_> = graphemes.split_inclusive(is_blank).collect();
     let text = |word: &[StyledGrapheme<'_>]| -> String {
-        word.iter().filter(|grapheme| !is_blank(grapheme)).map(|grapheme| grapheme.symbol).collect()
+        word.iter()
+            .filter(|grapheme| !is_blank(grapheme))
+            .map(|grapheme| grapheme.symbol)
+            .collect()
     };
     let mut lines: Vec<Vec<StyledGrapheme<'_>>> = vec![Vec::new()];
     for together in words.chunk_by(|word, next| belong_together(&text(word), &text(next))) {
         let symbols = together.concat();
         let last = lines.len() - 1;
         let blank_end = usize::from(symbols.last().is_some_and(is_blank));
-        if !lines[last].is_empty() && width(&lines[last]) + width(&symbols).saturating_sub(blank_end) > room {
+        if !lines[last].is_empty()
+            && width(&lines[last]) + width(&symbols).saturating_sub(blank_end) > room
+        {
             lines.push(Vec::new());
         }
         for grapheme in symbols {
@@ -50,8 +58,14 @@ pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
 /// A line of graphemes: one span for each style.
 fn styled(graphemes: &[StyledGrapheme<'_>]) -> Line<'static> {
     let spans = graphemes.chunk_by(|one, next| one.style == next.style);
-    let text = |span: &[StyledGrapheme<'_>]| span.iter().map(|grapheme| grapheme.symbol).collect::<String>();
-    spans.map(|span| Span::styled(text(span), span[0].style)).collect()
+    let text = |span: &[StyledGrapheme<'_>]| {
+        span.iter()
+            .map(|grapheme| grapheme.symbol)
+            .collect::<String>()
+    };
+    spans
+        .map(|span| Span::styled(text(span), span[0].style))
+        .collect()
 }
 
 /// Breaks a line into at most `rows` lines; a rest is replaced by `…`.
@@ -59,14 +73,21 @@ pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'sta
     let mut lines = wrapped(line, columns);
     if lines.len() > usize::from(rows) {
         lines.truncate(rows.into());
-        lines.last_mut().into_iter().for_each(|last| *last = clipped(last, columns));
+        lines
+            .last_mut()
+            .into_iter()
+            .for_each(|last| *last = clipped(last, columns));
     }
     lines
 }
 
 /// A line at most `columns` wide, shortened with an `…` if necessary.
 pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
-    if line.width() > usize::from(columns) { clipped(&line, columns) } else { line }
+    if line.width() > usize::from(columns) {
+        clipped(&line, columns)
+    } else {
+        line
+    }
 }
 
 /// A line shortened to at most `columns`, with `…` in place of the rest.
@@ -78,10 +99,17 @@ fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
         width <= usize::from(columns)
     });
     let (kept, rest) = graphemes.split_at(kept.count());
-    let blanks = kept.iter().rev().take_while(|grapheme| grapheme.symbol.trim().is_empty()).count();
+    let blanks = kept
+        .iter()
+        .rev()
+        .take_while(|grapheme| grapheme.symbol.trim().is_empty())
+        .count();
     let mut clipped = styled(&kept[..kept.len() - blanks]);
     if columns > 0 {
-        let style = rest.first().or(kept.last()).map_or(line.style, |grapheme| grapheme.style);
+        let style = rest
+            .first()
+            .or(kept.last())
+            .map_or(line.style, |grapheme| grapheme.style);
         clipped.push_span(Span::styled("…", style));
     }
     clipped.style(line.style)
@@ -94,7 +122,10 @@ pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Li
     for part in parts {
         let width: usize = part.iter().map(Span::width).sum();
         let apart = Span::raw(between);
-        match lines.last_mut().filter(|line| line.width() + apart.width() + width <= columns) {
+        match lines
+            .last_mut()
+            .filter(|line| line.width() + apart.width() + width <= columns)
+        {
             Some(line) => {
                 line.spans.push(apart);
                 line.spans.extend(part);
@@ -117,7 +148,10 @@ mod tests {
     use super::*;
 
     fn texts(text: &'static str, columns: u16) -> Vec<String> {
-        wrapped(&Line::raw(text), columns).iter().map(ToString::to_string).collect()
+        wrapped(&Line::raw(text), columns)
+            .iter()
+            .map(ToString::to_string)
+            .collect()
     }
 
     #[test]
@@ -125,18 +159,31 @@ mod tests {
         assert_eq!(texts("one two  three", 7), ["one two", "three"]);
         assert_eq!(texts("one two three", 8), ["one two ", "three"]);
         assert_eq!(texts("unbreakable", 4), ["unbr", "eaka", "ble"]);
-        assert_eq!(texts("by 2 048 springs, 940 µs", 8), ["by 2 048", "springs,", "940 µs"]);
-        assert_eq!(texts("1 234 567 springs", 6), ["1 234 ", "567 ", "spring", "s"]);
+        assert_eq!(
+            texts("by 2 048 springs, 940 µs", 8),
+            ["by 2 048", "springs,", "940 µs"]
+        );
+        assert_eq!(
+            texts("1 234 567 springs", 6),
+            ["1 234 ", "567 ", "spring", "s"]
+        );
         assert_eq!(texts("", 4), Vec::<String>::new());
         assert_eq!(texts("a b", 0), Vec::<String>::new());
     }
 
     #[test]
     fn no_line_is_wider_than_the_columns() {
-        for text in ["a漢b 漢 漢漢a", "\u{301}a \u{301} bcd\u{301}ef", "漢 \u{200b}a"] {
+        for text in [
+            "a漢b 漢 漢漢a",
+            "\u{301}a \u{301} bcd\u{301}ef",
+            "漢 \u{200b}a",
+        ] {
             for columns in 0..8 {
                 for line in wrapped(&Line::raw(text), columns) {
-                    assert!(line.width() <= usize::from(columns), "{text} {columns}: {line}");
+                    assert!(
+                        line.width() <= usize::from(columns),
+                        "{text} {columns}: {line}"
+                    );
                 }
             }
         }
@@ -145,8 +192,13 @@ mod tests {
     #[test]
     fn parts_fill_lines() {
         let filled_lines = |columns| {
-            let parts = ["one", "two", "three"].map(|text| vec![Span::raw(text)]).to_vec();
-            filled(parts, ", ", columns).iter().map(ToString::to_string).collect::<Vec<_>>()
+            let parts = ["one", "two", "three"]
+                .map(|text| vec![Span::raw(text)])
+                .to_vec();
+            filled(parts, ", ", columns)
+                .iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
         };
         assert_eq!(filled_lines(20), ["one, two, three"]);
         assert_eq!(filled_lines(8), ["one, two", "three"]);
@@ -156,7 +208,10 @@ mod tests {
 
     #[test]
     fn styles_stay_with_their_words() {
-        let line = Line::from(vec![Span::raw("one "), Span::styled("two", Style::new().bold())]);
+        let line = Line::from(vec![
+            Span::raw("one "),
+            Span::styled("two", Style::new().bold()),
+        ]);
         let lines = wrapped(&line, 4);
         assert_eq!(lines[1].spans, [Span::styled("two", Style::new().bold())]);
     }

@@ -23,12 +23,22 @@ pub struct TextLine {
 impl TextLine {
     /// Creates a line with this text and the cursor at its end.
     pub fn new(text: &str) -> Self {
-        let text: String = text.chars().filter(|c| !is_control(*c)).take(LONGEST).collect();
-        TextLine { input: Input::new(text), ..TextLine::default() }
+        let text: String = text
+            .chars()
+            .filter(|c| !is_control(*c))
+            .take(LONGEST)
+            .collect();
+        TextLine {
+            input: Input::new(text),
+            ..TextLine::default()
+        }
     }
 
     pub fn selected(text: &str) -> Self {
-        TextLine { selected: true, ..TextLine::new(text) }
+        TextLine {
+            selected: true,
+            ..TextLine::new(text)
+        }
     }
 
     pub fn is_selected(&self) -> bool {
@@ -53,7 +63,10 @@ impl TextLine {
 
     /// Inserts a text before the cursor or in place of the selected text, without control characters, as far as it fits.
     pub fn insert(&mut self, text: &str) {
-        let mut inserted = text.chars().filter(|character| !is_control(*character)).peekable();
+        let mut inserted = text
+            .chars()
+            .filter(|character| !is_control(*character))
+            .peekable();
         if self.selected && inserted.peek().is_some() {
             *self = TextLine::default();
         }
@@ -61,7 +74,9 @@ impl TextLine {
         for character in inserted.by_ref().take(room) {
             self.input.handle(InputRequest::InsertChar(character));
         }
-        let has_controls = text.contains(is_control).then_some("control characters are left out");
+        let has_controls = text
+            .contains(is_control)
+            .then_some("control characters are left out");
         self.left_out = inserted.next().map(|_| TOO_LONG).or(has_controls);
     }
 
@@ -69,7 +84,11 @@ impl TextLine {
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
-        self.input.handle(if self.selected && deletes { DeleteLine } else { request });
+        self.input.handle(if self.selected && deletes {
+            DeleteLine
+        } else {
+            request
+        });
         (self.selected, self.left_out) = (false, None);
     }
 
@@ -80,7 +99,10 @@ impl TextLine {
         if Span::raw(self.text()).width() <= columns || characters.len() <= kept {
             return self.text().to_owned();
         }
-        let (start, end) = (&characters[..kept - kept / 2], &characters[characters.len() - kept / 2..]);
+        let (start, end) = (
+            &characters[..kept - kept / 2],
+            &characters[characters.len() - kept / 2..],
+        );
         start.iter().chain(['…'].iter()).chain(end).collect()
     }
 
@@ -91,7 +113,11 @@ impl TextLine {
             return vec![Span::styled(self.shortened(columns), reversed)];
         }
         let (before, under, after) = self.parts();
-        let under = if under.is_empty() { " ".to_owned() } else { under };
+        let under = if under.is_empty() {
+            " ".to_owned()
+        } else {
+            under
+        };
         let mut room = columns.saturating_sub(Span::raw(under.as_str()).width());
         let fits = |character: char| {
             room = room.checked_sub(Span::raw(character.to_string()).width())?;
@@ -121,7 +147,11 @@ mod tests {
             let mut line = TextLine::selected("1.5 µm");
             request.into_iter().for_each(|request| line.edit(request));
             line.insert(text);
-            assert_eq!((line.text(), line.is_selected()), (expected, text == "\n"), "{request:?}");
+            assert_eq!(
+                (line.text(), line.is_selected()),
+                (expected, text == "\n"),
+                "{request:?}"
+            );
         }
     }
 
@@ -130,13 +160,22 @@ mod tests {
         let mut line = TextLine::new("ab");
         line.edit(GoToPrevChar);
         line.insert("1\n2\u{1b}");
-        assert_eq!((line.text(), line.left_out()), ("a12b", Some("control characters are left out")));
+        assert_eq!(
+            (line.text(), line.left_out()),
+            ("a12b", Some("control characters are left out"))
+        );
         line.insert("3");
         assert_eq!((line.text(), line.left_out()), ("a123b", None));
         line.insert(&"µ".repeat(20_000));
-        assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST, Some(TOO_LONG)));
+        assert_eq!(
+            (line.text().chars().count(), line.left_out()),
+            (LONGEST, Some(TOO_LONG))
+        );
         assert!(line.text().ends_with("µb") && TOO_LONG.contains(&LONGEST.to_string()));
         line.edit(DeletePrevChar);
-        assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST - 1, None));
+        assert_eq!(
+            (line.text().chars().count(), line.left_out()),
+            (LONGEST - 1, None)
+        );
     }
 }

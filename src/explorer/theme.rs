@@ -62,7 +62,14 @@ impl Appearance {
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(value);
         let is_ascii = locale.is_some_and(|locale| locale == "C" || locale == "POSIX");
         let is_console = value("TERM").is_some_and(|term| term == "linux");
-        Appearance { theme, marker: if is_ascii || is_console { Marker::Ascii } else { Marker::Braille } }
+        Appearance {
+            theme,
+            marker: if is_ascii || is_console {
+                Marker::Ascii
+            } else {
+                Marker::Braille
+            },
+        }
     }
 }
 
@@ -78,12 +85,14 @@ impl Theme {
 
     pub fn colour(self, meaning: Meaning) -> Color {
         use Meaning::{
-            Approach, Contact, Cursor, Error, Ghost, Key, Line, Manual, Quiet, Retraction, Selected, Surface,
-            Text, Title,
+            Approach, Contact, Cursor, Error, Ghost, Key, Line, Manual, Quiet, Retraction,
+            Selected, Surface, Text, Title,
         };
         match (self, meaning) {
             // Red is contact alone: marks and errors are bold.
-            (Theme::Plain, _) | (_, Line | Text | Selected | Title | Key | Cursor | Error) => Color::Reset,
+            (Theme::Plain, _) | (_, Line | Text | Selected | Title | Key | Cursor | Error) => {
+                Color::Reset
+            }
             (Theme::Neutral | Theme::Light, Quiet | Ghost) => Color::DarkGray,
             (Theme::Dark, Quiet | Ghost) => Color::Gray,
             (Theme::Neutral | Theme::Light, Surface) => Color::Blue,
@@ -126,7 +135,8 @@ pub trait Cycle: ValueEnum + PartialEq + 'static {
     }
 
     fn name(self) -> String {
-        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+        self.to_possible_value()
+            .map_or_else(String::new, |value| value.get_name().to_owned())
     }
 }
 
@@ -147,10 +157,16 @@ mod tests {
 
     #[test]
     fn every_theme_with_colours_separates_profile_surface_and_contact() {
-        for theme in Theme::value_variants().iter().filter(|theme| **theme != Theme::Plain) {
-            let [line, surface, contact] =
-                [Meaning::Line, Meaning::Surface, Meaning::Contact].map(|meaning| theme.colour(meaning));
-            assert!(line != surface && surface != contact && line != contact, "{theme:?}");
+        for theme in Theme::value_variants()
+            .iter()
+            .filter(|theme| **theme != Theme::Plain)
+        {
+            let [line, surface, contact] = [Meaning::Line, Meaning::Surface, Meaning::Contact]
+                .map(|meaning| theme.colour(meaning));
+            assert!(
+                line != surface && surface != contact && line != contact,
+                "{theme:?}"
+            );
         }
     }
 }

@@ -16,7 +16,9 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
     if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
         return parameter.shown.clone();
     }
-    let written = app.written(parameter).and_then(|written| written.parse::<f64>().ok());
+    let written = app
+        .written(parameter)
+        .and_then(|written| written.parse::<f64>().ok());
     match written {
         Some(value) => format!("= {}", format_quantity(value, parameter.field.unit)),
         // A smooth body has no κ; before the computation κ is unknown.
@@ -27,10 +29,19 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
 
 /// Unit of a typed force, with the prefix of the largest force of the loading or, without one, of the computed curve.
 pub fn unit_of_force(app: &App) -> String {
-    let computed = || app.current().and_then(|solved| solved.outcome.figures.preload);
-    let given =
-        [pressing_force(&app.edit.document.scene().loading), computed().unwrap_or_default(), USUAL_FORCE];
-    let force = given.into_iter().find(|force| *force > 0.0).unwrap_or(USUAL_FORCE);
+    let computed = || {
+        app.current()
+            .and_then(|solved| solved.outcome.figures.preload)
+    };
+    let given = [
+        pressing_force(&app.edit.document.scene().loading),
+        computed().unwrap_or_default(),
+        USUAL_FORCE,
+    ];
+    let force = given
+        .into_iter()
+        .find(|force| *force > 0.0)
+        .unwrap_or(USUAL_FORCE);
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
@@ -41,7 +52,9 @@ pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     }
     match parameter.leg {
         Some(_) if parameter.field.unit.is_empty() => in_unit(typed, &unit_of_force(app)),
-        _ => parameter.field.in_shown_units(typed, &shown(app, parameter)),
+        _ => parameter
+            .field
+            .in_shown_units(typed, &shown(app, parameter)),
     }
 }
 
@@ -60,10 +73,16 @@ pub fn reading(app: &App) -> Option<String> {
             if let Some(leg) = parameter.leg {
                 let kind = StageKind::of(app.edit.document.scene().loading.get(leg)?).0;
                 let stage = read_stage(&typed, Some(kind)).ok()?;
-                (target_field(stage)?.0.unit, loading_text(&[stage], format_quantity))
+                (
+                    target_field(stage)?.0.unit,
+                    loading_text(&[stage], format_quantity),
+                )
             } else {
                 let written = parameter.field.read_typed(&typed).ok()?;
-                (parameter.field.unit, parameter.field.quantities(&written, format_quantity)?)
+                (
+                    parameter.field.unit,
+                    parameter.field.quantities(&written, format_quantity)?,
+                )
             }
         }
         _ => return None,

@@ -49,14 +49,20 @@ fn apply(app: &mut App, action: Action) {
         Action::Mouse(mouse) => mouse::act(app, mouse),
     }
     // A search goes through the rows of the present scene.
-    if let Some(prompt) = app.prompt.as_mut().filter(|_| app.edit.parameters.len() != rows) {
+    if let Some(prompt) = app
+        .prompt
+        .as_mut()
+        .filter(|_| app.edit.parameters.len() != rows)
+    {
         prompt.search(&app.edit.parameters);
     }
 }
 
 /// Runs the command of a key, or types its character.
 fn pressed(app: &mut App, key: &KeyEvent) {
-    let is_typed = !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
+    let is_typed = !key
+        .modifiers
+        .intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
     match (app.config.bindings.command(key, app.keys()), key.code) {
         (Some(command), _) => run(app, command),
         (None, KeyCode::Char(typed)) if is_typed => {
@@ -106,7 +112,10 @@ fn replied(app: &mut App, reply: Reply) {
 
 /// Makes the request for the state that the screen waits for; it takes the waiting manual moves with it.
 pub fn request(app: &mut App) -> Request {
-    let moves = app.manual.as_mut().map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves));
+    let moves = app
+        .manual
+        .as_mut()
+        .map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves));
     // Without the moves taken: a move before the answer is another request.
     app.asked = Some(awaited(app));
     Request {

@@ -27,16 +27,22 @@ use std::path::{Path, is_separator};
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let mut written = || {
         let path = folder.join(&file.path);
-        let is_file = path.is_file() || !(path.exists() || path.to_string_lossy().ends_with(is_separator));
+        let is_file =
+            path.is_file() || !(path.exists() || path.to_string_lossy().ends_with(is_separator));
         if file.content == Content::Scene && file.path.extension().is_none() && is_file {
             file.path.set_extension("ron");
         }
         let path = folder.join(&file.path);
         // The folder of the user's own scenes comes with the first of them.
         if let Some(own) = own_folder().filter(|own| path.parent() == Some(own)) {
-            create_dir_all(&own).map_err(|reason| WriteError::Failed { path: own.clone(), reason })?;
+            create_dir_all(&own).map_err(|reason| WriteError::Failed {
+                path: own.clone(),
+                reason,
+            })?;
         }
-        write_new_file(&path, file.overwrite, |out| write_content(out, app, &file.path, file.content))
+        write_new_file(&path, file.overwrite, |out| {
+            write_content(out, app, &file.path, file.content)
+        })
     };
     let result = written().map_err(|error| match error {
         WriteError::Exists { .. } => WriteFailure::Exists,
@@ -60,15 +66,27 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
                 report.or_else(|| figure(app).filter(has_table).map(drawn))
             };
             let (command, report) = report.ok_or_else(missing)?;
-            let kept = if command == OPEN_COMMAND { with_path(app).and_then(Result::ok) } else { None };
+            let kept = if command == OPEN_COMMAND {
+                with_path(app).and_then(Result::ok)
+            } else {
+                None
+            };
             let document = kept.as_ref().unwrap_or(&app.edit.document);
             let command = command_line(&command, document.name(), document.overrides());
-            let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));
+            let (folder, destination) =
+                (document.resolve(""), path.parent().unwrap_or(Path::new("")));
             let provenance = scene_provenance(&command, document.scene(), &folder, destination);
             let provenance = provenance.map_err(io::Error::other)?;
-            let beside_scene = SceneTable { scene: document.scene(), table: &*report };
+            let beside_scene = SceneTable {
+                scene: document.scene(),
+                table: &*report,
+            };
             let is_table_alone = format == Format::Json && report.json().is_none();
-            let report: &dyn Report = if is_table_alone { &beside_scene } else { &*report };
+            let report: &dyn Report = if is_table_alone {
+                &beside_scene
+            } else {
+                &*report
+            };
             asperity_report::write(out, report, format, &provenance)
         }
     }
@@ -82,21 +100,37 @@ struct SceneTable<'a> {
 
 impl Report for SceneTable<'_> {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(object! { "scene": self.scene, "rows": self.table.table()? }))
+        Some(Box::new(
+            object! { "scene": self.scene, "rows": self.table.table()? },
+        ))
     }
 }
 
 /// The selected pane as a figure; the force curve while the parameters are selected.
 fn figure(app: &App) -> Option<Figure> {
-    let pane = if app.view.pane == Pane::Parameters { Pane::Force } else { app.view.pane };
+    let pane = if app.view.pane == Pane::Parameters {
+        Pane::Force
+    } else {
+        app.view.pane
+    };
     panes::figure(app, pane)
 }
 
 /// The screen as an SVG document, on a background that suits its colours.
 pub fn screenshot(app: &App) -> String {
-    let palette = if app.view.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
-    let name = Path::new(app.edit.document.name()).file_stem().unwrap_or_default();
-    screen_svg(&picture_of(app), &palette, &format!("Asperity: {}", name.to_string_lossy()))
+    let palette = if app.view.appearance.theme == Theme::Light {
+        Palette::LIGHT
+    } else {
+        Palette::DARK
+    };
+    let name = Path::new(app.edit.document.name())
+        .file_stem()
+        .unwrap_or_default();
+    screen_svg(
+        &picture_of(app),
+        &palette,
+        &format!("Asperity: {}", name.to_string_lossy()),
+    )
 }
 
 /// The screen without prompts, questions and messages other than errors.

@@ -49,7 +49,11 @@ unsafe impl GlobalAlloc for Watched {
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         note(size);
-        count(unsafe { System.realloc(pointer, layout, size) }, layout.size(), size)
+        count(
+            unsafe { System.realloc(pointer, layout, size) },
+            layout.size(),
+            size,
+        )
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {

@@ -23,7 +23,10 @@ use tempfile::TempDir;
 pub const REFUSED: &str = "no such folder/mine.ron";
 
 /// Appearance of the explorer.
-pub const APPEARANCE: Appearance = Appearance { theme: Theme::Neutral, marker: Marker::Braille };
+pub const APPEARANCE: Appearance = Appearance {
+    theme: Theme::Neutral,
+    marker: Marker::Braille,
+};
 
 /// An explorer without a terminal.
 pub struct Driver {
@@ -47,16 +50,29 @@ impl Driver {
     }
 
     /// Opens the explorer with another solver, and studies for which a function returns true.
-    pub fn open_with(opening: impl Into<Opening>, solve: Solve, performs: fn(&Study) -> bool) -> Self {
+    pub fn open_with(
+        opening: impl Into<Opening>,
+        solve: Solve,
+        performs: fn(&Study) -> bool,
+    ) -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("folder")).unwrap();
         let runtime = Runtime {
-            app: begin(opening.into(), (120, 40), APPEARANCE, Config::new(bindings())),
+            app: begin(
+                opening.into(),
+                (120, 40),
+                APPEARANCE,
+                Config::new(bindings()),
+            ),
             engine: Engine::inline(solve, performs),
             asked: 0,
             folder: folder.path().to_owned(),
         };
-        Driver { runtime, copied: Vec::new(), folder }
+        Driver {
+            runtime,
+            copied: Vec::new(),
+            folder,
+        }
     }
 
     /// Performs the effects of an action.
@@ -73,24 +89,32 @@ impl Driver {
         let study = Study::new(self.app.edit.generation, false, move |_, _, _| result);
         let mut found = Vec::new();
         for study in self.app.studies.begin(vec![study]) {
-            study.perform(&mut Simulation::default(), &|| false, &mut |finding| found.push(finding));
+            study.perform(&mut Simulation::default(), &|| false, &mut |finding| {
+                found.push(finding)
+            });
         }
-        found.into_iter().for_each(|finding| drop(self.act(Action::Found(finding))));
+        found
+            .into_iter()
+            .for_each(|finding| drop(self.act(Action::Found(finding))));
     }
 
     /// Names of the files in the folder of the explorer, in the order of the alphabet.
     pub fn files(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.folder.path()).unwrap().map(Result::unwrap);
+        let entries = fs::read_dir(self.folder.path())
+            .unwrap()
+            .map(Result::unwrap);
         let files = entries.filter(|entry| entry.path().is_file());
-        let mut names: Vec<_> = files.map(|entry| entry.file_name().into_string().unwrap()).collect();
+        let mut names: Vec<_> = files
+            .map(|entry| entry.file_name().into_string().unwrap())
+            .collect();
         names.sort();
         names
     }
 
     /// The text of a file in the folder of the explorer.
     pub fn file(&self, name: &str) -> String {
-        let content =
-            fs::read(self.folder.path().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let content = fs::read(self.folder.path().join(name))
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
         String::from_utf8_lossy(&content).into_owned()
     }
 }

@@ -18,8 +18,13 @@ const ROUGH: &str = r#"(
 
 /// A scene with fields changed, all at once.
 pub fn changed(document: &Document, fields: &[(&str, &str)]) -> Document {
-    let fields: Vec<_> = fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
-    document.set_all(&fields).unwrap_or_else(|errors| panic!("{errors}"))
+    let fields: Vec<_> = fields
+        .iter()
+        .map(|(path, value)| (path.to_string(), value.to_string()))
+        .collect();
+    document
+        .set_all(&fields)
+        .unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 /// A scene as read from a file of that name.
@@ -29,7 +34,10 @@ fn as_file(document: &Document, name: &str) -> Document {
 
 fn based_on_rough(name: &str, fields: &[(&str, &str)]) -> Document {
     let title = format!("\"{name}\"");
-    as_file(&changed(&rough(), fields).set("title", &title).unwrap(), name)
+    as_file(
+        &changed(&rough(), fields).set("title", &title).unwrap(),
+        name,
+    )
 }
 
 /// A rough line under weak adhesion, with several fragments.
@@ -66,6 +74,10 @@ pub fn punch() -> Document {
 
 /// A line of one spring.
 pub fn one_spring() -> Document {
-    let fields = [("roughness", "None"), ("adhesion", "(work: 0.05)"), ("numerics.points", "1")];
+    let fields = [
+        ("roughness", "None"),
+        ("adhesion", "(work: 0.05)"),
+        ("numerics.points", "1"),
+    ];
     based_on_rough("one-spring", &fields)
 }

@@ -37,7 +37,12 @@ impl Driver {
 
     /// Runs a command of this name, and returns its effects, not performed.
     pub fn update(&mut self, name: &str) -> Vec<Task> {
-        let command = self.app.config.bindings.named(name, self.app.keys()).expect("a valid command");
+        let command = self
+            .app
+            .config
+            .bindings
+            .named(name, self.app.keys())
+            .expect("a valid command");
         update(&mut self.app, Action::Command(command))
     }
 
@@ -62,7 +67,12 @@ impl Driver {
     /// Asserts that the screen shows these words.
     #[track_caller]
     pub fn shows(&self, words: impl AsRef<str>) {
-        assert!(self.text().contains(words.as_ref()), "not shown: {}\n{}", words.as_ref(), self.text());
+        assert!(
+            self.text().contains(words.as_ref()),
+            "not shown: {}\n{}",
+            words.as_ref(),
+            self.text()
+        );
     }
 
     /// Asserts that the screen shows all of these words.
@@ -74,13 +84,23 @@ impl Driver {
     /// Asserts that the screen does not show these words.
     #[track_caller]
     pub fn hides(&self, words: impl AsRef<str>) {
-        assert!(!self.text().contains(words.as_ref()), "shown: {}\n{}", words.as_ref(), self.text());
+        assert!(
+            !self.text().contains(words.as_ref()),
+            "shown: {}\n{}",
+            words.as_ref(),
+            self.text()
+        );
     }
 
     /// Asserts that the status line has these words.
     #[track_caller]
     pub fn states(&self, words: impl AsRef<str>) {
-        assert!(self.status().contains(words.as_ref()), "not stated: {}\n{}", words.as_ref(), self.text());
+        assert!(
+            self.status().contains(words.as_ref()),
+            "not stated: {}\n{}",
+            words.as_ref(),
+            self.text()
+        );
     }
 
     /// Presses keys, after which the screen shows these words.
@@ -99,7 +119,8 @@ impl Driver {
 
     /// Types a text, character by character.
     pub fn type_text(&mut self, text: &str) {
-        text.chars().for_each(|character| drop(self.act(Action::Paste(character.to_string()))));
+        text.chars()
+            .for_each(|character| drop(self.act(Action::Paste(character.to_string()))));
     }
 
     /// Types a value for the selected parameter in place of the present one.
@@ -122,7 +143,12 @@ impl Driver {
     pub fn select(&mut self, path: &str) {
         self.press("g");
         for _ in 0..self.app.edit.parameters.len() {
-            if self.app.edit.parameter().is_some_and(|parameter| parameter.path == path) {
+            if self
+                .app
+                .edit
+                .parameter()
+                .is_some_and(|parameter| parameter.path == path)
+            {
                 return;
             }
             self.press("j");
@@ -158,8 +184,16 @@ impl Driver {
     /// The rows of a pane with its frame.
     pub fn pane(&self, pane: Pane) -> Vec<String> {
         let area = Layout::of(&self.app).pane(pane).expect("the pane is shown");
-        let row = |row: &String| row.chars().skip(area.x.into()).take(area.width.into()).collect();
-        self.rows()[usize::from(area.y)..usize::from(area.bottom())].iter().map(row).collect()
+        let row = |row: &String| {
+            row.chars()
+                .skip(area.x.into())
+                .take(area.width.into())
+                .collect()
+        };
+        self.rows()[usize::from(area.y)..usize::from(area.bottom())]
+            .iter()
+            .map(row)
+            .collect()
     }
 
     /// The area inside the frame of a pane.
@@ -175,7 +209,11 @@ impl Driver {
 
     /// Moves the mouse.
     pub fn mouse(&mut self, column: u16, row: u16, gesture: Gesture) -> Vec<Task> {
-        self.act(Action::Mouse(Mouse { column, row, gesture }))
+        self.act(Action::Mouse(Mouse {
+            column,
+            row,
+            gesture,
+        }))
     }
 
     /// The scene as text.
@@ -195,7 +233,12 @@ impl Driver {
 
     /// The outcome of the scene.
     pub fn outcome(&self) -> &Outcome {
-        &self.app.solved.as_ref().expect("the scene is computed").outcome
+        &self
+            .app
+            .solved
+            .as_ref()
+            .expect("the scene is computed")
+            .outcome
     }
 
     /// The row below the panes.

@@ -2,7 +2,9 @@
 
 #![allow(dead_code, reason = "no test uses all of it")]
 
-use portable_pty::{Child, ChildKiller, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
+use portable_pty::{
+    Child, ChildKiller, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system,
+};
 use std::collections::VecDeque;
 use std::ffi::OsStr;
 use std::io::{Read, Write};
@@ -57,7 +59,11 @@ impl Program {
         command.env("TERM", "xterm-256color");
         let home = tempfile::tempdir().unwrap();
         command.env("HOME", home.path());
-        Program { command, size: (120, 40), home }
+        Program {
+            command,
+            size: (120, 40),
+            home,
+        }
     }
 
     pub fn argument(mut self, argument: impl AsRef<OsStr>) -> Self {
@@ -120,7 +126,12 @@ impl Program {
 }
 
 fn size((cols, rows): (u16, u16)) -> PtySize {
-    PtySize { rows, cols, pixel_width: 0, pixel_height: 0 }
+    PtySize {
+        rows,
+        cols,
+        pixel_width: 0,
+        pixel_height: 0,
+    }
 }
 
 fn nonzero(value: u16) -> NonZeroU16 {
@@ -129,7 +140,10 @@ fn nonzero(value: u16) -> NonZeroU16 {
 
 /// Treatment of input and output by the terminal: raw or line by line, with or without echo.
 fn attributes(master: &dyn MasterPty) -> String {
-    format!("{:?}", master.get_termios().expect("a terminal has attributes"))
+    format!(
+        "{:?}",
+        master.get_termios().expect("a terminal has attributes")
+    )
 }
 
 fn await_end(mut child: Box<dyn Child + Send + Sync>, events: Sender<Event>) {
@@ -236,7 +250,9 @@ impl Terminal {
     /// Sends keys if the program still runs.
     pub fn send_if_open(&mut self, keys: impl AsRef<[u8]>) {
         let keyboard = self.keyboard.as_mut().expect("the terminal is open");
-        let _ = keyboard.write_all(keys.as_ref()).and_then(|()| keyboard.flush());
+        let _ = keyboard
+            .write_all(keys.as_ref())
+            .and_then(|()| keyboard.flush());
     }
 
     /// How the program has ended; `None` while it runs.
@@ -248,7 +264,11 @@ impl Terminal {
     pub fn resize(&mut self, columns: u16, rows: u16) {
         self.parser.process(b"\x1b[2J");
         self.parser.set_size(nonzero(rows), nonzero(columns));
-        self.master.as_ref().expect("the terminal is open").resize(size((columns, rows))).unwrap();
+        self.master
+            .as_ref()
+            .expect("the terminal is open")
+            .resize(size((columns, rows)))
+            .unwrap();
     }
 
     /// True if input is echoed and read line by line, as before the start of the program.
@@ -264,7 +284,11 @@ impl Terminal {
         while self.begun.is_some() || !is_there(&self.rows()) {
             let gone = self.closed && self.ended.is_some();
             if gone || !self.take(deadline.saturating_duration_since(Instant::now())) {
-                panic!("no {what} on the screen (ended: {:?}):\n{}", self.ended, self.text());
+                panic!(
+                    "no {what} on the screen (ended: {:?}):\n{}",
+                    self.ended,
+                    self.text()
+                );
             }
         }
     }
@@ -278,7 +302,9 @@ impl Terminal {
     /// Waits until a text is no longer on the screen.
     #[track_caller]
     pub fn wait_without(&mut self, text: &str) {
-        self.wait(&format!("screen without {text}"), |rows| !rows.iter().any(|row| row.contains(text)));
+        self.wait(&format!("screen without {text}"), |rows| {
+            !rows.iter().any(|row| row.contains(text))
+        });
     }
 
     /// Waits until output pauses.
@@ -292,7 +318,11 @@ impl Terminal {
     pub fn settle_for(&mut self, quiet: Duration) {
         let deadline = Instant::now() + PATIENCE;
         while self.take(quiet) {
-            assert!(Instant::now() < deadline, "it never stops writing:\n{}", self.text());
+            assert!(
+                Instant::now() < deadline,
+                "it never stops writing:\n{}",
+                self.text()
+            );
         }
     }
 
@@ -358,7 +388,11 @@ impl Terminal {
         self.closing.store(true, Ordering::SeqCst);
         // The reader returns with the next byte of output: the echo of a key.
         self.send("?");
-        self.reader.take().expect("the terminal is open").join().unwrap();
+        self.reader
+            .take()
+            .expect("the terminal is open")
+            .join()
+            .unwrap();
         self.keyboard = None;
         self.master = None;
     }
@@ -386,10 +420,16 @@ impl Terminal {
     fn frame_by_frame(&self, bytes: &[u8]) -> VecDeque<Vec<u8>> {
         let before = &self.written[self.written.len().saturating_sub(END_FRAME.len() - 1)..];
         let joined = [before, bytes].concat();
-        let ends = joined.windows(END_FRAME.len()).enumerate().filter(|(_, window)| *window == END_FRAME);
+        let ends = joined
+            .windows(END_FRAME.len())
+            .enumerate()
+            .filter(|(_, window)| *window == END_FRAME);
         let mut from = before.len();
         let mut parts = VecDeque::new();
-        for to in ends.map(|(place, _)| place + END_FRAME.len()).chain([joined.len()]) {
+        for to in ends
+            .map(|(place, _)| place + END_FRAME.len())
+            .chain([joined.len()])
+        {
             if to > from {
                 parts.push_back(joined[from..to].to_vec());
                 from = to;
@@ -404,14 +444,19 @@ impl Terminal {
         let from = self.written.len().saturating_sub(END_FRAME.len() - 1);
         self.written.extend_from_slice(part);
         let place = |mark: &[u8]| {
-            let found = self.written[from..].windows(mark.len()).position(|window| window == mark);
+            let found = self.written[from..]
+                .windows(mark.len())
+                .position(|window| window == mark);
             found.map(|place| from + place)
         };
         let (begin, end) = (place(BEGIN_FRAME), place(END_FRAME));
         self.begun = begin.or(self.begun);
         if let Some((begun, end)) = self.begun.zip(end) {
             let bytes = end + END_FRAME.len() - begun;
-            self.frames.push(Frame { arrived: self.arrived, bytes });
+            self.frames.push(Frame {
+                arrived: self.arrived,
+                bytes,
+            });
             self.begun = None;
         }
     }
@@ -428,5 +473,8 @@ impl Drop for Terminal {
 /// The rows of a screen, without the blanks at their ends.
 fn rows(screen: &vt100::Screen) -> Vec<String> {
     let (_, columns) = screen.size();
-    screen.rows(0, columns.get()).map(|row| row.trim_end().to_owned()).collect()
+    screen
+        .rows(0, columns.get())
+        .map(|row| row.trim_end().to_owned())
+        .collect()
 }

@@ -70,7 +70,11 @@ fn mouse() -> impl Strategy<Value = Mouse> {
         prop_oneof![-3..3_i32, Just(i32::MIN + 1)].prop_map(Gesture::Wheel),
     ];
     let place = || prop_oneof![8 => 0..130_u16, 1 => Just(u16::MAX)];
-    (place(), place(), gesture).prop_map(|(column, row, gesture)| Mouse { column, row, gesture })
+    (place(), place(), gesture).prop_map(|(column, row, gesture)| Mouse {
+        column,
+        row,
+        gesture,
+    })
 }
 
 fn value() -> impl Strategy<Value = String> {
@@ -84,7 +88,11 @@ fn value() -> impl Strategy<Value = String> {
 }
 
 fn event() -> impl Strategy<Value = Event> {
-    let names = prop_oneof![Just("a.ron".to_owned()), Just(REFUSED.to_owned()), Just("b/c.ron".to_owned())];
+    let names = prop_oneof![
+        Just("a.ron".to_owned()),
+        Just(REFUSED.to_owned()),
+        Just("b/c.ron".to_owned())
+    ];
     prop_oneof![
         15 => any::<usize>().prop_map(|key| Event::Keys(key, 1)),
         3 => (any::<usize>(), 2..8_usize).prop_map(|(key, times)| Event::Keys(key, times)),
@@ -106,13 +114,23 @@ fn event() -> impl Strategy<Value = Event> {
 fn scenes(study: &Path) -> Vec<Opening> {
     let few = [("numerics.points", "64"), ("numerics.samples", "16")];
     let small = changed(&rough(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]);
-    let beyond = small.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+    let beyond = small
+        .set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]")
+        .unwrap();
     let mut scenes: Vec<Opening> = [
         small.clone(),
-        small.set("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]").unwrap(),
+        small
+            .set(
+                "loading",
+                "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]",
+            )
+            .unwrap(),
         changed(&smooth(), &few),
         changed(&punch(), &few),
-        changed(&without_adhesion(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]),
+        changed(
+            &without_adhesion(),
+            &[("roughness.modes", "(2, 16)"), few[0], few[1]],
+        ),
         one_spring(),
         beyond,
     ]
@@ -137,7 +155,13 @@ struct Explorer {
 impl Explorer {
     fn new(opening: Opening, study: &Path) -> Self {
         let (driver, waiting) = (Driver::open(opening), VecDeque::from([Task::Ask]));
-        Explorer { driver, waiting, reports: Vec::new(), judged: 0, study: study.to_owned() }
+        Explorer {
+            driver,
+            waiting,
+            reports: Vec::new(),
+            judged: 0,
+            study: study.to_owned(),
+        }
     }
 
     fn act(&mut self, action: Action) {
@@ -173,7 +197,11 @@ impl Explorer {
             }
             Event::Open(sound) => {
                 self.command("open-library");
-                let folder = if *sound { self.study.clone() } else { self.study.join("shards") };
+                let folder = if *sound {
+                    self.study.clone()
+                } else {
+                    self.study.join("shards")
+                };
                 self.act(Action::Paste(folder.to_str().unwrap().to_owned()));
                 self.command("accept");
             }
@@ -199,7 +227,10 @@ impl Explorer {
             .collect();
         let (row, key) = keys[number % keys.len()];
         for _ in 0..times {
-            self.act(Action::Command(Command { row, key: Some(key) }));
+            self.act(Action::Command(Command {
+                row,
+                key: Some(key),
+            }));
         }
     }
 
@@ -212,11 +243,14 @@ impl Explorer {
     }
 
     fn answer(&mut self) {
-        let Some(effect) = self.waiting.pop_front() else { return };
+        let Some(effect) = self.waiting.pop_front() else {
+            return;
+        };
         let is_cheap = |document: &Document| {
             let scene = document.scene();
             let numerics = scene.numerics;
-            let is_small = numerics.points <= MOST && numerics.samples <= MOST && scene.loading.len() <= 16;
+            let is_small =
+                numerics.points <= MOST && numerics.samples <= MOST && scene.loading.len() <= 16;
             is_small && numerics.solver == Solver::Exact
         };
         let actions = match &effect {
@@ -236,7 +270,9 @@ impl Explorer {
     /// Draws into a window of this size.
     fn draw(&self, (columns, rows): (u16, u16)) {
         let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
-        terminal.draw(|frame| view::draw(frame, &self.driver.app)).unwrap();
+        terminal
+            .draw(|frame| view::draw(frame, &self.driver.app))
+            .unwrap();
     }
 
     /// Checks conditions that always hold.
@@ -246,14 +282,25 @@ impl Explorer {
         if app.edit.generation > self.judged {
             self.judged = app.edit.generation;
             let document = &app.edit.document;
-            assert_eq!(Scene::clone(document.scene()).checked().as_ref(), Ok(document.scene()));
-            let again = Document::parse(document.text(), document.name()).expect("the text is a scene");
+            assert_eq!(
+                Scene::clone(document.scene()).checked().as_ref(),
+                Ok(document.scene())
+            );
+            let again =
+                Document::parse(document.text(), document.name()).expect("the text is a scene");
             assert_eq!(again.scene(), document.scene());
-            assert_eq!(app.edit.parameters, parameters(document, app.edit.measured.as_ref()));
+            assert_eq!(
+                app.edit.parameters,
+                parameters(document, app.edit.measured.as_ref())
+            );
             assert!(!app.is_refused(), "a changed scene is not refused");
         }
         assert!(app.edit.parameter().is_some());
-        assert!((0.0..=1.0).contains(&app.play.share(app.legs())), "{:?}", app.play);
+        assert!(
+            (0.0..=1.0).contains(&app.play.share(app.legs())),
+            "{:?}",
+            app.play
+        );
         assert!(app.indentation().is_finite());
         if let Some(study) = app.map.shown_study() {
             assert!(study.slice < study.study_map.slices());
@@ -261,9 +308,16 @@ impl Explorer {
         if let Some(grid) = app.grid() {
             let mapped = app.mapped();
             let any = grid.quantities();
-            assert!(any.contains(&mapped) || any.is_empty() && mapped == Quantity::Regime, "{mapped:?}");
+            assert!(
+                any.contains(&mapped) || any.is_empty() && mapped == Quantity::Regime,
+                "{mapped:?}"
+            );
         }
-        if app.solved.as_ref().is_some_and(|computed| computed.generation == app.edit.generation) {
+        if app
+            .solved
+            .as_ref()
+            .is_some_and(|computed| computed.generation == app.edit.generation)
+        {
             assert!(app.play.leg < app.legs().len(), "{:?}", app.play);
             assert!(!app.is_computing());
         }
@@ -281,8 +335,16 @@ impl Explorer {
         let app = &self.driver.app;
         assert!(!app.is_computing());
         let current = |generation: u64| generation == app.edit.generation;
-        if app.solved.as_ref().is_some_and(|computed| current(computed.generation)) {
-            assert!(app.snapshot.as_ref().is_some_and(|snapshot| current(snapshot.generation)));
+        if app
+            .solved
+            .as_ref()
+            .is_some_and(|computed| current(computed.generation))
+        {
+            assert!(
+                app.snapshot
+                    .as_ref()
+                    .is_some_and(|snapshot| current(snapshot.generation))
+            );
         } else {
             assert!(app.message.is_some() || app.prompt.is_some());
         }
@@ -299,7 +361,11 @@ fn whatever_happens_it_draws_and_its_scene_is_sound() {
         .replace("profiles: 12", "profiles: 2");
     merged(folder.path(), &plan);
     let scenes = scenes(folder.path());
-    let drawn = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
+    let drawn = (
+        0..scenes.len(),
+        size(),
+        prop::collection::vec(event(), 1..=LONGEST),
+    );
     let mut runner = TestRunner::new(Config {
         failure_persistence: None,
         max_shrink_time: 20_000,

@@ -108,12 +108,21 @@ fn everywhere() -> Vec<Driver> {
 }
 
 fn reversed(cells: &[Cell]) -> String {
-    cells.iter().filter(|cell| cell.modifier.contains(Modifier::REVERSED)).map(Cell::symbol).collect()
+    cells
+        .iter()
+        .filter(|cell| cell.modifier.contains(Modifier::REVERSED))
+        .map(Cell::symbol)
+        .collect()
 }
 
 /// True if the outcome shown is that of the present scene.
 fn is_up_to_date(app: &App) -> bool {
-    app.solved.as_ref().is_some_and(|computed| computed.generation == app.edit.generation)
-        && app.snapshot.as_ref().is_some_and(|snapshot| snapshot.generation == app.edit.generation)
+    app.solved
+        .as_ref()
+        .is_some_and(|computed| computed.generation == app.edit.generation)
+        && app
+            .snapshot
+            .as_ref()
+            .is_some_and(|snapshot| snapshot.generation == app.edit.generation)
         && !app.is_computing()
 }

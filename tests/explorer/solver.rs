@@ -35,7 +35,11 @@ impl Served {
     fn by(solve: Solve) -> Self {
         let (report, reports) = channel();
         let thread = SolverThread::start(solve, move |one| drop(report.send(one))).unwrap();
-        Served { thread, reports, last: RefCell::new(compute(0, &rough())) }
+        Served {
+            thread,
+            reports,
+            last: RefCell::new(compute(0, &rough())),
+        }
     }
 
     fn compute(&self, generation: u64, document: &Document) {
@@ -44,7 +48,9 @@ impl Served {
     }
 
     fn report(&self) -> Reply {
-        self.reports.recv_timeout(PATIENCE).expect("the worker reports")
+        self.reports
+            .recv_timeout(PATIENCE)
+            .expect("the worker reports")
     }
 
     /// The next report other than progress.
@@ -66,10 +72,25 @@ impl Served {
     }
 
     /// A snapshot of the last scene at an indentation of a leg.
-    fn shown(&self, leg: usize, indentation: f64, snapshot: SnapshotRequest) -> Arc<ContactSnapshot> {
-        let moves = vec![ManualMove::Take { leg, at: At::Indentation(indentation) }];
-        let snapshot = SnapshotRequest { drive: Drive::Manual, ..snapshot };
-        self.thread.ask(Request { snapshot, moves, ..self.last.borrow().clone() });
+    fn shown(
+        &self,
+        leg: usize,
+        indentation: f64,
+        snapshot: SnapshotRequest,
+    ) -> Arc<ContactSnapshot> {
+        let moves = vec![ManualMove::Take {
+            leg,
+            at: At::Indentation(indentation),
+        }];
+        let snapshot = SnapshotRequest {
+            drive: Drive::Manual,
+            ..snapshot
+        };
+        self.thread.ask(Request {
+            snapshot,
+            moves,
+            ..self.last.borrow().clone()
+        });
         match self.answer() {
             Reply::Shown(snapshot) => snapshot,
             other => panic!("not shown: {other:?}"),
@@ -91,13 +112,20 @@ const SNAPSHOT: SnapshotRequest = SnapshotRequest {
 
 fn compute(generation: u64, document: &Document) -> Request {
     let scene = Arc::new(document.scene().clone());
-    Request { generation, scene, moves: Vec::new(), snapshot: SNAPSHOT }
+    Request {
+        generation,
+        scene,
+        moves: Vec::new(),
+        snapshot: SNAPSHOT,
+    }
 }
 
 /// Sends all requests to a solver at once and returns all its reports.
 fn serve_all(awaited: u64, requests: Vec<Request>) -> Vec<Reply> {
     let (sender, receiver) = channel();
-    requests.into_iter().for_each(|request| sender.send(request).unwrap());
+    requests
+        .into_iter()
+        .for_each(|request| sender.send(request).unwrap());
     drop(sender);
     let mut reports = Vec::new();
     let solver = Solver::new(Simulation::run, Arc::new(AtomicU64::new(awaited)));
@@ -125,13 +153,22 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
         let served = Served::start();
         served.compute(7, &rough());
         for done in 1..=2 {
-            assert!(matches!(served.report(), Reply::Progress { generation: 7, legs } if legs == done));
+            assert!(
+                matches!(served.report(), Reply::Progress { generation: 7, legs } if legs == done)
+            );
         }
-        let Reply::Solved(computed, Some(shown)) = served.report() else { panic!("not computed") };
+        let Reply::Solved(computed, Some(shown)) = served.report() else {
+            panic!("not computed")
+        };
         assert_eq!((shown.generation, shown.drive), (7, Drive::Leg(0)));
         let rough = rough();
-        let scene = rough.scene().with(|scene| scene.observe.push(Observer::HeightHistogram)).unwrap();
-        let mut alone = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let scene = rough
+            .scene()
+            .with(|scene| scene.observe.push(Observer::HeightHistogram))
+            .unwrap();
+        let mut alone = Simulation::default()
+            .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         let timings = computed.outcome.timings;
         assert_eq!(computed.generation, 7);
         alone.timings = timings;
@@ -142,15 +179,34 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
 #[test]
 fn of_all_that_wait_only_the_newest_is_done() {
     within(30, || {
-        let requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&rough(), number))).collect();
+        let requests: Vec<_> = (1..=5)
+            .map(|number| compute(number, &seed(&rough(), number)))
+            .collect();
         let reports = serve_all(5, requests.clone());
-        assert_eq!(solved(&reports).iter().map(|one| one.outcome.line.seed).collect::<Vec<_>>(), [Some(5)]);
-        assert!(serve_all(6, requests).is_empty(), "a newer scene is awaited");
+        assert_eq!(
+            solved(&reports)
+                .iter()
+                .map(|one| one.outcome.line.seed)
+                .collect::<Vec<_>>(),
+            [Some(5)]
+        );
+        assert!(
+            serve_all(6, requests).is_empty(),
+            "a newer scene is awaited"
+        );
         // No manual move is lost, but those of another scene.
-        let moved =
-            |generation, by| Request { moves: vec![ManualMove::By(by)], ..compute(generation, &rough()) };
-        assert_eq!(moved(1, 2.0).after(moved(1, 1.0)).moves, [ManualMove::By(1.0), ManualMove::By(2.0)]);
-        assert_eq!(moved(2, 2.0).after(moved(1, 1.0)).moves, [ManualMove::By(2.0)]);
+        let moved = |generation, by| Request {
+            moves: vec![ManualMove::By(by)],
+            ..compute(generation, &rough())
+        };
+        assert_eq!(
+            moved(1, 2.0).after(moved(1, 1.0)).moves,
+            [ManualMove::By(1.0), ManualMove::By(2.0)]
+        );
+        assert_eq!(
+            moved(2, 2.0).after(moved(1, 1.0)).moves,
+            [ManualMove::By(2.0)]
+        );
     });
 }
 
@@ -176,7 +232,11 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
         let reports: Vec<_> = std::iter::from_fn(|| Some(served.report()))
             .take_while(|report| !matches!(report, Reply::Solved(..)))
             .collect();
-        assert!(reports.iter().all(|report| matches!(report, Reply::Progress { generation: 2, .. })));
+        assert!(
+            reports
+                .iter()
+                .all(|report| matches!(report, Reply::Progress { generation: 2, .. }))
+        );
         assert_eq!(served.shown(0, 0.0, SNAPSHOT).generation, 2);
     });
 }
@@ -184,18 +244,32 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
 #[test]
 fn a_panic_is_stated_and_the_next_scene_is_computed() {
     within(30, || {
-        let served = Served::by(|simulation, scene, stop, after| match scene.title.as_str() {
-            "text" => panic!("no such spring"),
-            "formatted" => panic!("no spring {}", scene.numerics.points),
-            _ => simulation.run(scene, stop, after),
-        });
+        let served = Served::by(
+            |simulation, scene, stop, after| match scene.title.as_str() {
+                "text" => panic!("no such spring"),
+                "formatted" => panic!("no spring {}", scene.numerics.points),
+                _ => simulation.run(scene, stop, after),
+            },
+        );
         let mut generation = 0;
-        for (title, expected) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
+        for (title, expected) in [
+            ("\"text\"", "no such spring"),
+            ("\"formatted\"", "no spring 1024"),
+        ] {
             generation += 1;
             served.compute(generation, &rough().set("title", title).unwrap());
-            let Reply::Failed { generation: of, error } = served.answer() else { panic!("not failed") };
+            let Reply::Failed {
+                generation: of,
+                error,
+            } = served.answer()
+            else {
+                panic!("not failed")
+            };
             assert_eq!(of, generation);
-            assert!(error.contains("internal error") && error.contains(expected), "{error}");
+            assert!(
+                error.contains("internal error") && error.contains(expected),
+                "{error}"
+            );
             assert_eq!(error.lines().count(), 1, "{error}");
             generation += 1;
             assert_eq!(served.computed(generation, &rough()).generation, generation);
@@ -206,10 +280,17 @@ fn a_panic_is_stated_and_the_next_scene_is_computed() {
 
 /// Scenes whose states are examined, with a name.
 fn scenes() -> Vec<(&'static str, Document)> {
-    let sphere = [("form", "Paraboloid(radius: 1.0e-3)"), ("loading", "[ToForce(1.0e-5), ToSeparation]")];
-    let several = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToIndentation(-1.0e-8), ToSeparation]";
+    let sphere = [
+        ("form", "Paraboloid(radius: 1.0e-3)"),
+        ("loading", "[ToForce(1.0e-5), ToSeparation]"),
+    ];
+    let several =
+        "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToIndentation(-1.0e-8), ToSeparation]";
     vec![
-        ("edges between springs", rough().set("numerics.edges", "SubCell").unwrap()),
+        (
+            "edges between springs",
+            rough().set("numerics.edges", "SubCell").unwrap(),
+        ),
         ("rough", rough()),
         ("several legs", rough().set("loading", several).unwrap()),
         ("rough sphere", changed(&rough(), &sphere)),
@@ -217,7 +298,10 @@ fn scenes() -> Vec<(&'static str, Document)> {
         ("no adhesion", without_adhesion()),
         ("punch", punch()),
         ("one spring", one_spring()),
-        ("never touches", rough().set("loading", "[ToIndentation(-1.0e-7)]").unwrap()),
+        (
+            "never touches",
+            rough().set("loading", "[ToIndentation(-1.0e-7)]").unwrap(),
+        ),
     ]
 }
 
@@ -242,7 +326,10 @@ fn a_moment_at_a_sample_is_the_sample() {
                 for sample in some(&record.curve) {
                     let shown = served.shown(leg, sample.indentation, SNAPSHOT).point;
                     // At a jump into or out of contact two samples have one indentation.
-                    let same = record.curve.iter().filter(|one| one.indentation == sample.indentation);
+                    let same = record
+                        .curve
+                        .iter()
+                        .filter(|one| one.indentation == sample.indentation);
                     assert!(
                         same.clone().any(|one| near(one, &shown)),
                         "{name}, leg {leg}: {shown:?}, not {:?}",
@@ -266,7 +353,13 @@ fn near(one: &CurvePoint, other: &CurvePoint) -> bool {
 
 /// Contact patches, from one column for each spring.
 fn fragments(snapshot: &ContactSnapshot) -> Vec<Patch> {
-    Patch::of_springs(snapshot.profile.columns.iter().map(|column| column.contact.is_some()))
+    Patch::of_springs(
+        snapshot
+            .profile
+            .columns
+            .iter()
+            .map(|column| column.contact.is_some()),
+    )
 }
 
 #[test]
@@ -293,22 +386,34 @@ fn picture_counts_and_boundaries_say_the_same() {
                     assert_eq!(shown.point.springs, held as u64, "{name}");
                     let ends: Vec<usize> = found
                         .iter()
-                        .flat_map(
-                            |&Patch { first, last }| {
-                                if first == last { vec![first] } else { vec![first, last] }
-                            },
-                        )
+                        .flat_map(|&Patch { first, last }| {
+                            if first == last {
+                                vec![first]
+                            } else {
+                                vec![first, last]
+                            }
+                        })
                         .collect();
                     let boundaries = &shown.close_up.boundaries;
                     assert_eq!(
-                        boundaries.iter().map(|(spring, _)| *spring).collect::<Vec<_>>(),
+                        boundaries
+                            .iter()
+                            .map(|(spring, _)| *spring)
+                            .collect::<Vec<_>>(),
                         ends,
                         "{name}"
                     );
                     for &(spring, height) in boundaries {
-                        assert_eq!(shown.profile.columns[spring].line, (height, height), "{name}");
+                        assert_eq!(
+                            shown.profile.columns[spring].line,
+                            (height, height),
+                            "{name}"
+                        );
                     }
-                    let fragment = shown.close_up.patch.map(|facts| (facts.number, facts.patch));
+                    let fragment = shown
+                        .close_up
+                        .patch
+                        .map(|facts| (facts.number, facts.patch));
                     assert_eq!(fragment.is_some(), !found.is_empty(), "{name}");
                     if let Some((number, springs)) = fragment {
                         assert_eq!(found[number], springs, "{name}");

@@ -35,7 +35,13 @@ pub fn explorer() -> (Program, tempfile::TempDir) {
     fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
     // A home folder without the scenes of the user who runs the tests.
     let home = folder.path().to_str().expect("a name in Unicode");
-    (Program::new(ASPERITY).argument("scene.ron").folder(folder.path()).env("HOME", home), folder)
+    (
+        Program::new(ASPERITY)
+            .argument("scene.ron")
+            .folder(folder.path())
+            .env("HOME", home),
+        folder,
+    )
 }
 
 /// The explorer after the first curve, with its animation paused.
@@ -60,9 +66,16 @@ pub fn row_with(terminal: &Terminal, text: &str) -> String {
 
 /// The adhesion force of the shown profile as on the screen: a number and its unit.
 pub fn headline(rows: &[String]) -> Option<String> {
-    let of_profile = |row: &'_ String| row.split_once("this profile ").map(|(_, after)| after.to_owned());
+    let of_profile = |row: &'_ String| {
+        row.split_once("this profile ")
+            .map(|(_, after)| after.to_owned())
+    };
     let alone = |row: &'_ String| row.split_once("F_a ").map(|(_, after)| after.to_owned());
-    let after = rows.iter().rev().find_map(of_profile).or_else(|| rows.iter().rev().find_map(alone))?;
+    let after = rows
+        .iter()
+        .rev()
+        .find_map(of_profile)
+        .or_else(|| rows.iter().rev().find_map(alone))?;
     let words: Vec<&str> = after.split_whitespace().take(2).collect();
     Some(words.join(" ").trim_end_matches(',').to_owned())
 }
@@ -70,7 +83,9 @@ pub fn headline(rows: &[String]) -> Option<String> {
 /// Waits for another adhesion force than this one, and returns it.
 #[track_caller]
 pub fn wait_for_another(terminal: &mut Terminal, force: &str) -> String {
-    terminal.wait("other force", |rows| headline(rows).is_some_and(|now| now != force));
+    terminal.wait("other force", |rows| {
+        headline(rows).is_some_and(|now| now != force)
+    });
     headline(&terminal.rows()).expect("a force is shown")
 }
 
@@ -81,20 +96,33 @@ pub fn select(terminal: &mut Terminal, name: &str) {
     terminal.send("g");
     terminal.settle();
     for _ in 0..40 {
-        let before =
-            marked(&terminal.rows()).unwrap_or_else(|| panic!("nothing selected:\n{}", terminal.text()));
-        let label = before.split('›').nth(1).unwrap_or_default().trim_start_matches([' ', '─', '●', '○']);
-        if label.split("  ").next().is_some_and(|label| label.contains(name)) {
+        let before = marked(&terminal.rows())
+            .unwrap_or_else(|| panic!("nothing selected:\n{}", terminal.text()));
+        let label = before
+            .split('›')
+            .nth(1)
+            .unwrap_or_default()
+            .trim_start_matches([' ', '─', '●', '○']);
+        if label
+            .split("  ")
+            .next()
+            .is_some_and(|label| label.contains(name))
+        {
             return;
         }
         terminal.send("j");
-        terminal.wait("other row selected", |rows| marked(rows).is_some_and(|now| now != before));
+        terminal.wait("other row selected", |rows| {
+            marked(rows).is_some_and(|now| now != before)
+        });
     }
     panic!("no parameter {name}:\n{}", terminal.text());
 }
 
 pub fn count(bytes: &[u8], part: &[u8]) -> usize {
-    bytes.windows(part.len()).filter(|window| *window == part).count()
+    bytes
+        .windows(part.len())
+        .filter(|window| *window == part)
+        .count()
 }
 
 pub fn place(bytes: &[u8], part: &[u8]) -> Option<usize> {
@@ -115,7 +143,10 @@ pub fn assert_given_back(terminal: &Terminal) {
     assert!(last_place(bytes, HIDE_CURSOR).is_none_or(|hidden| hidden < shown));
     assert!(!terminal.screen().alternate_screen() && !terminal.screen().hide_cursor());
     assert!(!terminal.screen().bracketed_paste());
-    assert!(terminal.is_as_before(), "line by line and with echo, as before");
+    assert!(
+        terminal.is_as_before(),
+        "line by line and with echo, as before"
+    );
 }
 
 /// Leaves the explorer by its own keys.
@@ -129,10 +160,15 @@ pub fn quit(terminal: &mut Terminal) {
 /// Quantity beside its name on the screen, in SI units: `d 175.6 nm` is 1.756e-7.
 pub fn quantity(rows: &[String], name: &str, unit: &str) -> Option<f64> {
     rows.iter().find_map(|row| {
-        let mut words = row.split_whitespace().skip_while(|word| *word != name).skip(1);
+        let mut words = row
+            .split_whitespace()
+            .skip_while(|word| *word != name)
+            .skip(1);
         let (number, unit_shown) = (words.next()?, words.next()?);
         // Zero has no unit.
-        parse_quantity(&format!("{number} {unit_shown}"), unit).or_else(|_| parse_quantity(number, unit)).ok()
+        parse_quantity(&format!("{number} {unit_shown}"), unit)
+            .or_else(|_| parse_quantity(number, unit))
+            .ok()
     })
 }
 

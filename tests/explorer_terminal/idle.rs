@@ -9,13 +9,23 @@ use std::time::Duration;
 fn activity(pid: u32) -> (u64, u64) {
     let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap();
     // The name of the program, in brackets, may contain any character.
-    let fields: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
+    let fields: Vec<&str> = stat
+        .rsplit_once(')')
+        .unwrap()
+        .1
+        .split_whitespace()
+        .collect();
     let ticks = fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap();
     let mut switches = 0;
     for thread in fs::read_dir(format!("/proc/{pid}/task")).unwrap() {
         let status = fs::read_to_string(thread.unwrap().path().join("status")).unwrap();
         for line in status.lines().filter(|line| line.contains("ctxt_switches")) {
-            switches += line.rsplit(char::is_whitespace).next().unwrap().parse::<u64>().unwrap();
+            switches += line
+                .rsplit(char::is_whitespace)
+                .next()
+                .unwrap()
+                .parse::<u64>()
+                .unwrap();
         }
     }
     (ticks, switches)
@@ -25,7 +35,11 @@ fn activity(pid: u32) -> (u64, u64) {
 pub fn assert_idle(terminal: &mut Terminal) {
     terminal.settle();
     let before = activity(terminal.pid());
-    assert!(terminal.is_silent_for(Duration::from_millis(400)), "it writes:\n{}", terminal.text());
+    assert!(
+        terminal.is_silent_for(Duration::from_millis(400)),
+        "it writes:\n{}",
+        terminal.text()
+    );
     assert_eq!(activity(terminal.pid()), before, "it is awake");
 }
 

@@ -9,23 +9,32 @@ const SUSPEND: &str = "\x1a";
 const PROMPT: &str = "your turn> ";
 
 /// Shells with job control that read their lines from the terminal unchanged.
-const SHELLS: [(&str, &[&str]); 2] =
-    [("/bin/sh", &["-i"]), ("/bin/bash", &["--norc", "--noprofile", "--noediting", "-i"])];
+const SHELLS: [(&str, &[&str]); 2] = [
+    ("/bin/sh", &["-i"]),
+    ("/bin/bash", &["--norc", "--noprofile", "--noediting", "-i"]),
+];
 
 /// Runs a test in each shell with job control.
 fn in_each_shell(test: impl Fn(Terminal)) {
     let mut found = 0;
-    for (shell, arguments) in SHELLS.into_iter().filter(|(shell, _)| Path::new(shell).exists()) {
+    for (shell, arguments) in SHELLS
+        .into_iter()
+        .filter(|(shell, _)| Path::new(shell).exists())
+    {
         let (_, folder) = explorer();
-        let mut program =
-            Program::new(shell).folder(folder.path()).env("PS1", PROMPT).env("PATH", "/usr/bin:/bin");
+        let mut program = Program::new(shell)
+            .folder(folder.path())
+            .env("PS1", PROMPT)
+            .env("PATH", "/usr/bin:/bin");
         for argument in arguments {
             program = program.argument(argument);
         }
         let mut terminal = program.start();
         terminal.wait_for(PROMPT.trim_end());
         terminal.send("set -m && echo jobs''-known || echo jobs''-unknown\r");
-        terminal.wait("answer", |rows| rows.iter().any(|row| row.starts_with("jobs-")));
+        terminal.wait("answer", |rows| {
+            rows.iter().any(|row| row.starts_with("jobs-"))
+        });
         if terminal.rows().iter().any(|row| row == "jobs-unknown") {
             println!("skipped in {shell}: it has no job control here");
             continue;
@@ -58,10 +67,17 @@ fn without_times(terminal: &Terminal) -> Vec<String> {
 #[track_caller]
 fn wait_for_shell(terminal: &mut Terminal) {
     let is_prompt = |row: &String| row == PROMPT.trim_end();
-    terminal.wait("prompt", |rows| rows.iter().rfind(|row| !row.is_empty()).is_some_and(is_prompt));
+    terminal.wait("prompt", |rows| {
+        rows.iter()
+            .rfind(|row| !row.is_empty())
+            .is_some_and(is_prompt)
+    });
     terminal.settle();
     assert_given_back(terminal);
-    assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::None);
+    assert_eq!(
+        terminal.screen().mouse_protocol_mode(),
+        MouseProtocolMode::None
+    );
 }
 
 #[test]
@@ -79,21 +95,34 @@ fn suspended_and_continued_it_is_as_it_was() {
             terminal.resize(columns, rows);
             terminal.send("fg\r");
             let edge = usize::from(columns) - 1;
-            terminal
-                .wait("title at the edge", |rows| rows.iter().any(|row| row.chars().nth(edge) == Some('─')));
+            terminal.wait("title at the edge", |rows| {
+                rows.iter().any(|row| row.chars().nth(edge) == Some('─'))
+            });
             terminal.settle();
-            assert!(columns == 90 || without_times(&terminal) == before, "{}", terminal.text());
+            assert!(
+                columns == 90 || without_times(&terminal) == before,
+                "{}",
+                terminal.text()
+            );
             assert!(terminal.screen().alternate_screen() && terminal.screen().hide_cursor());
-            assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::ButtonMotion);
+            assert_eq!(
+                terminal.screen().mouse_protocol_mode(),
+                MouseProtocolMode::ButtonMotion
+            );
             assert!(terminal.screen().bracketed_paste() && !terminal.is_as_before());
         }
         let selected = row_with(&terminal, "›");
         terminal.send("j");
-        terminal
-            .wait("other row selected", |rows| rows.iter().any(|row| row.contains('›') && *row != selected));
+        terminal.wait("other row selected", |rows| {
+            rows.iter().any(|row| row.contains('›') && *row != selected)
+        });
         terminal.send("q");
         wait_for_shell(&mut terminal);
-        assert!(terminal.text().contains("adhesion force F_a"), "{}", terminal.text());
+        assert!(
+            terminal.text().contains("adhesion force F_a"),
+            "{}",
+            terminal.text()
+        );
         terminal.send("exit\r");
         terminal.wait_end();
     });

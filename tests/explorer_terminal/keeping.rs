@@ -9,7 +9,10 @@ use std::process::Command;
 /// Files of unsaved changes in a home folder.
 fn kept(home: &Path) -> Vec<PathBuf> {
     let folder = home.join(".local/state/asperity/unsaved");
-    fs::read_dir(folder).map_or_else(|_| Vec::new(), |all| all.map(|entry| entry.unwrap().path()).collect())
+    fs::read_dir(folder).map_or_else(
+        |_| Vec::new(),
+        |all| all.map(|entry| entry.unwrap().path()).collect(),
+    )
 }
 
 /// The program outside a terminal, with this home folder.
@@ -21,7 +24,9 @@ fn command(home: &Path) -> Command {
 
 /// Another explorer with the same home folder.
 fn again(home: &Path, argument: &str) -> Program {
-    let program = Program::new(ASPERITY).folder(home).env("HOME", home.to_str().unwrap());
+    let program = Program::new(ASPERITY)
+        .folder(home)
+        .env("HOME", home.to_str().unwrap());
     program.argument(argument)
 }
 
@@ -43,7 +48,9 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         let home = folder.path();
         let mut terminal = changed(program, home);
         if is_killed {
-            let status = Command::new("kill").args(["-KILL", &terminal.pid().to_string()]).status();
+            let status = Command::new("kill")
+                .args(["-KILL", &terminal.pid().to_string()])
+                .status();
             assert!(status.unwrap().success());
         } else {
             terminal.hang_up();
@@ -57,7 +64,9 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         terminal.wait_without("unsaved changes");
         quit(&mut terminal);
         let mut terminal = again(home, "--restore").start();
-        terminal.wait("changed scene", |rows| rows[0].starts_with("Rough line [changed]"));
+        terminal.wait("changed scene", |rows| {
+            rows[0].starts_with("Rough line [changed]")
+        });
         terminal.wait_until("own file", || kept(home).len() == 1);
         terminal.send("u");
         terminal.send("q");
@@ -66,7 +75,10 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         assert!(kept(home).is_empty(), "the question was answered");
         let output = command(home).arg("--restore").output().unwrap();
         let message = String::from_utf8(output.stderr).unwrap();
-        assert!(message.contains("--restore: no unsaved changes are kept"), "{message}");
+        assert!(
+            message.contains("--restore: no unsaved changes are kept"),
+            "{message}"
+        );
         let folder = home.join(".local/state/asperity/unsaved");
         fs::write(folder.join("1-1.ron"), "[(name").unwrap();
         let output = command(home).arg("--restore").output().unwrap();
@@ -85,18 +97,29 @@ fn a_configuration_is_read() {
     // A default scene and a key.
     let text = "(version: 1, scene: \"scene.ron\", keys: [(action: \"quit\", keys: [\"_\"])])";
     fs::write(&file, text).unwrap();
-    let mut terminal = Program::new(ASPERITY).folder(home).env("HOME", home.to_str().unwrap()).start();
+    let mut terminal = Program::new(ASPERITY)
+        .folder(home)
+        .env("HOME", home.to_str().unwrap())
+        .start();
     terminal.wait("default scene", |rows| rows[0].starts_with("Rough line"));
     terminal.wait_for("_ quit");
     terminal.send("_");
     assert!(terminal.wait_end().success());
     let mut terminal = paused(again(home, "--config=none"));
-    assert!(!terminal.rows()[0].starts_with("Rough line"), "{}", terminal.text());
+    assert!(
+        !terminal.rows()[0].starts_with("Rough line"),
+        "{}",
+        terminal.text()
+    );
     quit(&mut terminal);
     let run = |arguments: &[&str]| {
         let output = command(home).args(arguments).output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
-        (output.status.code(), text(output.stdout), text(output.stderr))
+        (
+            output.status.code(),
+            text(output.stdout),
+            text(output.stderr),
+        )
     };
     fs::write(&file, "(version: 1, theme: Pink)").unwrap();
     let (code, _, message) = run(&["--config", file.to_str().unwrap()]);
@@ -108,5 +131,8 @@ fn a_configuration_is_read() {
     let mut terminal = again(home, "--marker=braille").start();
     terminal.wait_for("config.ron:1:21: theme = Pink");
     quit(&mut terminal);
-    assert_eq!(fs::read_to_string(&file).unwrap(), "(version: 1, theme: Pink)");
+    assert_eq!(
+        fs::read_to_string(&file).unwrap(),
+        "(version: 1, theme: Pink)"
+    );
 }

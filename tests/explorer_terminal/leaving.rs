@@ -28,7 +28,10 @@ fn a_terminal_that_goes_away_ends_the_explorer_even_if_hang_ups_are_ignored() {
 }
 
 fn signal(terminal: &Terminal, name: &str) {
-    let kill = Command::new("/bin/sh").arg("-c").arg(format!("kill -{name} {}", terminal.pid())).status();
+    let kill = Command::new("/bin/sh")
+        .arg("-c")
+        .arg(format!("kill -{name} {}", terminal.pid()))
+        .status();
     assert!(kill.unwrap().success());
 }
 
@@ -38,7 +41,10 @@ fn whatever_signal_ends_it_the_terminal_is_given_back() {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);
         signal(&terminal, name);
-        assert!(!terminal.wait_end().success(), "{name}: it is seen that a signal ended it");
+        assert!(
+            !terminal.wait_end().success(),
+            "{name}: it is seen that a signal ended it"
+        );
         assert_given_back(&terminal);
     }
 }
@@ -54,7 +60,10 @@ fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
             terminal.resize(columns, 40);
             std::thread::sleep(std::time::Duration::from_millis(50));
         }
-        assert!(is_waiting_to_write(terminal.pid()), "the explorer waits for the terminal");
+        assert!(
+            is_waiting_to_write(terminal.pid()),
+            "the explorer waits for the terminal"
+        );
         signal(&terminal, name);
         assert!(!terminal.wait_process().success(), "{name}");
         // Line by line and with echo already, while output still waits.
@@ -77,9 +86,15 @@ fn with_whatever_memory_there_is_the_terminal_is_given_back() {
     let mut computed = 0;
     // Up to more than the memory of the scene and the reservations of its threads.
     for mebibytes in [40, 70, 100, 130, 160, 190, 220, 250, 280, 310, 400, 2000] {
-        let limited = format!("ulimit -v {}; exec '{ASPERITY}' million-springs", mebibytes << 10);
-        let mut terminal =
-            Program::new("/bin/sh").argument("-c").argument(limited).folder(folder.path()).start();
+        let limited = format!(
+            "ulimit -v {}; exec '{ASPERITY}' million-springs",
+            mebibytes << 10
+        );
+        let mut terminal = Program::new("/bin/sh")
+            .argument("-c")
+            .argument(limited)
+            .folder(folder.path())
+            .start();
         // Without an animation, which would go on for twelve seconds.
         terminal.send_if_open(".");
         terminal.settle_for(std::time::Duration::from_millis(1500));
@@ -115,18 +130,29 @@ fn left_behind(terminal: &Terminal) -> String {
 /// Asserts that each row below the title of a scene is the beginning of a row of the summary of `asperity run`, where the
 /// adhesion force has its error.
 fn assert_rows_of(left: &str, summary: &str) {
-    let place = left.find("Rough line").unwrap_or_else(|| panic!("the title is missing: {left}"));
+    let place = left
+        .find("Rough line")
+        .unwrap_or_else(|| panic!("the title is missing: {left}"));
     let rows: Vec<&str> = left[place..].lines().map(str::trim_end).collect();
     assert!((4..=10).contains(&rows.len()), "{left}");
     for row in rows {
-        assert!(summary.lines().any(|line| line.starts_with(row)), "{row}\n{summary}");
+        assert!(
+            summary.lines().any(|line| line.starts_with(row)),
+            "{row}\n{summary}"
+        );
     }
 }
 
 /// Summary of `asperity run`.
 fn summary(folder: &Path, arguments: &[&str]) -> String {
     let mut command = Command::new(ASPERITY);
-    let output = command.current_dir(folder).arg("run").arg("scene.ron").args(arguments).output().unwrap();
+    let output = command
+        .current_dir(folder)
+        .arg("run")
+        .arg("scene.ron")
+        .args(arguments)
+        .output()
+        .unwrap();
     assert!(output.status.success());
     String::from_utf8(output.stdout).unwrap()
 }
@@ -151,11 +177,17 @@ fn a_changed_scene_asks_before_it_is_left_and_its_summary_stays_to_be_read() {
     terminal.wait_for("unsaved changes");
     quit(&mut terminal);
     let left = left_behind(&terminal);
-    assert!(!left[left.find("Rough line").unwrap()..].contains('\x1b'), "{left:?}");
+    assert!(
+        !left[left.find("Rough line").unwrap()..].contains('\x1b'),
+        "{left:?}"
+    );
     let wanted = summary(folder.path(), &["--set", "adhesion.kappa=5.0"]);
     assert_rows_of(&left, &wanted);
     // The status line has the digits that are of use.
-    let printed = left.split_once("adhesion force F_a").expect("an adhesion force").1;
+    let printed = left
+        .split_once("adhesion force F_a")
+        .expect("an adhesion force")
+        .1;
     let printed = parse_quantity(printed.lines().next().unwrap(), "N").unwrap();
     assert_eq!(format_rounded(printed, 3, "N"), force, "{left}");
 }

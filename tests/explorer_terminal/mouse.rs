@@ -16,10 +16,10 @@ fn report(what: u8, column: usize, row: usize) -> String {
 #[track_caller]
 fn place_of(terminal: &Terminal, text: &str) -> (usize, usize) {
     let rows = terminal.rows();
-    let found = rows
-        .iter()
-        .enumerate()
-        .find_map(|(row, line)| line.find(text).map(|byte| (line[..byte].chars().count() + 1, row + 1)));
+    let found = rows.iter().enumerate().find_map(|(row, line)| {
+        line.find(text)
+            .map(|byte| (line[..byte].chars().count() + 1, row + 1))
+    });
     found.unwrap_or_else(|| panic!("no {text}:\n{}", terminal.text()))
 }
 
@@ -27,14 +27,27 @@ fn place_of(terminal: &Terminal, text: &str) -> (usize, usize) {
 fn the_terminal_is_asked_for_presses_and_drags_but_not_for_every_motion() {
     let (program, _folder) = explorer();
     let mut terminal = paused(program);
-    assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::ButtonMotion);
-    assert_eq!(terminal.screen().mouse_protocol_encoding(), MouseProtocolEncoding::Sgr);
+    assert_eq!(
+        terminal.screen().mouse_protocol_mode(),
+        MouseProtocolMode::ButtonMotion
+    );
+    assert_eq!(
+        terminal.screen().mouse_protocol_encoding(),
+        MouseProtocolEncoding::Sgr
+    );
     quit(&mut terminal);
     assert_eq!(count(terminal.written(), b"1003h"), 0);
-    assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::None);
+    assert_eq!(
+        terminal.screen().mouse_protocol_mode(),
+        MouseProtocolMode::None
+    );
     // On request the mouse is left to the terminal.
     let (program, folder) = explorer();
-    std::fs::write(folder.path().join("still.ron"), "(version: 1, mouse: false)").unwrap();
+    std::fs::write(
+        folder.path().join("still.ron"),
+        "(version: 1, mouse: false)",
+    )
+    .unwrap();
     let mut terminal = paused(program.argument("--config=still.ron"));
     quit(&mut terminal);
     assert_eq!(count(terminal.written(), b"\x1b[?100"), 0);
@@ -50,7 +63,11 @@ fn presses_and_drags_have_their_effects() {
     terminal.settle();
     assert_eq!(terminal.text(), before);
     let indentation = |rows: &[String]| {
-        let row: Vec<String> = rows.iter().filter(|row| row.contains("manual loading")).cloned().collect();
+        let row: Vec<String> = rows
+            .iter()
+            .filter(|row| row.contains("manual loading"))
+            .cloned()
+            .collect();
         quantity(&row, "d", "m")
     };
     let (column, row) = place_of(&terminal, "Force F (");

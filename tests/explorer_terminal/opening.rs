@@ -11,7 +11,14 @@ use std::process::{Command, Stdio};
 fn the_first_frame_has_all_panes_and_the_next_the_curve() {
     // Without a scene the explorer opens a built-in one.
     let mut terminal = Program::new(ASPERITY).start();
-    for pane in ["Force", "Profile", "Patch", "Parameters", "work of adhesion", "q quit"] {
+    for pane in [
+        "Force",
+        "Profile",
+        "Patch",
+        "Parameters",
+        "work of adhesion",
+        "q quit",
+    ] {
         terminal.wait_for(pane);
     }
     assert!(terminal.screen().alternate_screen() && terminal.screen().hide_cursor());
@@ -21,7 +28,10 @@ fn the_first_frame_has_all_panes_and_the_next_the_curve() {
     let computing = place(bytes, "computing".as_bytes()).expect("it says that it computes");
     assert!(computing < place(bytes, b"F_a ").unwrap());
     let frame = place(bytes, END_FRAME).unwrap();
-    assert!(place(&bytes[..frame], b"Parameters").is_some(), "the panes are in the first frame");
+    assert!(
+        place(&bytes[..frame], b"Parameters").is_some(),
+        "the panes are in the first frame"
+    );
     quit(&mut terminal);
 }
 
@@ -46,7 +56,10 @@ fn whatever_is_drawn_is_drawn_in_whole_frames() {
     // After the frames the terminal is restored, and the summary is on its own screen.
     let rest = String::from_utf8_lossy(rest);
     let (given_back, summary) = rest.split_once("Rough line").expect("there is a summary");
-    assert!(given_back.len() < 64 && given_back.contains("\x1b[?1049l"), "{given_back:?}");
+    assert!(
+        given_back.len() < 64 && given_back.contains("\x1b[?1049l"),
+        "{given_back:?}"
+    );
     assert!(!summary.contains('\x1b'), "{summary:?}");
 }
 
@@ -59,8 +72,17 @@ fn keys_typed_before_the_first_frame_are_not_lost() {
     terminal.send("?");
     terminal.wait_without("What you see");
     let rows = terminal.rows();
-    let place = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is in the list");
-    assert_eq!(place("›"), place("roughness-adhesion parameter κ") + 1, "{}", terminal.text());
+    let place = |text: &str| {
+        rows.iter()
+            .position(|row| row.contains(text))
+            .expect("it is in the list")
+    };
+    assert_eq!(
+        place("›"),
+        place("roughness-adhesion parameter κ") + 1,
+        "{}",
+        terminal.text()
+    );
     // Keys typed before the terminal was taken are echoed; nothing else remains.
     terminal.send("q");
     assert!(terminal.wait_end().success());
@@ -69,9 +91,14 @@ fn keys_typed_before_the_first_frame_are_not_lost() {
 
 #[test]
 fn a_misspelt_scene_is_stated_without_taking_the_terminal() {
-    for (name, expected) in [("jkr-spere", "did you mean jkr-sphere?"), ("none.ron", "none.ron")] {
+    for (name, expected) in [
+        ("jkr-spere", "did you mean jkr-sphere?"),
+        ("none.ron", "none.ron"),
+    ] {
         let home = tempfile::tempdir().unwrap();
-        let program = Program::new(ASPERITY).argument(name).env("HOME", home.path().to_str().unwrap());
+        let program = Program::new(ASPERITY)
+            .argument(name)
+            .env("HOME", home.path().to_str().unwrap());
         let mut terminal = program.start();
         let status = terminal.wait_end();
         assert_eq!(status.exit_code(), 1);
@@ -84,10 +111,17 @@ fn a_misspelt_scene_is_stated_without_taking_the_terminal() {
 
 #[test]
 fn without_a_terminal_it_says_what_to_do() {
-    let output = Command::new(ASPERITY).arg("jkr-sphere").stdin(Stdio::null()).output().unwrap();
+    let output = Command::new(ASPERITY)
+        .arg("jkr-sphere")
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8(output.stderr).unwrap();
-    assert!(message.contains("asperity run jkr-sphere") && !message.contains('\x1b'), "{message}");
+    assert!(
+        message.contains("asperity run jkr-sphere") && !message.contains('\x1b'),
+        "{message}"
+    );
     assert!(output.stdout.is_empty());
     // One end alone is not enough.
     for ends in ["</dev/null", ">written"] {
@@ -98,9 +132,17 @@ fn without_a_terminal_it_says_what_to_do() {
             .folder(folder.path())
             .start();
         assert_eq!(terminal.wait_end().exit_code(), 1);
-        assert!(terminal.text().contains("asperity run jkr-sphere"), "{}", terminal.text());
+        assert!(
+            terminal.text().contains("asperity run jkr-sphere"),
+            "{}",
+            terminal.text()
+        );
         assert!(!terminal.written().contains(&0x1b), "{}", terminal.text());
-        assert!(fs::read(folder.path().join("written")).unwrap_or_default().is_empty());
+        assert!(
+            fs::read(folder.path().join("written"))
+                .unwrap_or_default()
+                .is_empty()
+        );
     }
 }
 
@@ -128,7 +170,10 @@ fn a_terminal_that_places_nothing_is_refused() {
     let mut terminal = program.env("TERM", "dumb").start();
     assert!(!terminal.wait_end().success());
     let text = String::from_utf8_lossy(terminal.written()).into_owned();
-    assert!(text.contains("TERM=dumb") && text.contains("asperity run scene.ron"), "{text}");
+    assert!(
+        text.contains("TERM=dumb") && text.contains("asperity run scene.ron"),
+        "{text}"
+    );
     assert!(!text.contains('\x1b'), "{text:?}");
 }
 
@@ -137,10 +182,21 @@ fn an_own_scene_opens_by_its_name_with_other_values() {
     let config = tempfile::tempdir().unwrap();
     let folder = config.path().join("asperity").join("presets");
     fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("tape.ron"), SCENE.replace("Rough line", "Sticky tape")).unwrap();
-    let program = Program::new(ASPERITY).argument("tape").argument("--set").argument("roughness.hurst=0.61");
+    fs::write(
+        folder.join("tape.ron"),
+        SCENE.replace("Rough line", "Sticky tape"),
+    )
+    .unwrap();
+    let program = Program::new(ASPERITY)
+        .argument("tape")
+        .argument("--set")
+        .argument("roughness.hurst=0.61");
     let mut terminal = paused(program.env("XDG_CONFIG_HOME", config.path().to_str().unwrap()));
-    assert!(terminal.rows()[0].starts_with("Sticky tape"), "{}", terminal.text());
+    assert!(
+        terminal.rows()[0].starts_with("Sticky tape"),
+        "{}",
+        terminal.text()
+    );
     assert!(row_with(&terminal, "Hurst exponent").contains("0.61"));
     terminal.send("o");
     for listed in ["pressure-sensitive  built-in", "tape  own"] {

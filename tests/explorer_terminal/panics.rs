@@ -9,9 +9,15 @@ use std::path::{Path, PathBuf};
 
 /// The explorer with an engine that panics on the seed 13 and computes endlessly on the seed 14.
 fn panicking() -> Program {
-    let folder = Path::new(ASPERITY).parent().expect("the program is in a folder");
+    let folder = Path::new(ASPERITY)
+        .parent()
+        .expect("the program is in a folder");
     let path: PathBuf = folder.join("examples").join("panicking_engine");
-    assert!(path.exists(), "{} is not built: cargo build --examples", path.display());
+    assert!(
+        path.exists(),
+        "{} is not built: cargo build --examples",
+        path.display()
+    );
     Program::new(path)
 }
 
@@ -31,15 +37,28 @@ fn a_panic_of_the_engine_is_a_line_and_the_explorer_goes_on() {
     select(&mut terminal, "seed");
     seed(&mut terminal, "13");
     terminal.wait_for("thirteen is unlucky");
-    assert!(row_with(&terminal, "thirteen").contains("internal error"), "{}", terminal.text());
-    assert!(terminal.screen().alternate_screen(), "the explorer is still there");
-    assert!(!terminal.text().contains("panicked at"), "{}", terminal.text());
+    assert!(
+        row_with(&terminal, "thirteen").contains("internal error"),
+        "{}",
+        terminal.text()
+    );
+    assert!(
+        terminal.screen().alternate_screen(),
+        "the explorer is still there"
+    );
+    assert!(
+        !terminal.text().contains("panicked at"),
+        "{}",
+        terminal.text()
+    );
     terminal.send("..");
     assert_idle(&mut terminal);
     // The seed of the default scene.
     seed(&mut terminal, "5");
     terminal.wait_without("thirteen is unlucky");
-    terminal.wait("force as before", |rows| headline(rows).as_ref() == Some(&before));
+    terminal.wait("force as before", |rows| {
+        headline(rows).as_ref() == Some(&before)
+    });
     quit(&mut terminal);
 }
 
@@ -52,7 +71,12 @@ fn a_panic_while_drawing_gives_the_terminal_back_and_shows_why() {
     assert_given_back(&terminal);
     // One line below the other: each line starts at the left again.
     let rows = terminal.rows();
-    assert!(rows.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
+    assert!(
+        rows.iter()
+            .any(|row| row.starts_with("thirteen is unlucky")),
+        "{}",
+        terminal.text()
+    );
 }
 
 #[test]
@@ -70,8 +94,14 @@ fn a_typed_key_is_in_the_next_frame_whatever_the_engine_does() {
         let before = terminal.frames().len();
         terminal.send(key);
         typed.push_str(key);
-        terminal.wait("typed keys", |rows| rows.iter().any(|row| row.contains(&format!(": {typed}"))));
-        assert_eq!(terminal.frames().len() - before, 1, "frames from the key to its echo");
+        terminal.wait("typed keys", |rows| {
+            rows.iter().any(|row| row.contains(&format!(": {typed}")))
+        });
+        assert_eq!(
+            terminal.frames().len() - before,
+            1,
+            "frames from the key to its echo"
+        );
     }
     // The engine stops for the newer scene.
     terminal.send(CLEAR_LINE);

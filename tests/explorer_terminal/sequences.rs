@@ -64,7 +64,11 @@ fn keys_count_after_each_sequence_that_never_ends() {
     for cut in unfinished() {
         terminal.send(&cut);
         // The pause after which it is given up, for a paste a longer one.
-        let pause = if cut.starts_with("\x1b[200~") { 1300 } else { 300 };
+        let pause = if cut.starts_with("\x1b[200~") {
+            1300
+        } else {
+            300
+        };
         sleep(Duration::from_millis(pause));
         assert_answers(&mut terminal, &cut);
     }
@@ -81,7 +85,11 @@ fn ctrl_c_ends_the_explorer_at_once_within_each_of_them() {
                 terminal.send(&cut);
                 sleep(Duration::from_millis(20));
                 terminal.send(INTERRUPT);
-                assert!(terminal.wait_end().success(), "{:?}", &cut[..cut.len().min(40)]);
+                assert!(
+                    terminal.wait_end().success(),
+                    "{:?}",
+                    &cut[..cut.len().min(40)]
+                );
                 assert_given_back(&terminal);
             });
         }
@@ -94,7 +102,10 @@ const LONGEST_BETWEEN_PIECES: Duration = Duration::from_millis(60);
 #[test]
 fn a_key_that_arrives_in_two_pieces_is_one_key() {
     let is_judged = (0..10).any(|_| pieces_are_joined());
-    assert!(is_judged, "the machine is too slow to send the pieces of a key in time");
+    assert!(
+        is_judged,
+        "the machine is too slow to send the pieces of a key in time"
+    );
 }
 
 /// Sends arrow keys in two pieces. Returns false if the machine was too slow to send two pieces in time.
@@ -106,7 +117,13 @@ fn pieces_are_joined() -> bool {
     terminal.settle();
     let first = marked(&terminal.rows()).expect("a row is selected");
     let mut expected = first;
-    for (key, change) in [("\x1b[B", 1), ("\x1bOB", 1), ("\x1b[B", 1), ("\x1b[A", -1), ("\x1bOA", -1)] {
+    for (key, change) in [
+        ("\x1b[B", 1),
+        ("\x1bOB", 1),
+        ("\x1b[B", 1),
+        ("\x1b[A", -1),
+        ("\x1bOA", -1),
+    ] {
         for split in 1..key.len() {
             let begun = Instant::now();
             terminal.send(&key[..split]);
@@ -121,7 +138,12 @@ fn pieces_are_joined() -> bool {
         }
     }
     terminal.settle();
-    assert_eq!(marked(&terminal.rows()), Some(expected), "{}", terminal.text());
+    assert_eq!(
+        marked(&terminal.rows()),
+        Some(expected),
+        "{}",
+        terminal.text()
+    );
     assert_eq!(expected, first + 2);
     quit(&mut terminal);
     true

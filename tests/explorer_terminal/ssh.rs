@@ -12,16 +12,22 @@ const MOST_FRAMES: f64 = 12.0;
 
 /// The explorer on a built-in scene behind a connection, paused.
 fn remote() -> Terminal {
-    let program =
-        Program::new(ASPERITY).argument("pressure-sensitive").argument("--set").argument("loading.0.0=2e-6");
+    let program = Program::new(ASPERITY)
+        .argument("pressure-sensitive")
+        .argument("--set")
+        .argument("loading.0.0=2e-6");
     paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"))
 }
 
 /// Frames in the fullest second.
 fn fullest_second(frames: &[Frame]) -> usize {
     let within = |start: &Frame| {
-        let later = frames.iter().skip_while(|frame| frame.arrived < start.arrived);
-        later.take_while(|frame| frame.arrived - start.arrived < Duration::from_secs(1)).count()
+        let later = frames
+            .iter()
+            .skip_while(|frame| frame.arrived < start.arrived);
+        later
+            .take_while(|frame| frame.arrived - start.arrived < Duration::from_secs(1))
+            .count()
     };
     frames.iter().map(within).max().unwrap_or(0)
 }
@@ -37,15 +43,31 @@ fn a_whole_loop_is_played_over_a_slow_line() {
     // Until a pause longer than between any two frames.
     terminal.settle_for(Duration::from_millis(1500));
     let frames = &terminal.frames()[first..];
-    let seconds = frames.last().unwrap().arrived.duration_since(begun).as_secs_f64();
+    let seconds = frames
+        .last()
+        .unwrap()
+        .arrived
+        .duration_since(begun)
+        .as_secs_f64();
     let bytes = terminal.written().len() - start;
     let rate = bytes as f64 / seconds;
-    println!("{bytes} bytes in {} frames and {seconds:.2} s: {rate:.0} B/s", frames.len());
+    println!(
+        "{bytes} bytes in {} frames and {seconds:.2} s: {rate:.0} B/s",
+        frames.len()
+    );
     assert!(seconds > 11.0, "a leg takes six seconds: {seconds} s");
     assert!(rate < MOST_BYTES, "{rate} B/s");
     assert!(frames.len() > 60, "it plays: {} frames", frames.len());
-    assert!(frames.len() as f64 <= MOST_FRAMES * seconds + 2.0, "{} frames in {seconds} s", frames.len());
-    assert!(fullest_second(frames) <= 14, "{} frames in a second", fullest_second(frames));
+    assert!(
+        frames.len() as f64 <= MOST_FRAMES * seconds + 2.0,
+        "{} frames in {seconds} s",
+        frames.len()
+    );
+    assert!(
+        fullest_second(frames) <= 14,
+        "{} frames in a second",
+        fullest_second(frames)
+    );
     quit(&mut terminal);
 }
 
@@ -62,10 +84,17 @@ fn a_held_key_does_not_flood_a_slow_line() {
     let frames = terminal.frames().len() - first;
     let bytes = terminal.written().len() - start;
     println!("{bytes} bytes in {frames} frames in 3 s of a held key");
-    assert!(frames as f64 <= 3.0 * MOST_FRAMES + 4.0, "{frames} frames in 3 s");
+    assert!(
+        frames as f64 <= 3.0 * MOST_FRAMES + 4.0,
+        "{frames} frames in 3 s"
+    );
     assert!(bytes as f64 / 3.0 < MOST_BYTES, "{bytes} bytes in 3 s");
     // The last key also has its effect at once.
     terminal.settle();
-    assert!(terminal.text().contains("manual loading"), "{}", terminal.text());
+    assert!(
+        terminal.text().contains("manual loading"),
+        "{}",
+        terminal.text()
+    );
     quit(&mut terminal);
 }

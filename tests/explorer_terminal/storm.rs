@@ -20,9 +20,9 @@ const LIMIT: Duration = Duration::from_secs(5);
 /// Keys beside letters, digits and signs: control characters without those that end or stop the explorer, and
 /// sequences of keys and of the mouse.
 const KEYS: [&str; 24] = [
-    "\r", "\x1b", "\t", "\x7f", "\x15", "\x17", "\x01", "\x05", "\x0b", "\x0c", "\x12", "\x1b[A", "\x1b[B",
-    "\x1b[C", "\x1b[D", "\x1b[5~", "\x1b[6~", "\x1b[H", "\x1b[3~", "\x1b[Z", "\x1bOP", "\x1b[15~", "\x1bx",
-    " ",
+    "\r", "\x1b", "\t", "\x7f", "\x15", "\x17", "\x01", "\x05", "\x0b", "\x0c", "\x12", "\x1b[A",
+    "\x1b[B", "\x1b[C", "\x1b[D", "\x1b[5~", "\x1b[6~", "\x1b[H", "\x1b[3~", "\x1b[Z", "\x1bOP",
+    "\x1b[15~", "\x1bx", " ",
 ];
 
 /// A pasted text without its end.
@@ -49,13 +49,16 @@ impl Random {
     fn burst(&mut self) -> Vec<u8> {
         match self.below(8) {
             0 => {
-                let bytes: Vec<u8> = (0..self.below(3000)).map(|_| self.below(256) as u8).collect();
+                let bytes: Vec<u8> = (0..self.below(3000))
+                    .map(|_| self.below(256) as u8)
+                    .collect();
                 [b"\x1b[200~", &bytes[..], b"\x1b[201~"].concat()
             }
             1 => {
                 let length = [10, 1000, 20_000][self.below(3)];
-                let text: String =
-                    (0..length).map(|_| ['a', '1', 'µ', '\n', '漢', '.', '/'][self.below(7)]).collect();
+                let text: String = (0..length)
+                    .map(|_| ['a', '1', 'µ', '\n', '漢', '.', '/'][self.below(7)])
+                    .collect();
                 format!("\x1b[200~{text}\x1b[201~").into_bytes()
             }
             2 => {
@@ -115,7 +118,11 @@ fn answers(terminal: &mut Terminal, seed: u64, burst: &[u8]) -> bool {
             return false;
         }
         let what = burst.escape_ascii();
-        assert!(Instant::now() < until, "seed {seed}, no key counts after {what}:\n{}", terminal.text());
+        assert!(
+            Instant::now() < until,
+            "seed {seed}, no key counts after {what}:\n{}",
+            terminal.text()
+        );
         terminal.is_silent_for(Duration::from_millis(10));
     }
     true
@@ -138,12 +145,20 @@ fn storm(seed: u64) {
         terminal.resize(width as u16, 30);
         let until = Instant::now() + LIMIT;
         // Each window is wider than those before. A row may end a little before the edge.
-        while !terminal.rows().iter().any(|row| row.chars().count() > width - WIDER) {
+        while !terminal
+            .rows()
+            .iter()
+            .any(|row| row.chars().count() > width - WIDER)
+        {
             if terminal.ended().is_some_and(ExitStatus::success) {
                 return;
             }
             let what = burst.escape_ascii();
-            assert!(Instant::now() < until, "seed {seed}, nothing drawn after {what}:\n{}", terminal.text());
+            assert!(
+                Instant::now() < until,
+                "seed {seed}, nothing drawn after {what}:\n{}",
+                terminal.text()
+            );
             terminal.is_silent_for(Duration::from_millis(10));
         }
     }
@@ -160,7 +175,10 @@ fn a_burst_of_edits_takes_little_memory() {
     terminal.send("N");
     terminal.wait_for("F/F_a,max");
     let status = std::fs::read_to_string(format!("/proc/{}/status", terminal.pid())).unwrap();
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.strip_suffix("kB")).unwrap();
+    let peak = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:")?.strip_suffix("kB"))
+        .unwrap();
     let peak: u64 = peak.trim().parse().unwrap();
     assert!(peak < 60_000, "{peak} kB");
 }

@@ -18,11 +18,17 @@ const LONGEST: usize = 4_096;
 
 /// The files of a folder of a target with their names, in alphabetical order; none if the folder does not exist.
 fn files(kind: &str, target: &str) -> Vec<(String, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz").join(kind).join(target);
-    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("fuzz")
+        .join(kind)
+        .join(target);
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return Vec::new();
+    };
     let paths = entries.map(|entry| entry.unwrap().path());
-    let mut files: Vec<_> =
-        paths.map(|path| (path.display().to_string(), std::fs::read(path).unwrap())).collect();
+    let mut files: Vec<_> = paths
+        .map(|path| (path.display().to_string(), std::fs::read(path).unwrap()))
+        .collect();
     files.sort();
     files
 }
@@ -31,19 +37,30 @@ fn files(kind: &str, target: &str) -> Vec<(String, Vec<u8>)> {
 /// whatever the numbers in it are.
 fn most_memory(input: &[u8]) -> usize {
     let compressed: [&[u8]; 3] = [b"\x1f\x8b", b"PK\x03\x04", b"DSCOMPRESSED"];
-    let is_compressed = compressed.iter().any(|signature| input.starts_with(signature));
-    let content = if is_compressed { (1 << 20) + 32 * input.len() } else { input.len() };
+    let is_compressed = compressed
+        .iter()
+        .any(|signature| input.starts_with(signature));
+    let content = if is_compressed {
+        (1 << 20) + 32 * input.len()
+    } else {
+        input.len()
+    };
     (1 << 18) + 128 * content
 }
 
 /// Asserts that the property holds within the memory allowed; names a failing input.
 fn check(property: Property, name: &str, input: &[u8]) {
-    let (result, largest) = allocations::largest(|| catch_unwind(AssertUnwindSafe(|| property(input))));
+    let (result, largest) =
+        allocations::largest(|| catch_unwind(AssertUnwindSafe(|| property(input))));
     if let Err(panic) = result {
         eprintln!("{name}: {:?}", String::from_utf8_lossy(input));
         resume_unwind(panic);
     }
-    assert!(largest <= most_memory(input), "{name}: {largest} bytes at once for an input of {}", input.len());
+    assert!(
+        largest <= most_memory(input),
+        "{name}: {largest} bytes at once for an input of {}",
+        input.len()
+    );
 }
 
 /// Replays seeds and findings of a target, and tries mutations of them.
@@ -57,13 +74,20 @@ fn replay_and_mutate(target: &str) {
         found.len()
     );
     let inputs = [seeds, found].concat();
-    inputs.iter().for_each(|(name, input)| check(*property, name, input));
+    inputs
+        .iter()
+        .for_each(|(name, input)| check(*property, name, input));
     let inputs: Vec<Vec<u8>> = inputs.into_iter().map(|(_, input)| input).collect();
-    let seed =
-        std::env::var("FUZZ_SEED").map_or(2012, |seed| seed.parse().expect("FUZZ_SEED: a whole number"));
+    let seed = std::env::var("FUZZ_SEED").map_or(2012, |seed| {
+        seed.parse().expect("FUZZ_SEED: a whole number")
+    });
     let mut mutator = Mutator::new(seed, &inputs, LONGEST);
     for number in 0..cases(MUTATIONS) {
-        check(*property, &format!("{target}, mutation {number}"), &mutator.next_input());
+        check(
+            *property,
+            &format!("{target}, mutation {number}"),
+            &mutator.next_input(),
+        );
     }
 }
 

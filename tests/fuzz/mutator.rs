@@ -28,7 +28,12 @@ impl<'a> Mutator<'a> {
             }
         }
         // xorshift stays at zero.
-        Mutator { state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1, inputs, tokens, longest }
+        Mutator {
+            state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1,
+            inputs,
+            tokens,
+            longest,
+        }
     }
 
     /// A number below `count`, which is above 0, by xorshift64* (Vigna 2016).
@@ -36,7 +41,8 @@ impl<'a> Mutator<'a> {
         self.state ^= self.state >> 12;
         self.state ^= self.state << 25;
         self.state ^= self.state >> 27;
-        ((u128::from(self.state.wrapping_mul(0x2545_f491_4f6c_dd1d)) * count as u128) >> 64) as usize
+        ((u128::from(self.state.wrapping_mul(0x2545_f491_4f6c_dd1d)) * count as u128) >> 64)
+            as usize
     }
 
     /// A part of `input`, mostly a short one.
@@ -50,8 +56,14 @@ impl<'a> Mutator<'a> {
     fn number(&mut self, input: &[u8]) -> std::ops::Range<usize> {
         let from = self.below(input.len() + 1);
         let is_part = |byte: &u8| byte.is_ascii_digit() || b".eE+-".contains(byte);
-        let start = input[from..].iter().position(u8::is_ascii_digit).map_or(from, |at| from + at);
-        let length = input[start..].iter().position(|byte| !is_part(byte)).unwrap_or(input.len() - start);
+        let start = input[from..]
+            .iter()
+            .position(u8::is_ascii_digit)
+            .map_or(from, |at| from + at);
+        let length = input[start..]
+            .iter()
+            .position(|byte| !is_part(byte))
+            .unwrap_or(input.len() - start);
         start..start + length
     }
 

@@ -15,34 +15,62 @@ use std::sync::Mutex;
 
 /// Runs a script in a folder.
 fn shell(script: &str, folder: &Path) -> Output {
-    let program = Path::new(env!("CARGO_BIN_EXE_asperity")).parent().unwrap().to_owned();
+    let program = Path::new(env!("CARGO_BIN_EXE_asperity"))
+        .parent()
+        .unwrap()
+        .to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths([program].into_iter().chain(std::env::split_paths(&path))).unwrap();
+    let path =
+        std::env::join_paths([program].into_iter().chain(std::env::split_paths(&path))).unwrap();
     let mut shell = Command::new("sh");
-    shell.args(["-c", script]).current_dir(folder).stdin(Stdio::null()).env("PATH", path);
-    shell.env("ROOT", root()).env("HOME", "/home/user").env("LC_ALL", "C.UTF-8");
-    shell.env_remove("XDG_CONFIG_HOME").env_remove("COLUMNS").output().unwrap()
+    shell
+        .args(["-c", script])
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .env("PATH", path);
+    shell
+        .env("ROOT", root())
+        .env("HOME", "/home/user")
+        .env("LC_ALL", "C.UTF-8");
+    shell
+        .env_remove("XDG_CONFIG_HOME")
+        .env_remove("COLUMNS")
+        .output()
+        .unwrap()
 }
 
 /// Output and messages of a script in their order, after its exit code where that is not 0.
 fn printed(script: &str, folder: &Path) -> String {
     let output = shell(&format!("exec 2>&1\n{script}"), folder);
     let text = String::from_utf8(output.stdout).unwrap();
-    let text = if text.is_empty() || text.ends_with('\n') { text } else { text + "\n" };
+    let text = if text.is_empty() || text.ends_with('\n') {
+        text
+    } else {
+        text + "\n"
+    };
     match output.status.code() {
         Some(0) => text,
-        code => format!("? {}\n{text}", code.map_or("killed".to_owned(), |code| code.to_string())),
+        code => format!(
+            "? {}\n{text}",
+            code.map_or("killed".to_owned(), |code| code.to_string())
+        ),
     }
 }
 
 /// True if a line is as stated, with any text in place of `[..]`.
 fn is_like(stated: &str, line: &str) -> bool {
     let mut parts = stated.split("[..]");
-    let Some(mut rest) = line.strip_prefix(parts.next().unwrap_or_default()) else { return false };
+    let Some(mut rest) = line.strip_prefix(parts.next().unwrap_or_default()) else {
+        return false;
+    };
     let mut parts: Vec<&str> = parts.collect();
-    let Some(last) = parts.pop() else { return rest.is_empty() };
+    let Some(last) = parts.pop() else {
+        return rest.is_empty();
+    };
     for part in parts {
-        let Some((_, after)) = rest.split_once(part) else { return false };
+        let Some((_, after)) = rest.split_once(part) else {
+            return false;
+        };
         rest = after;
     }
     rest.ends_with(last)
@@ -61,9 +89,15 @@ fn with_placeholders(output: &str, stated: &[&str]) -> String {
 fn commands(block: &str) -> Vec<(String, Vec<&str>)> {
     let mut commands: Vec<(String, Vec<&str>)> = Vec::new();
     for line in block.lines() {
-        match (line.strip_prefix("$ "), line.strip_prefix("> "), commands.last_mut()) {
+        match (
+            line.strip_prefix("$ "),
+            line.strip_prefix("> "),
+            commands.last_mut(),
+        ) {
             (Some(command), ..) => commands.push((command.to_owned(), Vec::new())),
-            (_, Some(more), Some((command, stated))) if stated.is_empty() => *command += &format!("\n{more}"),
+            (_, Some(more), Some((command, stated))) if stated.is_empty() => {
+                *command += &format!("\n{more}")
+            }
             (_, _, Some((_, stated))) => stated.push(line),
             (_, _, None) => panic!("{line:?} is above the first command"),
         }
@@ -76,7 +110,11 @@ fn run_page(page: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let must_succeed = |script: &str| {
         let output = shell(&format!("set -e\n{script}"), folder.path());
-        assert!(output.status.success(), "{page}: {script}\n{}", String::from_utf8_lossy(&output.stderr));
+        assert!(
+            output.status.success(),
+            "{page}: {script}\n{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     };
     let (text, mut written) = (read(page), String::new());
     let mut lines = text.split_inclusive('\n');
@@ -96,7 +134,9 @@ fn run_page(page: &str) -> String {
                     write!(written, "$ {}\n{found}", command.replace('\n', "\n> ")).unwrap();
                 }
             } else {
-                if is_setup || line == "```sh\n" && block.starts_with("asperity") && !is_checked_elsewhere {
+                if is_setup
+                    || line == "```sh\n" && block.starts_with("asperity") && !is_checked_elsewhere
+                {
                     must_succeed(&block);
                 }
                 written += &block;
@@ -111,19 +151,43 @@ fn run_page(page: &str) -> String {
 #[test]
 fn consoles_print_what_the_program_prints() {
     let _alone = updating().then(alone);
-    let pages = [pages_in("docs"), pages_in("tests/program/commands"), vec!["README.md".to_owned()]].concat();
+    let pages = [
+        pages_in("docs"),
+        pages_in("tests/program/commands"),
+        vec!["README.md".to_owned()],
+    ]
+    .concat();
     let check = |page: &String| {
         let (text, written) = (read(page), run_page(page));
         if updating() {
             std::fs::write(root().join(page), written).unwrap();
             return String::new();
         }
-        let first = text.lines().zip(written.lines()).position(|(one, other)| one != other);
+        let first = text
+            .lines()
+            .zip(written.lines())
+            .position(|(one, other)| one != other);
         let from = first.unwrap_or(text.lines().count().min(written.lines().count()));
-        let part =
-            |text: &str| text.lines().skip(from.saturating_sub(3)).take(8).collect::<Vec<_>>().join("\n");
-        let differs = || format!("{page}:{}\nstates\n{}\nis\n{}\n", from + 1, part(&text), part(&written));
-        if text == written { String::new() } else { differs() }
+        let part = |text: &str| {
+            text.lines()
+                .skip(from.saturating_sub(3))
+                .take(8)
+                .collect::<Vec<_>>()
+                .join("\n")
+        };
+        let differs = || {
+            format!(
+                "{page}:{}\nstates\n{}\nis\n{}\n",
+                from + 1,
+                part(&text),
+                part(&written)
+            )
+        };
+        if text == written {
+            String::new()
+        } else {
+            differs()
+        }
     };
     let (next, differences) = (Mutex::new(pages.iter()), Mutex::new(String::new()));
     let take = || next.lock().unwrap().next();
@@ -136,5 +200,8 @@ fn consoles_print_what_the_program_prints() {
     };
     std::thread::scope(|scope| (0..4).for_each(|_| drop(scope.spawn(work))));
     let differences = differences.into_inner().unwrap();
-    assert!(differences.is_empty(), "UPDATE_DOCS=1 writes the blocks anew\n{differences}");
+    assert!(
+        differences.is_empty(),
+        "UPDATE_DOCS=1 writes the blocks anew\n{differences}"
+    );
 }

@@ -24,58 +24,110 @@ const LONGEST_README: usize = 200;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
 const PAGES: [(&str, &str); 18] = [
-    ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
+    (
+        "learn.md",
+        "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits",
+    ),
     ("scene-file.md", "fields of a scene, waves, loading, forms"),
     ("results.md", "summary, JSON, tables, figures"),
-    ("keys.md", "panes and keys of the explorer, typed values, configuration"),
-    ("studies.md", "the preload for a wanted result, parameter studies, statistics, clusters"),
+    (
+        "keys.md",
+        "panes and keys of the explorer, typed values, configuration",
+    ),
+    (
+        "studies.md",
+        "the preload for a wanted result, parameter studies, statistics, clusters",
+    ),
     ("reversals.md", "adhesion against preload, Everett function"),
     (
         "particles.md",
         "force laws for particle solvers: loop with reversals, reference curves, JKR force without iteration",
     ),
     ("surfaces.md", "measured surfaces: use, formats, fields"),
-    ("surface-estimate.md", "how a measured spectrum is estimated, and its errors"),
-    ("experiment.md", "measured force curves: reading, fit of the work of adhesion, errors"),
+    (
+        "surface-estimate.md",
+        "how a measured spectrum is estimated, and its errors",
+    ),
+    (
+        "experiment.md",
+        "measured force curves: reading, fit of the work of adhesion, errors",
+    ),
     ("model.md", "equations, regimes, other theories, validity"),
-    ("findings.md", "results to cite: claims of the paper, boundary of adhesion, stiffness"),
-    ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of profiles"),
-    ("line-and-three-dimensions.md", "how far to trust the line: the same contact in three dimensions"),
+    (
+        "findings.md",
+        "results to cite: claims of the paper, boundary of adhesion, stiffness",
+    ),
+    (
+        "accuracy.md",
+        "rounding, errors against closed forms, cost of accuracy, scatter of profiles",
+    ),
+    (
+        "line-and-three-dimensions.md",
+        "how far to trust the line: the same contact in three dimensions",
+    ),
     ("performance.md", "times, latency of the explorer, memory"),
     ("terms.md", "symbols, units, signs, words"),
     ("errors.md", "messages, exit codes"),
-    ("design.md", "structure of the program, files of an extension, rules of the code"),
+    (
+        "design.md",
+        "structure of the program, files of an extension, rules of the code",
+    ),
 ];
 
 /// The first fenced block of a language on a page.
 pub fn block(page: &str, language: &str) -> String {
     let text = read(page);
     let start = format!("```{language}\n");
-    let (_, rest) = text.split_once(&start).unwrap_or_else(|| panic!("{page} has no {start}"));
+    let (_, rest) = text
+        .split_once(&start)
+        .unwrap_or_else(|| panic!("{page} has no {start}"));
     rest.split_once("```").unwrap().0.to_owned()
 }
 
 /// A table in Markdown, from its header and the cells of its rows.
-pub fn markdown<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+pub fn markdown<const N: usize>(
+    header: [&str; N],
+    rows: impl Iterator<Item = [String; N]>,
+) -> String {
     let head = format!("| {} |\n|{}\n", header.join(" | "), "---|".repeat(N));
-    head + &rows.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<String>()
+    head + &rows
+        .map(|cells| format!("| {} |\n", cells.join(" | ")))
+        .collect::<String>()
 }
 
 /// Path, variant and symbol of a field, its range and default, and its meaning.
 fn row_of_field(field: &Field) -> [String; 3] {
-    let of = field.variant.filter(|one| *one != "Measured").map_or(String::new(), |one| format!(" ({one})"));
-    let symbol = if field.symbol.is_empty() { String::new() } else { format!(" {}", escaped(field.symbol)) };
+    let of = field
+        .variant
+        .filter(|one| *one != "Measured")
+        .map_or(String::new(), |one| format!(" ({one})"));
+    let symbol = if field.symbol.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", escaped(field.symbol))
+    };
     let allowed = match field.range {
-        Range::Choice(choices) => choices.iter().map(|one| format!("`{one}`")).collect::<Vec<_>>().join(", "),
+        Range::Choice(choices) => choices
+            .iter()
+            .map(|one| format!("`{one}`"))
+            .collect::<Vec<_>>()
+            .join(", "),
         Range::Text { lines: false, .. } => "text".to_owned(),
-        _ => field.allowed().replace("a whole number ", "").replace("from ", ""),
+        _ => field
+            .allowed()
+            .replace("a whole number ", "")
+            .replace("from ", ""),
     };
     let default = match field.default {
         "" => String::new(),
         "None" => "; optional".to_owned(),
         default => format!("; default `{default}`"),
     };
-    [format!("`{}`{of}{symbol}", field.path), allowed + &default, escaped(field.meaning)]
+    [
+        format!("`{}`{of}{symbol}", field.path),
+        allowed + &default,
+        escaped(field.meaning),
+    ]
 }
 
 /// Text of the program for a page, with escaped asterisks.
@@ -85,37 +137,74 @@ fn escaped(text: &str) -> String {
 
 #[test]
 fn tables_are_those_of_the_program() {
-    check("docs/keys.md", "keys", &format!("{}\n", bindings().markdown()));
+    check(
+        "docs/keys.md",
+        "keys",
+        &format!("{}\n", bindings().markdown()),
+    );
     let panes = Pane::ALL.iter().flat_map(|pane| row(*pane).help);
     let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
-    check("docs/keys.md", "panes", &markdown(["pane", "content"], panes));
+    check(
+        "docs/keys.md",
+        "panes",
+        &markdown(["pane", "content"], panes),
+    );
     let quantities = Quantity::ALL.iter().map(|one| {
-        let unit = [one.symbol(), one.unit()].into_iter().filter(|word| !["", "1"].contains(word));
+        let unit = [one.symbol(), one.unit()]
+            .into_iter()
+            .filter(|word| !["", "1"].contains(word));
         let unit = unit.collect::<Vec<_>>().join(", ");
-        let unit = if unit.is_empty() { unit } else { format!(" ({unit})") };
-        format!("* `{}`{}: {}\n", one.name(), escaped(&unit), escaped(one.meaning()))
+        let unit = if unit.is_empty() {
+            unit
+        } else {
+            format!(" ({unit})")
+        };
+        format!(
+            "* `{}`{}: {}\n",
+            one.name(),
+            escaped(&unit),
+            escaped(one.meaning())
+        )
     });
-    check("docs/studies.md", "quantities", &format!("\n{}\n", quantities.collect::<String>()));
-    for (page, part, is_measured) in
-        [("docs/scene-file.md", "fields", false), ("docs/surfaces.md", "measured fields", true)]
-    {
+    check(
+        "docs/studies.md",
+        "quantities",
+        &format!("\n{}\n", quantities.collect::<String>()),
+    );
+    for (page, part, is_measured) in [
+        ("docs/scene-file.md", "fields", false),
+        ("docs/surfaces.md", "measured fields", true),
+    ] {
         let fields = FIELDS.iter().filter(|field| field.range != Range::Group);
-        let of = fields.filter(|field| (field.variant == Some("Measured")) == is_measured).map(row_of_field);
+        let of = fields
+            .filter(|field| (field.variant == Some("Measured")) == is_measured)
+            .map(row_of_field);
         check(page, part, &markdown(["field", "allowed", "means"], of));
     }
-    let pages =
-        PAGES.iter().map(|(page, content)| [format!("[docs/{page}](docs/{page})"), (*content).to_owned()]);
+    let pages = PAGES
+        .iter()
+        .map(|(page, content)| [format!("[docs/{page}](docs/{page})"), (*content).to_owned()]);
     check("README.md", "pages", &markdown(["page", "content"], pages));
 }
 
 #[test]
 fn the_readme_is_short_and_lists_all_pages() {
     let listed = PAGES.map(|(page, _)| format!("docs/{page}"));
-    assert!(pages_in("docs").iter().all(|page| listed.contains(page)), "{:?}", pages_in("docs"));
+    assert!(
+        pages_in("docs").iter().all(|page| listed.contains(page)),
+        "{:?}",
+        pages_in("docs")
+    );
     let lines = read("README.md").lines().count();
-    assert!(lines <= LONGEST_README, "README.md has {lines} lines; allowed: at most {LONGEST_README}");
+    assert!(
+        lines <= LONGEST_README,
+        "README.md has {lines} lines; allowed: at most {LONGEST_README}"
+    );
     let version = format!("version: {}\n", env!("CARGO_PKG_VERSION"));
-    assert!(read("CITATION.cff").contains(&version), "CITATION.cff lacks {version}");
+    assert!(
+        read("CITATION.cff").contains(&version),
+        "CITATION.cff lacks {version}"
+    );
 }
 
 /// Relative errors of the smallest force, −(3/2)πγR, and of its indentation, a²/R − √(2πaγ/E*) with a³ = (9/8)πγR²/E*, of a
@@ -127,18 +216,25 @@ fn errors_of_a_sphere(points: u32, edges: &str) -> [f64; 2] {
          numerics: (points: {points}, edges: {edges}))"
     );
     let document = Document::parse(&text, "sphere").unwrap();
-    let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let outcome = Simulation::default()
+        .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+        .unwrap();
     let figures = outcome.figures;
     let a = (9.0 / 8.0 * PI * 0.5 * 0.25).cbrt();
     let force = figures.adhesion_force.unwrap() / (1.5 * PI * 0.25);
-    let indentation = figures.pull_off_indentation.unwrap() / (a * a / 0.5 - (2.0 * PI * a * 0.5).sqrt());
+    let indentation =
+        figures.pull_off_indentation.unwrap() / (a * a / 0.5 - (2.0 * PI * a * 0.5).sqrt());
     [force, indentation].map(|share| (share - 1.0).abs())
 }
 
 #[test]
 fn errors_of_a_sphere_are_those_of_the_program() {
     let table = |of: usize| {
-        let rows = [("SubCell", "edges between springs"), ("Grid", "whole springs")].map(|(edges, words)| {
+        let rows = [
+            ("SubCell", "edges between springs"),
+            ("Grid", "whole springs"),
+        ]
+        .map(|(edges, words)| {
             let error = |points| format!("{:.1e}", errors_of_a_sphere(points, edges)[of]);
             [
                 format!("`edges: {edges}`, {words}"),
@@ -149,7 +245,10 @@ fn errors_of_a_sphere_are_those_of_the_program() {
                 error(10_000),
             ]
         });
-        markdown(["springs N", "100", "300", "1000", "3000", "10000"], rows.into_iter())
+        markdown(
+            ["springs N", "100", "300", "1000", "3000", "10000"],
+            rows.into_iter(),
+        )
     };
     check("README.md", "sphere", &format!("\n{}\n", table(0)));
     check("docs/accuracy.md", "sphere indentation", &table(1));
@@ -161,29 +260,44 @@ fn pictures_are_those_of_their_commands() {
     for inside in ["docs/learn", "docs/examples", "docs/particles"] {
         std::fs::create_dir_all(folder.path().join(inside)).unwrap();
     }
-    for file in
-        ["five-springs.ron", "five-springs.txt", "turned-at-first-touch.ron", "turned-at-zero-force.ron"]
-    {
+    for file in [
+        "five-springs.ron",
+        "five-springs.txt",
+        "turned-at-first-touch.ron",
+        "turned-at-zero-force.ron",
+    ] {
         let file = format!("docs/examples/{file}");
         std::fs::write(folder.path().join(&file), read(&file)).unwrap();
     }
-    let sphere =
-        "asperity run jkr-sphere --set \"material=(effective_modulus:1e6)\" -o docs/learn/sphere.svg";
+    let sphere = "asperity run jkr-sphere --set \"material=(effective_modulus:1e6)\" -o docs/learn/sphere.svg";
     let protocols = "asperity run docs/examples/turned-at-first-touch.ron docs/examples/turned-at-zero-force.ron \
                      -o docs/learn/protocols.svg";
-    let of_particles =
-        |scene, file| format!("asperity run {scene} --set numerics.samples=64 -o docs/particles/{file}.csv");
+    let of_particles = |scene, file| {
+        format!("asperity run {scene} --set numerics.samples=64 -o docs/particles/{file}.csv")
+    };
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
                      -o docs/learn/five-springs.svg";
     for (page, command) in [
         ("docs/learn.md", sphere),
         ("docs/learn.md", staircase),
-        ("docs/learn.md", "asperity run pressure-sensitive -o docs/learn/rough.svg"),
+        (
+            "docs/learn.md",
+            "asperity run pressure-sensitive -o docs/learn/rough.svg",
+        ),
         ("docs/learn.md", protocols),
-        ("README.md", "asperity demo pressure-sensitive --at 13 --size 120x36 -o docs/explorer.svg"),
-        ("docs/reversals.md", "asperity reversals pressure-sensitive -o docs/reversals.svg"),
+        (
+            "README.md",
+            "asperity demo pressure-sensitive --at 13 --size 120x36 -o docs/explorer.svg",
+        ),
+        (
+            "docs/reversals.md",
+            "asperity reversals pressure-sensitive -o docs/reversals.svg",
+        ),
         ("docs/particles.md", &of_particles("jkr-sphere", "sphere")),
-        ("docs/particles.md", &of_particles("rough-sphere", "rough-sphere")),
+        (
+            "docs/particles.md",
+            &of_particles("rough-sphere", "rough-sphere"),
+        ),
         ("docs/particles.md", &of_particles("two-works", "two-works")),
     ] {
         assert!(read(page).contains(command), "{page} lacks: {command}");
@@ -191,14 +305,24 @@ fn pictures_are_those_of_their_commands() {
         let file = command.rsplit(' ').next().unwrap();
         // Metadata name measured files by their whole path.
         let drawn = std::fs::read_to_string(folder.path().join(file)).unwrap();
-        compare(file, &drawn.replace(&format!("{}/", folder.path().display()), ""));
+        compare(
+            file,
+            &drawn.replace(&format!("{}/", folder.path().display()), ""),
+        );
     }
 }
 
 /// Runs a command in a folder.
 fn succeeded(folder: &Path, command: &str) -> String {
-    asperity_in(folder, &command.split(' ').skip(1).map(|word| word.trim_matches('"')).collect::<Vec<_>>())
-        .succeeded()
+    asperity_in(
+        folder,
+        &command
+            .split(' ')
+            .skip(1)
+            .map(|word| word.trim_matches('"'))
+            .collect::<Vec<_>>(),
+    )
+    .succeeded()
 }
 
 #[test]
@@ -208,9 +332,19 @@ fn the_figure_of_the_regimes_shows_them() {
     std::fs::create_dir(folder.join("docs")).unwrap();
     std::fs::write(folder.join("docs/regimes.ron"), read("docs/regimes.ron")).unwrap();
     let readme = read("README.md");
-    let (_, commands) = readme.split_once("<!-- regimes command -->\n```sh\n").unwrap();
-    commands.split("```").next().unwrap().lines().for_each(|command| drop(succeeded(folder, command)));
-    compare("docs/regimes.svg", &std::fs::read_to_string(folder.join("docs/regimes.svg")).unwrap());
+    let (_, commands) = readme
+        .split_once("<!-- regimes command -->\n```sh\n")
+        .unwrap();
+    commands
+        .split("```")
+        .next()
+        .unwrap()
+        .lines()
+        .for_each(|command| drop(succeeded(folder, command)));
+    compare(
+        "docs/regimes.svg",
+        &std::fs::read_to_string(folder.join("docs/regimes.svg")).unwrap(),
+    );
     // The three sentences below the figure.
     let summary = std::fs::read_to_string(folder.join("regimes/summary.csv")).unwrap();
     let columns: Vec<&str> = summary.lines().next().unwrap().split(',').collect();
@@ -223,15 +357,41 @@ fn the_figure_of_the_regimes_shows_them() {
             .collect()
     };
     let shares = |kappa| of(kappa, "adhesion_share_mean");
-    assert!(shares(1.0).iter().all(|share| (share - 0.94).abs() < 0.005), "{:?}", shares(1.0));
-    assert!(of(1.0, "regime_pressure_insensitive").iter().all(|part| *part == 1.0));
+    assert!(
+        shares(1.0).iter().all(|share| (share - 0.94).abs() < 0.005),
+        "{:?}",
+        shares(1.0)
+    );
+    assert!(
+        of(1.0, "regime_pressure_insensitive")
+            .iter()
+            .all(|part| *part == 1.0)
+    );
     let sensitive = shares(8.0);
-    assert!((sensitive[0] - 0.08).abs() < 0.005 && (sensitive[sensitive.len() - 1] - 0.54).abs() < 0.005);
-    assert!(sensitive.is_sorted() && of(8.0, "regime_pressure_sensitive").iter().all(|part| *part == 1.0));
+    assert!(
+        (sensitive[0] - 0.08).abs() < 0.005
+            && (sensitive[sensitive.len() - 1] - 0.54).abs() < 0.005
+    );
+    assert!(
+        sensitive.is_sorted()
+            && of(8.0, "regime_pressure_sensitive")
+                .iter()
+                .all(|part| *part == 1.0)
+    );
     assert!(shares(100.0).iter().all(|share| *share < 1e-6));
-    assert!(of(100.0, "tabor_number_mean").iter().all(|number| (number - 0.81).abs() < 0.005));
-    for (part, preload) in of(100.0, "regime_non_adhesive").into_iter().zip(of(100.0, "preload")) {
-        assert!(part == 1.0 || preload < 1e-4 * (1.0 - 1e-9), "{part} under {preload}");
+    assert!(
+        of(100.0, "tabor_number_mean")
+            .iter()
+            .all(|number| (number - 0.81).abs() < 0.005)
+    );
+    for (part, preload) in of(100.0, "regime_non_adhesive")
+        .into_iter()
+        .zip(of(100.0, "preload"))
+    {
+        assert!(
+            part == 1.0 || preload < 1e-4 * (1.0 - 1e-9),
+            "{part} under {preload}"
+        );
     }
 }
 
@@ -270,13 +430,20 @@ fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let plan = succeeded(folder, "asperity sweep plans stiffness-exponent");
-    std::fs::write(folder.join("plan.ron"), plan.replace("[8192, 65536, 524288]", "[8192]")).unwrap();
+    std::fs::write(
+        folder.join("plan.ron"),
+        plan.replace("[8192, 65536, 524288]", "[8192]"),
+    )
+    .unwrap();
     succeeded(folder, "asperity sweep plan.ron -o stiffness");
     let summary = std::fs::read_to_string(folder.join("stiffness/summary.csv")).unwrap();
     let fitted: Vec<f64> = table(&summary).map(|row| row[6]).collect();
     let stated = [0.844, 0.0, 0.772, 0.719, 0.668, 0.624, 0.588, 0.553, 0.522];
     let is_stated = |(fitted, stated): (&f64, f64)| stated == 0.0 || (fitted - stated).abs() < 0.02;
-    assert!(fitted.len() == 9 && fitted.iter().zip(stated).all(is_stated), "{fitted:?}");
+    assert!(
+        fitted.len() == 9 && fitted.iter().zip(stated).all(is_stated),
+        "{fitted:?}"
+    );
 }
 
 /// The third step of the tour raises the pull-off force from 17 to 66 µN.
@@ -286,10 +453,19 @@ fn the_tour_begins_with_the_question() {
     let scene = asperity::scene::open(asperity::scene::library::DEFAULT).unwrap();
     let condition = asperity::study::Question::parse_condition("F_a/F_a,max = 20 %").unwrap();
     let mut simulation = Simulation::default();
-    let question = Question::new(scene.scene(), "preload", condition, Ensemble::PROFILES, &mut simulation);
+    let question = Question::new(
+        scene.scene(),
+        "preload",
+        condition,
+        Ensemble::PROFILES,
+        &mut simulation,
+    );
     let found = Found::of(question.unwrap(), (simulation, 2), &|| false, &mut |_| ()).unwrap();
     let [low, median, high] = [0.25, 0.5, 0.75].map(|share| found.quantile(share).unwrap());
-    let (median, range) = (format_quantity(median, "N"), format_range((low, high), 3, "N"));
+    let (median, range) = (
+        format_quantity(median, "N"),
+        format_range((low, high), 3, "N"),
+    );
     let says = format!("{median}, the median of 16 random profiles, with quartiles from {range}");
     assert_says("README.md", &says);
 }
@@ -303,7 +479,9 @@ fn the_tour_shows_a_staircase() {
             force = LEG_FORCE.stepped(&force, 1, false).unwrap();
         }
         let pressed = scene.set("loading.0.0", &force).unwrap();
-        let outcome = Simulation::default().run(pressed.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = Simulation::default()
+            .run(pressed.scene(), &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         (1e6 * outcome.figures.adhesion_force.unwrap()).round()
     });
     assert_eq!(forces, [17.0, 17.0, 17.0, 66.0]);
@@ -331,30 +509,57 @@ fn the_regimes_are_those_of_the_program() {
 /// The anchor of a heading on code hosts.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim().to_lowercase().replace(' ', "-");
-    kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_')).collect()
+    kept.chars()
+        .filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_'))
+        .collect()
 }
 
 #[test]
 fn links_and_paths_lead_somewhere() {
-    let others = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "fuzz/README.md"].map(String::from);
+    let others = [
+        "README.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
+        "fuzz/README.md",
+    ]
+    .map(String::from);
     for page in pages_in("docs").into_iter().chain(others) {
         let (text, folder) = (read(&page), Path::new(&page).parent().unwrap());
-        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+        for link in text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next())
+        {
             if link.starts_with("http") || link.contains([' ', '\n']) {
                 continue;
             }
             let (file, heading) = link.split_once('#').unwrap_or((link, ""));
-            let target: PathBuf = if file.is_empty() { page.clone().into() } else { folder.join(file) };
-            assert!(root().join(&target).exists(), "{page}: {link} leads nowhere");
-            let text = if heading.is_empty() { String::new() } else { read(target.to_str().unwrap()) };
+            let target: PathBuf = if file.is_empty() {
+                page.clone().into()
+            } else {
+                folder.join(file)
+            };
+            assert!(
+                root().join(&target).exists(),
+                "{page}: {link} leads nowhere"
+            );
+            let text = if heading.is_empty() {
+                String::new()
+            } else {
+                read(target.to_str().unwrap())
+            };
             let mut headings = text.lines().filter_map(|line| line.strip_prefix('#'));
             let found = headings.any(|line| anchor(line.trim_start_matches('#')) == heading);
-            assert!(heading.is_empty() || found, "{page}: {link} has no such heading");
+            assert!(
+                heading.is_empty() || found,
+                "{page}: {link} has no such heading"
+            );
         }
         let code = text.split('`').skip(1).step_by(2);
         for word in code.filter_map(|code| code.split_whitespace().next()) {
-            let is_path =
-                ["src/", "crates/", "tests/", "docs/", "fuzz/"].iter().any(|folder| word.starts_with(folder));
+            let is_path = ["src/", "crates/", "tests/", "docs/", "fuzz/"]
+                .iter()
+                .any(|folder| word.starts_with(folder));
             let exists = || root().join(word).exists() || word.contains('*');
             assert!(!is_path || exists(), "{page}: there is no {word}");
         }
@@ -366,5 +571,10 @@ fn examples_of_files_are_allowed() {
     Document::parse(&block("docs/scene-file.md", "ron"), "docs/scene-file.md").unwrap();
     let config = block("docs/keys.md", "ron");
     Config::parse(&config, Path::new("docs/keys.md"), bindings()).unwrap();
-    Plan::parse(&block("docs/studies.md", "ron"), "docs/studies.md", &Changes::default()).unwrap();
+    Plan::parse(
+        &block("docs/studies.md", "ron"),
+        "docs/studies.md",
+        &Changes::default(),
+    )
+    .unwrap();
 }

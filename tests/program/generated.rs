@@ -29,7 +29,8 @@ pub fn read(page: &str) -> String {
 /// All pages of a folder.
 pub fn pages_in(folder: &str) -> Vec<String> {
     let entries = std::fs::read_dir(root().join(folder)).unwrap();
-    let names = entries.map(|entry| format!("{folder}/{}", entry.unwrap().file_name().to_string_lossy()));
+    let names =
+        entries.map(|entry| format!("{folder}/{}", entry.unwrap().file_name().to_string_lossy()));
     names.filter(|name| name.ends_with(".md")).collect()
 }
 
@@ -38,7 +39,10 @@ pub fn compare(file: &str, expected: &str) {
     if updating() {
         std::fs::write(root().join(file), expected).unwrap();
     } else {
-        assert!(read(file) == expected, "{file} is not the program's; UPDATE_DOCS=1 writes it anew");
+        assert!(
+            read(file) == expected,
+            "{file} is not the program's; UPDATE_DOCS=1 writes it anew"
+        );
     }
 }
 
@@ -46,18 +50,35 @@ pub fn compare(file: &str, expected: &str) {
 pub fn check(page: &str, name: &str, expected: &str) {
     let _alone = alone();
     let text = read(page);
-    let (start, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
-    let (before, rest) = text.split_once(&start).unwrap_or_else(|| panic!("{page} has no {start}"));
-    let (found, after) = rest.split_once(&end).unwrap_or_else(|| panic!("{page} has no {end}"));
+    let (start, end) = (
+        format!("<!-- {name} -->\n"),
+        format!("<!-- end of {name} -->"),
+    );
+    let (before, rest) = text
+        .split_once(&start)
+        .unwrap_or_else(|| panic!("{page} has no {start}"));
+    let (found, after) = rest
+        .split_once(&end)
+        .unwrap_or_else(|| panic!("{page} has no {end}"));
     if updating() {
-        std::fs::write(root().join(page), format!("{before}{start}{expected}{end}{after}")).unwrap();
+        std::fs::write(
+            root().join(page),
+            format!("{before}{start}{expected}{end}{after}"),
+        )
+        .unwrap();
     } else {
-        assert_eq!(found, expected, "the part {name} of {page} is not the program's");
+        assert_eq!(
+            found, expected,
+            "the part {name} of {page} is not the program's"
+        );
     }
 }
 
 /// Asserts that a page has this sentence, however its lines are broken.
 pub fn assert_says(page: &str, sentence: &str) {
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words(&read(page)).contains(&words(sentence)), "{page} lacks: {sentence}");
+    assert!(
+        words(&read(page)).contains(&words(sentence)),
+        "{page} lacks: {sentence}"
+    );
 }

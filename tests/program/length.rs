@@ -17,19 +17,30 @@ const PROFILES: u64 = 32;
 /// pressure.
 fn shares(pad: &Document, waves: u64, height: f64) -> Statistics {
     let own = pad.scene();
-    let Move::ToForce(force) = own.loading[0] else { panic!("{:?}", own.loading) };
+    let Move::ToForce(force) = own.loading[0] else {
+        panic!("{:?}", own.loading)
+    };
     let length = waves as f64 * LONGEST;
     let area_ratio = (length / own.length).powi(2);
     let longer = own.with(|scene| {
         scene.length = length;
         scene.numerics.points = 512 * waves;
         scene.loading[0] = Move::ToForce(force * area_ratio);
-        if let Some(asperity_scene::Roughness::SelfAffine { rms_height, .. }) = &mut scene.roughness {
+        if let Some(asperity_scene::Roughness::SelfAffine { rms_height, .. }) = &mut scene.roughness
+        {
             *rms_height = Some(height);
         }
     });
     let simulation = (Simulation::default(), 2);
-    let found = Ensemble::of(&longer.unwrap(), &[], PROFILES, simulation, &|| false, &mut |_, _| ()).unwrap();
+    let found = Ensemble::of(
+        &longer.unwrap(),
+        &[],
+        PROFILES,
+        simulation,
+        &|| false,
+        &mut |_, _| (),
+    )
+    .unwrap();
     found.statistics(Quantity::AdhesionShare).unwrap()
 }
 

@@ -14,17 +14,26 @@ use std::path::Path;
 fn scene(name: &str, claims: &[&str]) -> Document {
     let document = open(name).unwrap_or_else(|error| panic!("{name}: {error}"));
     let notice = &document.scene().notice;
-    assert!(claims.iter().all(|claim| notice.contains(claim)), "{name}: {notice:?} does not say {claims:?}");
+    assert!(
+        claims.iter().all(|claim| notice.contains(claim)),
+        "{name}: {notice:?} does not say {claims:?}"
+    );
     document
 }
 
 fn run(document: &Document) -> Outcome {
-    Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+    Simulation::default()
+        .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+        .unwrap()
 }
 
 /// The scene with other values of these fields.
 fn with(document: &Document, fields: &[(&str, &str)]) -> Document {
-    fields.iter().fold(document.clone(), |document, (path, value)| document.set(path, value).unwrap())
+    fields
+        .iter()
+        .fold(document.clone(), |document, (path, value)| {
+            document.set(path, value).unwrap()
+        })
 }
 
 fn force(outcome: &Outcome) -> f64 {
@@ -33,7 +42,10 @@ fn force(outcome: &Outcome) -> f64 {
 
 /// Adhesion force of a scene under another force of its first loading stage, N.
 fn pressed(document: &Document, load: f64) -> f64 {
-    force(&run(&with(document, &[("loading", &format!("[ToForce({load:e}), ToSeparation]"))])))
+    force(&run(&with(
+        document,
+        &[("loading", &format!("[ToForce({load:e}), ToSeparation]"))],
+    )))
 }
 
 /// A number with two significant digits, as in notices.
@@ -48,14 +60,24 @@ fn picojoules(outcome: &Outcome) -> f64 {
 
 #[test]
 fn three_regimes_depend_on_the_preload_as_stated() {
-    let ideal = scene("ideal-adhesion", &["the pull-off force is the same for every preload"]);
+    let ideal = scene(
+        "ideal-adhesion",
+        &["the pull-off force is the same for every preload"],
+    );
     let outcome = run(&ideal);
     assert_eq!(outcome.regime, Some(Regime::PressureInsensitive));
     assert_eq!(outcome.first_touch_adhesion_force, Some(force(&outcome)));
-    assert!([1e-7, 2e-6, 1e-4, 1e-2].iter().all(|load| pressed(&ideal, *load) == force(&outcome)));
+    assert!(
+        [1e-7, 2e-6, 1e-4, 1e-2]
+            .iter()
+            .all(|load| pressed(&ideal, *load) == force(&outcome))
+    );
 
     let growth = "to 5, 10 and 20 µN: the pull-off force grows from 2.6 to 17 and 66 µN";
-    let sensitive = scene("pressure-sensitive", &[growth, "At first touch almost nothing"]);
+    let sensitive = scene(
+        "pressure-sensitive",
+        &[growth, "At first touch almost nothing"],
+    );
     assert_eq!(
         [5e-6, 1e-5, 2e-5].map(|load| two_digits(pressed(&sensitive, load))),
         [2.6e-6, 1.7e-5, 6.6e-5]
@@ -69,7 +91,11 @@ fn three_regimes_depend_on_the_preload_as_stated() {
     let outcome = run(&none);
     assert_eq!(outcome.regime, Some(Regime::NonAdhesive));
     assert!(force(&outcome) < 1e-3 * outcome.figures.preload.unwrap());
-    assert!([1e-4, 1e-3, 1e-2].iter().all(|load| pressed(&none, *load) == force(&outcome)));
+    assert!(
+        [1e-4, 1e-3, 1e-2]
+            .iter()
+            .all(|load| pressed(&none, *load) == force(&outcome))
+    );
 }
 
 #[test]
@@ -79,30 +105,53 @@ fn two_profiles_differ_in_their_hurst_exponent_alone() {
         "profile-hurst-075",
         &["the rms gradient is 0.086, and the pull-off force is 1.4 times as high"],
     );
-    let described =
-        |document: &Document| with(document, &[("title", "\"\""), ("notice", "\"\"")]).scene().clone();
-    assert_eq!(described(&with(&jagged, &[("roughness.hurst", "0.75")])), described(&smooth));
+    let described = |document: &Document| {
+        with(document, &[("title", "\"\""), ("notice", "\"\"")])
+            .scene()
+            .clone()
+    };
+    assert_eq!(
+        described(&with(&jagged, &[("roughness.hurst", "0.75")])),
+        described(&smooth)
+    );
     let [jagged, smooth] = [run(&jagged), run(&smooth)];
-    let gradient = |outcome: &Outcome| two_digits(outcome.governing.amplitude.unwrap().rms_gradient);
+    let gradient =
+        |outcome: &Outcome| two_digits(outcome.governing.amplitude.unwrap().rms_gradient);
     assert_eq!([gradient(&jagged), gradient(&smooth)], [1.2, 0.086]);
     assert_eq!(two_digits(force(&smooth) / force(&jagged)), 1.4);
 }
 
 #[test]
 fn patches_have_lengths_of_their_own() {
-    let outcome = run(&scene("fragment-closeup", &["each contact patch has a length of its own"]));
-    let lengths: BTreeSet<usize> =
-        outcome.history.contacts.iter().map(|patch| patch.springs().len()).collect();
+    let outcome = run(&scene(
+        "fragment-closeup",
+        &["each contact patch has a length of its own"],
+    ));
+    let lengths: BTreeSet<usize> = outcome
+        .history
+        .contacts
+        .iter()
+        .map(|patch| patch.springs().len())
+        .collect();
     assert!(lengths.len() >= 5, "{lengths:?}");
 }
 
 #[test]
 fn smooth_bodies_keep_their_pull_off_force() {
     let jkr = 1.5 * PI * 0.05 * 1e-4;
-    let claim = "the pull-off force (3/2)πγR depends neither on the preload nor on the elastic modulus";
+    let claim =
+        "the pull-off force (3/2)πγR depends neither on the preload nor on the elastic modulus";
     let sphere = scene("jkr-sphere", &[claim]);
-    let softer = force(&run(&with(&sphere, &[("material.youngs_modulus", "1.0e6")])));
-    for found in [force(&run(&sphere)), pressed(&sphere, 1e-6), pressed(&sphere, 2e-4), softer] {
+    let softer = force(&run(&with(
+        &sphere,
+        &[("material.youngs_modulus", "1.0e6")],
+    )));
+    for found in [
+        force(&run(&sphere)),
+        pressed(&sphere, 1e-6),
+        pressed(&sphere, 2e-4),
+        softer,
+    ] {
         assert!((found / jkr - 1.0).abs() < 1e-4, "{found}");
     }
 
@@ -110,7 +159,11 @@ fn smooth_bodies_keep_their_pull_off_force() {
     let punch = scene("kendall-punch", &[claim]);
     let outcome = run(&punch);
     let exact = (8.0 * PI * 2e-5_f64.powi(3) * outcome.governing.effective_modulus * 0.05).sqrt();
-    for found in [force(&outcome), pressed(&punch, 1e-6), pressed(&punch, 1e-3)] {
+    for found in [
+        force(&outcome),
+        pressed(&punch, 1e-6),
+        pressed(&punch, 1e-3),
+    ] {
         assert!((found / exact - 1.0).abs() < 1e-3, "{found}");
     }
     let unloading = &outcome.history.legs.last().unwrap().curve;
@@ -121,55 +174,104 @@ fn smooth_bodies_keep_their_pull_off_force() {
     );
 
     let opening = "Opening takes ten times the work that closing gives back";
-    let loop_of = "the pull-off force stays (3/2)πγR, and the loop dissipates 16 pJ instead of 12 pJ";
+    let loop_of =
+        "the pull-off force stays (3/2)πγR, and the loop dissipates 16 pJ instead of 12 pJ";
     let two = scene("two-works", &[opening, loop_of]);
     let adhesion = two.scene().adhesion.unwrap();
     assert!((adhesion.work().unwrap() / adhesion.closing_work().unwrap() - 10.0).abs() < 1e-12);
-    let outcomes = [run(&two), run(&with(&two, &[("adhesion.closing_work", "None")]))];
-    assert!(outcomes.iter().all(|outcome| (force(outcome) / jkr - 1.0).abs() < 1e-4));
-    assert_eq!([picojoules(&outcomes[0]), picojoules(&outcomes[1])], [16.0, 12.0]);
+    let outcomes = [
+        run(&two),
+        run(&with(&two, &[("adhesion.closing_work", "None")])),
+    ];
+    assert!(
+        outcomes
+            .iter()
+            .all(|outcome| (force(outcome) / jkr - 1.0).abs() < 1e-4)
+    );
+    assert_eq!(
+        [picojoules(&outcomes[0]), picojoules(&outcomes[1])],
+        [16.0, 12.0]
+    );
 }
 
 #[test]
 fn roughness_weakens_a_sphere_and_waves_strengthen_it() {
-    let rough = scene("rough-sphere", &["from 236 to 89 µN, and to 47 µN after a preload of only 10 µN"]);
+    let rough = scene(
+        "rough-sphere",
+        &["from 236 to 89 µN, and to 47 µN after a preload of only 10 µN"],
+    );
     let smooth = with(&rough, &[("roughness", "None")]);
-    let forces = [pressed(&smooth, 1e-4), pressed(&smooth, 1e-5), force(&run(&rough)), pressed(&rough, 1e-5)];
-    assert_eq!(forces.map(|force| (1e6 * force).round()), [236.0, 236.0, 89.0, 47.0]);
+    let forces = [
+        pressed(&smooth, 1e-4),
+        pressed(&smooth, 1e-5),
+        force(&run(&rough)),
+        pressed(&rough, 1e-5),
+    ];
+    assert_eq!(
+        forces.map(|force| (1e6 * force).round()),
+        [236.0, 236.0, 89.0, 47.0]
+    );
 
     let claim = "with waves of 80 nm the pull-off force is 1.17 times that of the smooth sphere, and the loop dissipates 11 pJ more";
     let waves = scene("wavy-sphere", &[claim]);
-    let [wavy, smooth] = [run(&waves), run(&with(&waves, &[("form", "Paraboloid(radius: 1.0e-3)")]))];
+    let [wavy, smooth] = [
+        run(&waves),
+        run(&with(&waves, &[("form", "Paraboloid(radius: 1.0e-3)")])),
+    ];
     assert_eq!((100.0 * force(&wavy) / force(&smooth)).round(), 117.0);
     assert_eq!(picojoules(&wavy) - picojoules(&smooth), 11.0);
-    assert!(matches!(waves.scene().form, Some(Form::WavySphere { amplitude: 8e-8, .. })));
+    assert!(matches!(
+        waves.scene().form,
+        Some(Form::WavySphere {
+            amplitude: 8e-8,
+            ..
+        })
+    ));
 }
 
 #[test]
 fn adhesion_at_zero_force_ends_at_an_elastic_energy() {
     let keeps = "keeps 58 % of the ideal adhesion force; at e_el/γ = 2.5 it keeps 0.17 %";
-    let below = scene("elastic-energy-below", &["would take twice the work of adhesion, e_el/γ = 2", keeps]);
+    let below = scene(
+        "elastic-energy-below",
+        &["would take twice the work of adhesion, e_el/γ = 2", keeps],
+    );
     let keeps = "keeps 0.17 % of the ideal adhesion force instead of 58 %";
-    let above = scene("elastic-energy-above", &["at e_el/γ = 2.5 instead of 2", keeps]);
+    let above = scene(
+        "elastic-energy-above",
+        &["at e_el/γ = 2.5 instead of 2", keeps],
+    );
     let changed = with(&below, &[("adhesion.elastic_energy_ratio", "2.5")]);
     assert_eq!(changed.scene().roughness, above.scene().roughness);
     assert_eq!(changed.scene().adhesion, above.scene().adhesion);
     for (document, ratio, share) in [(below, 2.0, 58.0), (above, 2.5, 0.17)] {
         let outcome = run(&document);
-        let energies =
-            outcome.governing.elastic_energy().unwrap() / outcome.governing.work_of_adhesion.unwrap();
+        let energies = outcome.governing.elastic_energy().unwrap()
+            / outcome.governing.work_of_adhesion.unwrap();
         assert!((energies / ratio - 1.0).abs() < 1e-12, "{energies}");
-        assert_eq!(two_digits(100.0 * force(&outcome) / outcome.ideal_adhesion_force.unwrap()), share);
+        assert_eq!(
+            two_digits(100.0 * force(&outcome) / outcome.ideal_adhesion_force.unwrap()),
+            share
+        );
     }
 }
 
 #[test]
 fn a_million_springs_have_a_shortest_wave_of_four() {
-    let document = scene("million-springs", &["2²⁰ springs and a shortest wave of four springs"]);
-    let Some(Roughness::SelfAffine { modes: Some(modes), .. }) = document.scene().roughness else {
+    let document = scene(
+        "million-springs",
+        &["2²⁰ springs and a shortest wave of four springs"],
+    );
+    let Some(Roughness::SelfAffine {
+        modes: Some(modes), ..
+    }) = document.scene().roughness
+    else {
         panic!("no waves")
     };
-    assert_eq!((document.scene().numerics.points, modes.1), (1 << 20, 1 << 18));
+    assert_eq!(
+        (document.scene().numerics.points, modes.1),
+        (1 << 20, 1 << 18)
+    );
 }
 
 #[test]
@@ -180,7 +282,17 @@ fn adhesion_forces_are_within_one_per_cent() {
         let estimate = estimate(document.scene(), Path::new(""), &outcome, &|| false);
         let estimate = estimate.unwrap_or_else(|| panic!("{}: no estimate", preset.name));
         let pulls = outcome.figures.adhesion_force.is_some();
-        assert_eq!(estimate.target == Target::AdhesionForce, pulls, "{}", preset.name);
-        assert!(estimate.error <= 0.01, "{}: {}", preset.name, estimate.error);
+        assert_eq!(
+            estimate.target == Target::AdhesionForce,
+            pulls,
+            "{}",
+            preset.name
+        );
+        assert!(
+            estimate.error <= 0.01,
+            "{}: {}",
+            preset.name,
+            estimate.error
+        );
     }
 }

@@ -22,7 +22,10 @@ impl Finished {
 /// The program without input, and without scenes of the user who runs the tests.
 pub fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    command.stdin(Stdio::null()).env("XDG_CONFIG_HOME", concat!(env!("CARGO_TARGET_TMPDIR"), "/nothing"));
+    command.stdin(Stdio::null()).env(
+        "XDG_CONFIG_HOME",
+        concat!(env!("CARGO_TARGET_TMPDIR"), "/nothing"),
+    );
     command
 }
 
@@ -30,7 +33,11 @@ pub fn program() -> Command {
 pub fn finished(command: &mut Command) -> Finished {
     let output = command.output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
-    Finished { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+    Finished {
+        code: output.status.code(),
+        stdout: text(output.stdout),
+        stderr: text(output.stderr),
+    }
 }
 
 /// Runs the program with these arguments.
@@ -45,9 +52,20 @@ pub fn asperity_in(folder: &Path, arguments: &[&str]) -> Finished {
 
 /// Standard error of a command that fails with this code and prints no results.
 pub fn failed(code: i32, arguments: &[&str]) -> String {
-    let Finished { code: found, stdout, stderr } = asperity(arguments);
-    assert_eq!((found, stdout.as_str()), (Some(code), ""), "{arguments:?}: {stderr}");
-    assert!(!stderr.is_empty() && !stderr.contains("panicked"), "{stderr}");
+    let Finished {
+        code: found,
+        stdout,
+        stderr,
+    } = asperity(arguments);
+    assert_eq!(
+        (found, stdout.as_str()),
+        (Some(code), ""),
+        "{arguments:?}: {stderr}"
+    );
+    assert!(
+        !stderr.is_empty() && !stderr.contains("panicked"),
+        "{stderr}"
+    );
     stderr
 }
 
@@ -63,7 +81,9 @@ pub fn json(arguments: &[&str]) -> Value {
 
 /// A number in JSON.
 pub fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
 /// Lines of a table without its provenance.
@@ -73,5 +93,9 @@ pub fn rows(table: &str) -> impl Iterator<Item = &str> {
 
 /// Numbers of each row of a table; not a number in place of words.
 pub fn table(csv: &str) -> impl Iterator<Item = Vec<f64>> {
-    rows(csv).skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect())
+    rows(csv).skip(1).map(|row| {
+        row.split(',')
+            .map(|cell| cell.parse().unwrap_or(f64::NAN))
+            .collect()
+    })
 }

@@ -11,23 +11,39 @@ use std::process::{Command, Output};
 /// Runs code in a folder, with the program first in the search path; `None` without Python.
 fn python(folder: &Path, code: &str) -> Option<Output> {
     let interpreter = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
-    let program = Path::new(env!("CARGO_BIN_EXE_asperity")).parent().unwrap().to_owned();
+    let program = Path::new(env!("CARGO_BIN_EXE_asperity"))
+        .parent()
+        .unwrap()
+        .to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths([program].into_iter().chain(std::env::split_paths(&path))).unwrap();
-    Command::new(interpreter).args(["-c", code]).current_dir(folder).env("PATH", path).output().ok()
+    let path =
+        std::env::join_paths([program].into_iter().chain(std::env::split_paths(&path))).unwrap();
+    Command::new(interpreter)
+        .args(["-c", code])
+        .current_dir(folder)
+        .env("PATH", path)
+        .output()
+        .ok()
 }
 
 /// Output of code that must succeed.
 fn passes(folder: &Path, code: &str) -> String {
     let output = python(folder, code).unwrap();
-    assert!(output.status.success(), "{code}\n{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{code}\n{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     String::from_utf8(output.stdout).unwrap()
 }
 
 /// True if there is Python, and with it the packages to import.
 fn can_import(folder: &Path, packages: &str) -> bool {
     let can = python(folder, packages).is_some_and(|output| output.status.success());
-    assert!(can || std::env::var_os("NUMPY").is_none(), "Python cannot run: {packages}");
+    assert!(
+        can || std::env::var_os("NUMPY").is_none(),
+        "Python cannot run: {packages}"
+    );
     if !can {
         eprintln!("SKIPPED: Python cannot run: {packages}");
     }
@@ -64,17 +80,32 @@ fn lines_of_python_read_tables() {
     let write = |scene: &[&str], name: &str| {
         for ending in ["csv", "npy"] {
             let file = format!("{name}.{ending}");
-            asperity_in(folder, &[&["run"], scene, &["--set", "numerics.points=1024", "-o", &file]].concat())
-                .succeeded();
+            asperity_in(
+                folder,
+                &[
+                    &["run"],
+                    scene,
+                    &["--set", "numerics.points=1024", "-o", &file],
+                ]
+                .concat(),
+            )
+            .succeeded();
         }
         std::fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap()
     };
-    let forces: Vec<f64> = table(&write(&["jkr-sphere"], "loop")).map(|point| point[2]).collect();
+    let forces: Vec<f64> = table(&write(&["jkr-sphere"], "loop"))
+        .map(|point| point[2])
+        .collect();
     let expected = format!("expected = {forces:?}\n");
     let page = read("docs/results.md");
-    let blocks: Vec<&str> =
-        page.split("```python\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    let [frame] = blocks[..] else { panic!("not one block of Python") };
+    let blocks: Vec<&str> = page
+        .split("```python\n")
+        .skip(1)
+        .map(|rest| rest.split("```").next().unwrap())
+        .collect();
+    let [frame] = blocks[..] else {
+        panic!("not one block of Python")
+    };
     if !can_import(folder, "import numpy, pandas") {
         return;
     }

@@ -31,10 +31,18 @@ fn least_digits(case: &str) -> f64 {
 fn library(folder: &Path) -> Option<PathBuf> {
     let made = folder.join("direction.so");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/rounding/direction.c");
-    let compiled =
-        Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&made).arg(source).arg("-lm").output();
+    let compiled = Command::new("cc")
+        .args(["-shared", "-fPIC", "-o"])
+        .arg(&made)
+        .arg(source)
+        .arg("-lm")
+        .output();
     let output = compiled.ok().filter(|_| cfg!(target_os = "linux"))?;
-    assert!(output.status.success(), "cc: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "cc: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     Some(made)
 }
 
@@ -47,10 +55,21 @@ fn errors(library: &Path, direction: &str) -> Vec<(String, Option<f64>)> {
         .output()
         .unwrap();
     // Bounds are those of rounding to nearest: beyond them the exit code is 1, but the table is still printed.
-    let report: Value = serde_json::from_slice(&run.stdout)
-        .unwrap_or_else(|error| panic!("{direction}: {error}\n{}", String::from_utf8_lossy(&run.stderr)));
+    let report: Value = serde_json::from_slice(&run.stdout).unwrap_or_else(|error| {
+        panic!(
+            "{direction}: {error}\n{}",
+            String::from_utf8_lossy(&run.stderr)
+        )
+    });
     let checks = report["checks"].as_array().unwrap().iter();
-    checks.map(|check| (check["case"].as_str().unwrap().to_owned(), check["error"].as_f64())).collect()
+    checks
+        .map(|check| {
+            (
+                check["case"].as_str().unwrap().to_owned(),
+                check["error"].as_f64(),
+            )
+        })
+        .collect()
 }
 
 #[test]
@@ -71,13 +90,20 @@ fn errors_keep_their_digits_however_operations_are_rounded() {
         let nearest = nearest.unwrap_or_else(|| panic!("{case} has no error"));
         let change = runs.iter().zip(DIRECTIONS).map(|(run, direction)| {
             assert_eq!(run[index].0, *case);
-            let error =
-                run[index].1.unwrap_or_else(|| panic!("{case} has no error when rounded {direction}"));
+            let error = run[index]
+                .1
+                .unwrap_or_else(|| panic!("{case} has no error when rounded {direction}"));
             (error - nearest).abs()
         });
         let digits = -change.fold(1e-16, f64::max).log10();
         moved += usize::from(digits < 16.0);
-        assert!(digits >= least_digits(case), "{case} keeps {digits:.1} digits");
+        assert!(
+            digits >= least_digits(case),
+            "{case} keeps {digits:.1} digits"
+        );
     }
-    assert!(moved >= MOVED, "{moved} checks change: rounding was not perturbed");
+    assert!(
+        moved >= MOVED,
+        "{moved} checks change: rounding was not perturbed"
+    );
 }

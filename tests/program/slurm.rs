@@ -9,7 +9,10 @@ use std::path::Path;
 use std::process::Command;
 
 const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
-const CLUSTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/program/slurm_cluster/cluster.sh");
+const CLUSTER: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/program/slurm_cluster/cluster.sh"
+);
 
 const PLAN: &str = r#"(
     version: 1,
@@ -25,7 +28,9 @@ fn folder(scripts: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("plan.ron"), PLAN).unwrap();
     fs::create_dir(folder.path().join("bin")).unwrap();
-    scripts.iter().for_each(|(name, script)| write_script(&folder.path().join("bin").join(name), script));
+    scripts
+        .iter()
+        .for_each(|(name, script)| write_script(&folder.path().join("bin").join(name), script));
     folder
 }
 
@@ -36,8 +41,15 @@ fn write_script(path: &Path, script: &str) {
 
 fn submit(folder: &Path, options: &[&str]) -> Finished {
     let mut command = program();
-    command.current_dir(folder).env("PATH", folder.join("bin")).env("SBATCH_ACCOUNT", "site");
-    finished(command.args(["sweep", "submit", "plan.ron", "-o", "study", "--jobs", "12"]).args(options))
+    command
+        .current_dir(folder)
+        .env("PATH", folder.join("bin"))
+        .env("SBATCH_ACCOUNT", "site");
+    finished(
+        command
+            .args(["sweep", "submit", "plan.ron", "-o", "study", "--jobs", "12"])
+            .args(options),
+    )
 }
 
 /// Both tables of a study on a cluster are those of the same study on this machine, byte for byte.
@@ -51,7 +63,9 @@ fn a_cluster_gives_the_bytes_of_one_machine() {
         let folder = folder(&[]);
         // Free now; if another process takes a port first, the test fails and can be run again.
         let listeners = [(); 3].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
-        let ports = listeners.each_ref().map(|listener| listener.local_addr().unwrap().port().to_string());
+        let ports = listeners
+            .each_ref()
+            .map(|listener| listener.local_addr().unwrap().port().to_string());
         drop(listeners);
         // A folder name with special characters of the shell and of Slurm.
         let study = r#"study="it's %j & \$HOME"
@@ -60,20 +74,42 @@ fn a_cluster_gives_the_bytes_of_one_machine() {
             "$ASPERITY" sweep plan.ron -o serial --jobs 1 &&
             cmp serial/results.csv "$study/results.csv" && cmp serial/summary.csv "$study/summary.csv""#;
         let mut command = Command::new("bash");
-        command.arg(CLUSTER).arg(folder.path()).args(ports).arg(study).env("ASPERITY", ASPERITY);
-        let Finished { code, stdout, stderr } = finished(&mut command);
+        command
+            .arg(CLUSTER)
+            .arg(folder.path())
+            .args(ports)
+            .arg(study)
+            .env("ASPERITY", ASPERITY);
+        let Finished {
+            code,
+            stdout,
+            stderr,
+        } = finished(&mut command);
         assert_eq!(code, Some(0), "{stdout}{stderr}");
     });
 }
 
 #[test]
 fn what_slurm_refuses_is_passed_on() {
-    let refusing = ("sbatch", "echo 'sbatch: error: invalid partition' >&2; exit 1");
+    let refusing = (
+        "sbatch",
+        "echo 'sbatch: error: invalid partition' >&2; exit 1",
+    );
     for (scripts, said) in [
-        (&[][..], "sbatch was not found; run this command on a login node"),
-        (&[refusing], "sbatch failed (exit status: 1): sbatch: error: invalid partition"),
+        (
+            &[][..],
+            "sbatch was not found; run this command on a login node",
+        ),
+        (
+            &[refusing],
+            "sbatch failed (exit status: 1): sbatch: error: invalid partition",
+        ),
     ] {
-        let Finished { code, stdout, stderr } = submit(folder(scripts).path(), &[]);
+        let Finished {
+            code,
+            stdout,
+            stderr,
+        } = submit(folder(scripts).path(), &[]);
         assert_eq!((code, stdout.as_str()), (Some(1), ""));
         assert!(stderr.contains(said), "{stderr}");
     }
@@ -85,7 +121,10 @@ fn all_options_and_variables_reach_sbatch() {
     let sbatch = "printf '%s\\n' \"$@\" >asked; /usr/bin/env >variables; /bin/cat >script; echo Submitted batch job 17";
     let folder = folder(&[("sbatch", sbatch)]);
     let answer = submit(folder.path(), &["--", "-p", "short", "--array=1-12%3"]).succeeded();
-    assert!(answer.starts_with("Submitted batch job 17\nasperity sweep status study"), "{answer}");
+    assert!(
+        answer.starts_with("Submitted batch job 17\nasperity sweep status study"),
+        "{answer}"
+    );
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     assert_eq!(read("asked"), "-p\nshort\n--array=1-12%3\n");
     assert!(read("variables").contains("SBATCH_ACCOUNT=site\n"));
@@ -97,7 +136,11 @@ fn all_options_and_variables_reach_sbatch() {
 fn a_task_starts_killed_programs_again() {
     let folder = folder(&[("sbatch", "touch submitted; echo 1")]);
     let script = submit(folder.path(), &["--check"]).succeeded();
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the plan and the stand-ins");
+    assert_eq!(
+        fs::read_dir(folder.path()).unwrap().count(),
+        2,
+        "the plan and the stand-ins"
+    );
     let script = script.replace(ASPERITY, "./program");
     for (program, code, runs) in [
         ("exit 0", 0, 1),
@@ -107,12 +150,30 @@ fn a_task_starts_killed_programs_again() {
         ("[ $(wc -l <runs) -ge 2 ] || kill -KILL $$", 0, 2),
     ] {
         let _ = fs::remove_file(folder.path().join("runs"));
-        write_script(&folder.path().join("program"), &format!("echo \"$*\" >>runs\n{program}"));
+        write_script(
+            &folder.path().join("program"),
+            &format!("echo \"$*\" >>runs\n{program}"),
+        );
         let mut task = Command::new("/bin/sh");
-        task.current_dir(folder.path()).args(["-c", &script]).env("SLURM_ARRAY_TASK_ID", "3");
-        let ended = finished(task.env("SLURM_CPUS_ON_NODE", "7").env_remove("SLURM_CPUS_PER_TASK"));
+        task.current_dir(folder.path())
+            .args(["-c", &script])
+            .env("SLURM_ARRAY_TASK_ID", "3");
+        let ended = finished(
+            task.env("SLURM_CPUS_ON_NODE", "7")
+                .env_remove("SLURM_CPUS_PER_TASK"),
+        );
         let asked = fs::read_to_string(folder.path().join("runs")).unwrap();
-        assert_eq!((ended.code, asked.lines().count()), (Some(code), runs), "{program}: {}", ended.stderr);
-        assert!(asked.lines().all(|line| line.ends_with("--shard 3/12 --jobs 7")), "{asked}");
+        assert_eq!(
+            (ended.code, asked.lines().count()),
+            (Some(code), runs),
+            "{program}: {}",
+            ended.stderr
+        );
+        assert!(
+            asked
+                .lines()
+                .all(|line| line.ends_with("--shard 3/12 --jobs 7")),
+            "{asked}"
+        );
     }
 }

@@ -6,13 +6,26 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates of the workspace. Cargo keeps their order, in which no circle is possible.
-const CRATES: [&str; 10] =
-    ["data", "fourier", "contact", "surface", "half-space", "plot", "scene", "experiment", "study", "report"];
+const CRATES: [&str; 10] = [
+    "data",
+    "fourier",
+    "contact",
+    "surface",
+    "half-space",
+    "plot",
+    "scene",
+    "experiment",
+    "study",
+    "report",
+];
 
 /// Rooms of crates from the ground up: each imports only earlier rooms.
 const ROOMS: [(&str, &str); 3] = [
     ("surface", "error topography spectrum line"),
-    ("scene", "scene analysis reference simulation error front profile_builder accuracy"),
+    (
+        "scene",
+        "scene analysis reference simulation error front profile_builder accuracy",
+    ),
     ("program", "explorer cli"),
 ];
 
@@ -40,20 +53,40 @@ fn texts_below(folder: &str) -> Vec<(PathBuf, String)> {
 fn modules() -> BTreeMap<Module, String> {
     let is_source = |path: &Path| path.extension().is_some_and(|extension| extension == "rs");
     let of = |name: &str, folder: &str, (path, text): (PathBuf, String)| {
-        let inside = path.strip_prefix(root().join(folder)).unwrap().with_extension("");
+        let inside = path
+            .strip_prefix(root().join(folder))
+            .unwrap()
+            .with_extension("");
         let parts = inside.iter().map(|part| part.to_str().unwrap().to_owned());
         let parts = parts.filter(|part| part != "mod" && part != "lib");
-        let is_body = |start: &usize| text[*start..].lines().nth(2).is_some_and(|line| line.ends_with('{'));
-        let mut tests = text.match_indices("\n#[cfg(test)]\nmod ").map(|(start, _)| start);
+        let is_body = |start: &usize| {
+            text[*start..]
+                .lines()
+                .nth(2)
+                .is_some_and(|line| line.ends_with('{'))
+        };
+        let mut tests = text
+            .match_indices("\n#[cfg(test)]\nmod ")
+            .map(|(start, _)| start);
         let code = &text[..tests.find(is_body).unwrap_or(text.len())];
-        let lines: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
-        ([name.to_owned()].into_iter().chain(parts).collect(), lines.join("\n"))
+        let lines: Vec<&str> = code
+            .lines()
+            .map(|line| line.split("//").next().unwrap_or_default())
+            .collect();
+        (
+            [name.to_owned()].into_iter().chain(parts).collect(),
+            lines.join("\n"),
+        )
     };
     let crates = CRATES.map(|name| (name, format!("crates/{name}/src")));
     let all = crates.into_iter().chain([("program", "src".to_owned())]);
     let files = all.flat_map(|(name, folder)| {
-        let sources = texts_below(&folder).into_iter().filter(|(path, _)| is_source(path));
-        sources.map(|file| of(name, &folder, file)).collect::<Vec<_>>()
+        let sources = texts_below(&folder)
+            .into_iter()
+            .filter(|(path, _)| is_source(path));
+        sources
+            .map(|file| of(name, &folder, file))
+            .collect::<Vec<_>>()
     });
     files.collect()
 }
@@ -102,7 +135,10 @@ struct Source {
 
 impl Source {
     fn new() -> Self {
-        let source = Source { modules: modules(), reexports: BTreeMap::new() };
+        let source = Source {
+            modules: modules(),
+            reexports: BTreeMap::new(),
+        };
         let mut reexports = BTreeMap::new();
         for (module, code) in &source.modules {
             for (index, start) in code.match_indices("use ") {
@@ -110,16 +146,25 @@ impl Source {
                 if before.trim_start().starts_with("pub") {
                     let mut found = Vec::new();
                     multiply_out(&mut Vec::new(), &code[index + start.len()..], &mut found);
-                    let paths = found.iter().filter_map(|path| source.absolute(module, path));
+                    let paths = found
+                        .iter()
+                        .filter_map(|path| source.absolute(module, path));
                     // A line that is indented is inside a module of the root.
-                    let inside = before.starts_with(' ').then(|| module_before(&code[..index])).flatten();
+                    let inside = before
+                        .starts_with(' ')
+                        .then(|| module_before(&code[..index]))
+                        .flatten();
                     let place: Module = module.iter().cloned().chain(inside).collect();
-                    reexports
-                        .extend(paths.map(|path| ([&place[..], &path[path.len() - 1..]].concat(), path)));
+                    reexports.extend(
+                        paths.map(|path| ([&place[..], &path[path.len() - 1..]].concat(), path)),
+                    );
                 }
             }
         }
-        Source { reexports, ..source }
+        Source {
+            reexports,
+            ..source
+        }
     }
 
     /// A path in a file as one from the crate; `None` for paths out of other packages.
@@ -141,7 +186,9 @@ impl Source {
     /// The file of the item at the end of a path: re-exports lead to the file that has it.
     fn file_of(&self, mut path: Module) -> Option<Module> {
         for _ in 0..8 {
-            let longest = (1..=path.len()).rev().find(|&end| self.reexports.contains_key(&path[..end]));
+            let longest = (1..=path.len())
+                .rev()
+                .find(|&end| self.reexports.contains_key(&path[..end]));
             let Some(end) = longest else { break };
             let next = [&self.reexports[&path[..end]][..], &path[end..]].concat();
             if next == path {
@@ -149,7 +196,10 @@ impl Source {
             }
             path = next;
         }
-        (1..=path.len()).rev().map(|end| path[..end].to_vec()).find(|part| self.modules.contains_key(part))
+        (1..=path.len())
+            .rev()
+            .map(|end| path[..end].to_vec())
+            .find(|part| self.modules.contains_key(part))
     }
 
     /// Files whose items a file uses; a `pub use` alone is the business of its users.
@@ -157,15 +207,22 @@ impl Source {
         let code = &self.modules[module];
         let mut found = Vec::new();
         for (index, _) in code.match_indices("::") {
-            let start = code[..index].rfind(|c| !is_part_of_name(c)).map_or(0, |at| at + 1);
+            let start = code[..index]
+                .rfind(|c| !is_part_of_name(c))
+                .map_or(0, |at| at + 1);
             let statement = code[..start].rsplit(['\n', ';']).next().unwrap();
             let is_first = !code[..start].ends_with("::") && start < index;
-            if is_first && !(statement.trim_start().starts_with("pub") && statement.contains("use ")) {
+            if is_first
+                && !(statement.trim_start().starts_with("pub") && statement.contains("use "))
+            {
                 multiply_out(&mut Vec::new(), &code[start..], &mut found);
             }
         }
         let absolute = found.iter().filter_map(|path| self.absolute(module, path));
-        absolute.filter_map(|path| self.file_of(path)).filter(|there| there != module).collect()
+        absolute
+            .filter_map(|path| self.file_of(path))
+            .filter(|there| there != module)
+            .collect()
     }
 }
 
@@ -179,11 +236,17 @@ fn rooms_import_in_one_direction() {
             let found = rooms.split(' ').position(|one| one == room);
             found.unwrap_or_else(|| panic!("{room} is not in the list of rooms of {name}"))
         };
-        let is_inside = |module: &Module| module[0] == name && module.len() > 1 && module[1] != "main";
+        let is_inside =
+            |module: &Module| module[0] == name && module.len() > 1 && module[1] != "main";
         for here in source.modules.keys().filter(|here| is_inside(here)) {
             for there in source.imports(here).iter().filter(|there| is_inside(there)) {
                 seen += 1;
-                assert!(place(there) <= place(here), "{} imports {}", here.join("::"), there.join("::"));
+                assert!(
+                    place(there) <= place(here),
+                    "{} imports {}",
+                    here.join("::"),
+                    there.join("::")
+                );
             }
         }
     }
@@ -203,7 +266,11 @@ fn files_are_in_no_circle() {
     let reached = |from: &Module| {
         let (mut seen, mut next) = (BTreeSet::new(), vec![from.clone()]);
         while let Some(file) = next.pop() {
-            let new = imports.get(&file).into_iter().flatten().filter(|there| seen.insert((*there).clone()));
+            let new = imports
+                .get(&file)
+                .into_iter()
+                .flatten()
+                .filter(|there| seen.insert((*there).clone()));
             next.extend(new.cloned().collect::<Vec<_>>());
         }
         seen
@@ -217,8 +284,11 @@ fn files_are_in_no_circle() {
             .map(|there| there.join("::"))
             .collect()
     };
-    let found: BTreeSet<Vec<String>> =
-        reached.keys().map(|file| circle(file)).filter(|circle| !circle.is_empty()).collect();
+    let found: BTreeSet<Vec<String>> = reached
+        .keys()
+        .map(|file| circle(file))
+        .filter(|circle| !circle.is_empty())
+        .collect();
     assert!(found.is_empty(), "circles of files: {found:?}");
 }
 
@@ -226,7 +296,13 @@ fn files_are_in_no_circle() {
 fn names_behind<'c>(code: &'c str, keyword: &str) -> BTreeSet<&'c str> {
     let words = code.lines().filter_map(|line| line.split_once(keyword));
     let words = words.filter(|(before, _)| before.is_empty() || before.starts_with("pub"));
-    words.map(|(_, rest)| rest.split(|c| !is_part_of_name(c)).next().unwrap_or_default()).collect()
+    words
+        .map(|(_, rest)| {
+            rest.split(|c| !is_part_of_name(c))
+                .next()
+                .unwrap_or_default()
+        })
+        .collect()
 }
 
 /// A re-export ties its users to all that it names.
@@ -234,25 +310,42 @@ fn names_behind<'c>(code: &'c str, keyword: &str) -> BTreeSet<&'c str> {
 fn crates_have_no_reexports_below_their_roots() {
     for (module, code) in modules().iter().filter(|(module, _)| module.len() > 1) {
         // A function of tests that other tests use is none of the crate.
-        let is_reexport =
-            |line: &&str| line.starts_with("pub") && line.contains(" use ") && !line.contains("use tests::");
-        assert_eq!(code.lines().find(is_reexport), None, "{}", module.join("::"));
+        let is_reexport = |line: &&str| {
+            line.starts_with("pub") && line.contains(" use ") && !line.contains("use tests::")
+        };
+        assert_eq!(
+            code.lines().find(is_reexport),
+            None,
+            "{}",
+            module.join("::")
+        );
     }
 }
 
 /// Names that a crate publishes, with their public module, if they are in one: re-exports, modules and own items.
 fn published(code: &str) -> BTreeSet<(Option<String>, String)> {
-    let own = ["mod ", "fn ", "struct ", "enum ", "trait ", "type ", "const ", "static "];
+    let own = [
+        "mod ", "fn ", "struct ", "enum ", "trait ", "type ", "const ", "static ",
+    ];
     let own = own.iter().flat_map(|keyword| {
-        let lines = code.lines().filter_map(move |line| line.strip_prefix("pub ")?.strip_prefix(keyword));
-        lines.map(|rest| rest.split(|c| !is_part_of_name(c)).next().unwrap_or_default().to_owned())
+        let lines = code
+            .lines()
+            .filter_map(move |line| line.strip_prefix("pub ")?.strip_prefix(keyword));
+        lines.map(|rest| {
+            rest.split(|c| !is_part_of_name(c))
+                .next()
+                .unwrap_or_default()
+                .to_owned()
+        })
     });
     let uses = code.match_indices("pub use ").flat_map(|(start, keyword)| {
         let mut found = Vec::new();
         multiply_out(&mut Vec::new(), &code[start + keyword.len()..], &mut found);
         let is_inside = code[..start].ends_with(' ');
         let module = is_inside.then(|| module_before(&code[..start])).flatten();
-        found.into_iter().filter_map(move |path| Some((module.clone(), path.last()?.clone())))
+        found
+            .into_iter()
+            .filter_map(move |path| Some((module.clone(), path.last()?.clone())))
     });
     own.map(|name| (None, name)).chain(uses).collect()
 }
@@ -282,7 +375,10 @@ fn roots_of_front_crates_are_small() {
     let modules = modules();
     for name in ["contact", "surface", "scene", "study", "experiment"] {
         let published = published(&modules[&vec![name.to_owned()]]);
-        let inner: BTreeSet<&String> = published.iter().filter_map(|(module, _)| module.as_ref()).collect();
+        let inner: BTreeSet<&String> = published
+            .iter()
+            .filter_map(|(module, _)| module.as_ref())
+            .collect();
         let root: Vec<&String> = published
             .iter()
             .filter(|(module, name)| module.is_none() && !inner.contains(name))
@@ -293,7 +389,11 @@ fn roots_of_front_crates_are_small() {
             "{name} publishes {} names at its root: {root:?}",
             root.len()
         );
-        assert!(inner.len() <= 8, "{name} has {} public modules: {inner:?}", inner.len());
+        assert!(
+            inner.len() <= 8,
+            "{name} has {} public modules: {inner:?}",
+            inner.len()
+        );
     }
 }
 
@@ -301,20 +401,37 @@ fn roots_of_front_crates_are_small() {
 #[test]
 fn the_explorer_has_methods_beside_their_types() {
     let modules = modules();
-    let files = modules.iter().filter(|(module, _)| module.get(1).is_some_and(|room| room == "explorer"));
+    let files = modules
+        .iter()
+        .filter(|(module, _)| module.get(1).is_some_and(|room| room == "explorer"));
     let mut seen = 0;
     for (module, code) in files {
-        let types: BTreeSet<&str> =
-            ["struct ", "enum "].iter().flat_map(|keyword| names_behind(code, keyword)).collect();
-        let impls =
-            code.lines().filter_map(|line| line.strip_prefix("impl")).filter(|line| !line.contains(" for "));
+        let types: BTreeSet<&str> = ["struct ", "enum "]
+            .iter()
+            .flat_map(|keyword| names_behind(code, keyword))
+            .collect();
+        let impls = code
+            .lines()
+            .filter_map(|line| line.strip_prefix("impl"))
+            .filter(|line| !line.contains(" for "));
         for line in impls {
             seen += 1;
             // Behind the generic parameters of the block.
-            let name =
-                if line.starts_with('<') { line.split_once("> ").map_or("", |(_, name)| name) } else { line };
-            let name = name.trim_start().split(|c| !is_part_of_name(c)).next().unwrap_or_default();
-            assert!(types.contains(name), "{}: methods of {name}", module.join("::"));
+            let name = if line.starts_with('<') {
+                line.split_once("> ").map_or("", |(_, name)| name)
+            } else {
+                line
+            };
+            let name = name
+                .trim_start()
+                .split(|c| !is_part_of_name(c))
+                .next()
+                .unwrap_or_default();
+            assert!(
+                types.contains(name),
+                "{}: methods of {name}",
+                module.join("::")
+            );
         }
     }
     assert!(seen > 30, "{seen} blocks of methods");
@@ -324,7 +441,11 @@ fn the_explorer_has_methods_beside_their_types() {
 fn files_that_name(name: &str) -> Vec<String> {
     let is_whole = |code: &str, at: usize| !code[at + name.len()..].starts_with(is_part_of_name);
     let names = |code: &str| code.match_indices(name).any(|(at, _)| is_whole(code, at));
-    modules().iter().filter(|(_, code)| names(code)).map(|(module, _)| module.join("::")).collect()
+    modules()
+        .iter()
+        .filter(|(_, code)| names(code))
+        .map(|(module, _)| module.join("::"))
+        .collect()
 }
 
 /// docs/design.md states how many files an extension touches.
@@ -335,20 +456,33 @@ fn few_files_name_a_pane_a_form_or_an_effect() {
         let files = files_that_name(&format!("Pane::{pane}"));
         assert!(!files.is_empty() && files.len() <= 4, "{pane}: {files:?}");
     }
-    for form in ["Form::Paraboloid", "Form::Cone", "Form::Power", "Form::Punch"] {
+    for form in [
+        "Form::Paraboloid",
+        "Form::Cone",
+        "Form::Power",
+        "Form::Punch",
+    ] {
         // The profile of a sphere, the form of a flat body and the specimens of a test are only constructed.
         let mut files = files_that_name(form);
-        let constructing =
-            ["scene::profile_builder", "scene::scene::effects", "experiment::ensemble::other_bodies"];
+        let constructing = [
+            "scene::profile_builder",
+            "scene::scene::effects",
+            "experiment::ensemble::other_bodies",
+        ];
         files.retain(|file| !constructing.contains(&file.as_str()));
         assert_eq!(files, ["surface::line::form"], "{form}");
     }
     let files = files_that_name("closing_work");
-    assert!(files.len() <= 10, "a second work of adhesion is named in {files:?}");
+    assert!(
+        files.len() <= 10,
+        "a second work of adhesion is named in {files:?}"
+    );
 }
 
 /// Words that docs/design.md replaces.
-const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
+const REPLACED: [&str; 8] = [
+    "tell", "tells", "told", "owe", "owes", "owed", "stands", "stood",
+];
 
 #[test]
 fn replaced_words_are_not_used() {
@@ -364,8 +498,18 @@ fn replaced_words_are_not_used() {
         "fuzz/fuzz_targets",
         ".ci",
     ];
-    let pages = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "fuzz/README.md"];
-    let pages = pages.map(|page| (root().join(page), fs::read_to_string(root().join(page)).unwrap()));
+    let pages = [
+        "README.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
+        "fuzz/README.md",
+    ];
+    let pages = pages.map(|page| {
+        (
+            root().join(page),
+            fs::read_to_string(root().join(page)).unwrap(),
+        )
+    });
     let mut words = 0;
     for (path, text) in folders.into_iter().flat_map(texts_below).chain(pages) {
         if path.ends_with("program/source.rs") {

@@ -25,7 +25,12 @@ struct Ratio {
 
 impl Ratio {
     fn text(&self) -> String {
-        format!("{:+.1} ± {:.1} ({:.1})", 100.0 * self.bias, 100.0 * self.spread, 100.0 * self.stated)
+        format!(
+            "{:+.1} ± {:.1} ({:.1})",
+            100.0 * self.bias,
+            100.0 * self.spread,
+            100.0 * self.stated
+        )
     }
 
     /// The stated error is neither much too small nor much too large.
@@ -38,8 +43,9 @@ impl Ratio {
 fn ratios(spectrum: &Spectrum, found: &[Analysis]) -> [Ratio; 3] {
     let (exact, count) = (spectrum.line(), found.len() as f64);
     [0, 1, 2].map(|index| {
-        let mean =
-            |of: &dyn Fn(Moment) -> f64| found.iter().map(|one| of(moments(one)[index])).sum::<f64>() / count;
+        let mean = |of: &dyn Fn(Moment) -> f64| {
+            found.iter().map(|one| of(moments(one)[index])).sum::<f64>() / count
+        };
         let ratio = |moment: Moment| moment.value / exact[index];
         let level = mean(&ratio);
         let square = mean(&|moment| (ratio(moment) - level).powi(2)) * count / (count - 1.0);
@@ -58,11 +64,28 @@ fn estimated(surfaces: &[Topography]) -> Analysis {
 /// Kinds of surfaces with the analyses of several samples.
 fn samples(spectrum: &Spectrum) -> [(&'static str, Vec<Analysis>); 3] {
     let profiles = Profiles::new(spectrum, POINTS);
-    let many = |seed: u64| (0..100).map(|i| profiles.profile(1000 + 100 * seed + i)).collect::<Vec<_>>();
+    let many = |seed: u64| {
+        (0..100)
+            .map(|i| profiles.profile(1000 + 100 * seed + i))
+            .collect::<Vec<_>>()
+    };
     [
-        ("map", (0..6).map(|seed| estimated(&[map(spectrum, POINTS, seed)])).collect()),
-        ("100 profiles", (0..6).map(|seed| estimated(&many(seed))).collect()),
-        ("1 profile", (0..60).map(|seed| estimated(&[profiles.profile(seed)])).collect()),
+        (
+            "map",
+            (0..6)
+                .map(|seed| estimated(&[map(spectrum, POINTS, seed)]))
+                .collect(),
+        ),
+        (
+            "100 profiles",
+            (0..6).map(|seed| estimated(&many(seed))).collect(),
+        ),
+        (
+            "1 profile",
+            (0..60)
+                .map(|seed| estimated(&[profiles.profile(seed)]))
+                .collect(),
+        ),
     ]
 }
 
@@ -77,20 +100,36 @@ fn bounds(kind: &str, has_roll_off: bool) -> [(f64, f64); 3] {
 }
 
 fn assert_fit(fit: SelfAffineFit, spectrum: &Spectrum, has_roll_off: bool) {
-    assert!((fit.hurst.value - spectrum.hurst).abs() < 0.02, "H = {}: {fit:?}", spectrum.hurst);
+    assert!(
+        (fit.hurst.value - spectrum.hurst).abs() < 0.02,
+        "H = {}: {fit:?}",
+        spectrum.hurst
+    );
     assert!(fit.hurst.error > 0.001 && fit.hurst.error < 0.02, "{fit:?}");
     let is_right = |found: f64| (found / (TAU * spectrum.roll_off) - 1.0).abs() < 0.08;
-    assert!(fit.roll_off.map_or(!has_roll_off, |found| has_roll_off && is_right(found.value)), "{fit:?}");
+    assert!(
+        fit.roll_off
+            .map_or(!has_roll_off, |found| has_roll_off && is_right(found.value)),
+        "{fit:?}"
+    );
 }
 
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_equivalent_line_of_generated_surfaces_is_theirs() {
     let mut rows = Vec::new();
-    for (roll_off, hurst) in
-        [16.0, 1.0].into_iter().flat_map(|roll_off| [0.3, 0.5, 0.8].map(|hurst| (roll_off, hurst)))
+    for (roll_off, hurst) in [16.0, 1.0]
+        .into_iter()
+        .flat_map(|roll_off| [0.3, 0.5, 0.8].map(|hurst| (roll_off, hurst)))
     {
-        let (spectrum, has_roll_off) = (Spectrum { hurst, roll_off, last: LAST }, roll_off > 1.0);
+        let (spectrum, has_roll_off) = (
+            Spectrum {
+                hurst,
+                roll_off,
+                last: LAST,
+            },
+            roll_off > 1.0,
+        );
         for (kind, found) in samples(&spectrum) {
             let ratios = ratios(&spectrum, &found);
             let is_good = |(ratio, (bias, spread)): (&Ratio, (f64, f64))| {
@@ -101,16 +140,31 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
             for analysis in found.iter().filter(|_| kind != "1 profile") {
                 assert_fit(analysis.power_law.unwrap(), &spectrum, has_roll_off);
             }
-            let roll_off = if has_roll_off { "16 per length" } else { "none" };
+            let roll_off = if has_roll_off {
+                "16 per length"
+            } else {
+                "none"
+            };
             let [h, gradient, energy] = ratios.map(|ratio| ratio.text());
             // The page has the ends of the range of H, and the largest and the smallest measurement.
             if hurst != 0.5 && kind != "100 profiles" {
-                rows.push([roll_off.to_owned(), hurst.to_string(), kind.to_owned(), h, gradient, energy]);
+                rows.push([
+                    roll_off.to_owned(),
+                    hurst.to_string(),
+                    kind.to_owned(),
+                    h,
+                    gradient,
+                    energy,
+                ]);
             }
         }
     }
     let header = ["roll-off", "H", "measured", "h, %", "⟨∇z⟩, %", "e_el, %"];
-    check("docs/surface-estimate.md", "biases", &markdown(header, rows.into_iter()));
+    check(
+        "docs/surface-estimate.md",
+        "biases",
+        &markdown(header, rows.into_iter()),
+    );
 }
 
 /// Resampling smooths, and the stated error holds what is lost: for points displaced at random and in pairs.
@@ -119,19 +173,37 @@ fn the_error_of_a_resampled_profile_holds_its_smoothing() {
     let mut random = Normal::new(5);
     let waves: Vec<[f64; 3]> = (1..200)
         .map(f64::from)
-        .map(|k| [TAU * k / 512.0, (k / 16.0).max(1.0).powf(-1.0), TAU * random.uniform()])
+        .map(|k| {
+            [
+                TAU * k / 512.0,
+                (k / 16.0).max(1.0).powf(-1.0),
+                TAU * random.uniform(),
+            ]
+        })
         .collect();
-    let height =
-        |x: f64| waves.iter().map(|[q, amplitude, phase]| amplitude * (q * x + phase).cos()).sum::<f64>();
+    let height = |x: f64| {
+        waves
+            .iter()
+            .map(|[q, amplitude, phase]| amplitude * (q * x + phase).cos())
+            .sum::<f64>()
+    };
     let line = |displaced: &dyn Fn(usize) -> f64| {
         let positions = (0..512).map(|i| i as f64 + displaced(i));
-        let text: String = positions.map(|x| format!("{x:.9} {:.9}\n", 0.01 * height(x))).collect();
-        let options = ReadOptions { unit: Some(Unit::METRE), resample: true, ..ReadOptions::default() };
+        let text: String = positions
+            .map(|x| format!("{x:.9} {:.9}\n", 0.01 * height(x)))
+            .collect();
+        let options = ReadOptions {
+            unit: Some(Unit::METRE),
+            resample: true,
+            ..ReadOptions::default()
+        };
         estimated(&[parse(text.as_bytes(), &options).unwrap()]).line
     };
     let even = line(&|_| 0.0);
     let at_random: Vec<f64> = (0..512).map(|_| 0.9 * (random.uniform() - 0.5)).collect();
-    for displaced in [&(|i: usize| at_random[i]) as &dyn Fn(usize) -> f64, &|i| 0.4 * (i % 2) as f64] {
+    for displaced in [&(|i: usize| at_random[i]) as &dyn Fn(usize) -> f64, &|i| {
+        0.4 * (i % 2) as f64
+    }] {
         let uneven = line(displaced);
         for (one, other) in [
             (even.rms_height, uneven.rms_height),
@@ -152,34 +224,49 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
     // Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the independent waves.
     const HANN: f64 = 35.0 / 18.0;
     for hurst in [0.3, 0.5, 0.8] {
-        let spectrum = Spectrum { hurst, roll_off: 16.0, last: LAST };
+        let spectrum = Spectrum {
+            hurst,
+            roll_off: 16.0,
+            last: LAST,
+        };
         let profiles = Profiles::new(&spectrum, POINTS);
         let spreads = [1, 4, 16].map(|count| {
             let set = |set: u64| {
                 let seeds = (0..count).map(|i| 10_000 * (count + 1) + set * count + i);
                 estimated(&seeds.map(|seed| profiles.profile(seed)).collect::<Vec<_>>())
             };
-            ratios(&spectrum, &(0..48).map(set).collect::<Vec<Analysis>>()).map(|ratio| ratio.spread)
+            ratios(&spectrum, &(0..48).map(set).collect::<Vec<Analysis>>())
+                .map(|ratio| ratio.spread)
         });
         // The relative error of a root is half as large.
-        for (index, (name, power, share)) in
-            [("h", 0, 0.5), ("⟨∇z⟩", 2, 0.5), ("e_el", 1, 1.0)].into_iter().enumerate()
+        for (index, (name, power, share)) in [("h", 0, 0.5), ("⟨∇z⟩", 2, 0.5), ("e_el", 1, 1.0)]
+            .into_iter()
+            .enumerate()
         {
             // The power of each wave of ∫ k^power C_cut dk has a standard deviation as large as its mean.
-            let each = (1..=LAST as u32).map(f64::from).map(|k| k.powi(power) * cut(&spectrum, k));
-            let (sum, squares) =
-                each.fold((0.0, 0.0), |(sum, squares), wave| (sum + wave, squares + wave * wave));
+            let each = (1..=LAST as u32)
+                .map(f64::from)
+                .map(|k| k.powi(power) * cut(&spectrum, k));
+            let (sum, squares) = each.fold((0.0, 0.0), |(sum, squares), wave| {
+                (sum + wave, squares + wave * wave)
+            });
             let waves = sum * sum / squares / HANN;
             let least = share / waves.sqrt();
             let spreads = spreads.map(|spread| spread[index]);
             for (spread, count) in spreads.iter().zip([1.0_f64, 4.0, 16.0]) {
                 // 48 samples determine a standard deviation within 10 %.
                 let ratio = spread * count.sqrt() / least;
-                assert!((0.7..1.5).contains(&ratio), "H = {hurst}, {name}, {count} profiles: {ratio}");
+                assert!(
+                    (0.7..1.5).contains(&ratio),
+                    "H = {hurst}, {name}, {count} profiles: {ratio}"
+                );
             }
             // The page states that ten profiles determine height and energy within about 5 %.
             let of_ten = spreads[0] / 10.0_f64.sqrt();
-            assert!(name == "⟨∇z⟩" || of_ten < 0.055, "H = {hurst}, {name}: {of_ten}");
+            assert!(
+                name == "⟨∇z⟩" || of_ten < 0.055,
+                "H = {hurst}, {name}: {of_ten}"
+            );
         }
     }
 }
@@ -189,66 +276,118 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn a_spectrum_that_continues_keeps_the_gradient_of_point_samples() {
     let rows = [0.3, 0.5, 0.8].map(|hurst| {
-        let spectrum = Spectrum { hurst, roll_off: 16.0, last: 4.0 * LAST };
+        let spectrum = Spectrum {
+            hurst,
+            roll_off: 16.0,
+            last: 4.0 * LAST,
+        };
         let profiles = Profiles::new(&spectrum, POINTS);
         let gradient = |end: End| {
-            let options = AnalysisOptions { end, ..AnalysisOptions::default() };
+            let options = AnalysisOptions {
+                end,
+                ..AnalysisOptions::default()
+            };
             let found = (0..60).map(|seed| analyse(&[profiles.profile(seed)], &options).unwrap());
             ratios(&spectrum, &found.collect::<Vec<_>>())[1]
         };
         let [ends, continues] = [End::Ends, End::Continues(TAU * spectrum.last)].map(gradient);
-        assert!(ends.bias < -0.1 && continues.bias.abs() < 0.4 * ends.bias.abs(), "{ends:?} {continues:?}");
+        assert!(
+            ends.bias < -0.1 && continues.bias.abs() < 0.4 * ends.bias.abs(),
+            "{ends:?} {continues:?}"
+        );
         [hurst.to_string(), ends.text(), continues.text()]
     });
     check(
         "docs/surface-estimate.md",
         "ends",
-        &markdown(["H", "without, %", "with `--continue-to`, %"], rows.into_iter()),
+        &markdown(
+            ["H", "without, %", "with `--continue-to`, %"],
+            rows.into_iter(),
+        ),
     );
 }
 
 /// Moments of the equivalent line: h, ⟨∇z⟩, e_el.
 fn moments(analysis: &Analysis) -> [Moment; 3] {
-    [analysis.line.rms_height, analysis.line.rms_gradient, analysis.line.energy_per_modulus]
+    [
+        analysis.line.rms_height,
+        analysis.line.rms_gradient,
+        analysis.line.energy_per_modulus,
+    ]
 }
 
 /// Asserts that the moments are within three of their standard errors, and these below a bound.
 fn assert_right(name: &str, spectrum: &Spectrum, analysis: &Analysis, largest_error: f64) {
     for (found, exact) in moments(analysis).into_iter().zip(spectrum.line()) {
-        assert!((found.value - exact).abs() < 3.0 * found.error, "{name}: {found:?} {exact}");
-        assert!(found.error < largest_error * found.value, "{name}: {found:?}");
+        assert!(
+            (found.value - exact).abs() < 3.0 * found.error,
+            "{name}: {found:?} {exact}"
+        );
+        assert!(
+            found.error < largest_error * found.value,
+            "{name}: {found:?}"
+        );
     }
 }
 
 #[test]
 fn a_spectrum_that_ends_inside_the_scan_ends_the_line() {
     for last in [32.0, 100.0, 200.0] {
-        let spectrum = Spectrum { hurst: 0.7, roll_off: 8.0, last };
+        let spectrum = Spectrum {
+            hurst: 0.7,
+            roll_off: 8.0,
+            last,
+        };
         let profiles = Profiles::new(&spectrum, POINTS);
         let profiles: Vec<Topography> = (0..32).map(|seed| profiles.profile(seed)).collect();
-        for (kind, surfaces) in [("map", vec![map(&spectrum, POINTS, 3)]), ("profiles", profiles)] {
+        for (kind, surfaces) in [
+            ("map", vec![map(&spectrum, POINTS, 3)]),
+            ("profiles", profiles),
+        ] {
             let name = format!("{kind}, {last} waves");
             let analysis = estimated(&surfaces);
             assert_right(&name, &spectrum, &analysis, 0.09);
             // The window widens each wave by two.
             let end = analysis.isotropic.range()[1] / TAU;
-            assert!(analysis.ends_inside && (end - last).abs() < 3.0, "{name}: {end}");
-            assert!(moments(&analysis).iter().all(|moment| moment.missing_short_waves == 0.0), "{name}");
+            assert!(
+                analysis.ends_inside && (end - last).abs() < 3.0,
+                "{name}: {end}"
+            );
+            assert!(
+                moments(&analysis)
+                    .iter()
+                    .all(|moment| moment.missing_short_waves == 0.0),
+                "{name}"
+            );
             // Two octaves above the roll-off do not always show an exponent.
             let hurst = analysis.power_law.map(|fit| fit.hurst);
             let right = hurst.is_none_or(|hurst| (hurst.value - 0.7).abs() < 3.0 * hurst.error);
-            assert!(right && (hurst.is_some() || last < 100.0), "{name}: {hurst:?}");
+            assert!(
+                right && (hurst.is_some() || last < 100.0),
+                "{name}: {hurst:?}"
+            );
         }
     }
     // Powers that fall faster than those of any self-affine surface have no Hurst exponent.
-    let steep = Profiles::new(&Spectrum { hurst: 1.6, roll_off: 8.0, last: LAST }, POINTS);
+    let steep = Profiles::new(
+        &Spectrum {
+            hurst: 1.6,
+            roll_off: 8.0,
+            last: LAST,
+        },
+        POINTS,
+    );
     let steep: Vec<Topography> = (0..32).map(|seed| steep.profile(seed)).collect();
     assert_eq!(estimated(&steep).power_law, None);
 }
 
 #[test]
 fn the_errors_of_interpolated_points_are_stated() {
-    let spectrum = Spectrum { hurst: 0.6, roll_off: 16.0, last: 128.0 };
+    let spectrum = Spectrum {
+        hurst: 0.6,
+        roll_off: 16.0,
+        last: 128.0,
+    };
     let points = 256;
     let whole = map(&spectrum, points, 1);
     let mut normal = Normal::new(8);
@@ -270,18 +409,34 @@ fn the_errors_of_interpolated_points_are_stated() {
 
 #[test]
 fn aliased_waves_of_maps_are_part_of_the_model() {
-    let spectrum = Spectrum { hurst: 0.5, roll_off: 16.0, last: LAST };
+    let spectrum = Spectrum {
+        hurst: 0.5,
+        roll_off: 16.0,
+        last: LAST,
+    };
     let whole = map(&spectrum, POINTS, 2);
     let few = POINTS / 4;
     let place = |index: usize| 4 * (index / few * POINTS + index % few);
-    let heights: Vec<f64> = (0..few * few).map(|index| whole.heights[place(index)]).collect();
+    let heights: Vec<f64> = (0..few * few)
+        .map(|index| whole.heights[place(index)])
+        .collect();
     let sampled = [topography(&heights, few)];
     let end = End::Continues(TAU * LAST);
-    let continued = analyse(&sampled, &AnalysisOptions { end, ..AnalysisOptions::default() }).unwrap();
+    let continued = analyse(
+        &sampled,
+        &AnalysisOptions {
+            end,
+            ..AnalysisOptions::default()
+        },
+    )
+    .unwrap();
     assert_right("continued", &spectrum, &continued, 0.08);
     // Without short waves the longer ones have the power of all, as the last column states.
     let ends = estimated(&sampled);
-    let resolved = Spectrum { last: few as f64 / 2.0, ..spectrum };
+    let resolved = Spectrum {
+        last: few as f64 / 2.0,
+        ..spectrum
+    };
     for (found, exact) in moments(&ends).into_iter().zip(resolved.line()) {
         let most = 3.0 * found.error + found.missing_short_waves;
         assert!((found.value - exact).abs() < most, "{found:?} {exact}");
@@ -295,13 +450,23 @@ fn aliased_waves_of_maps_are_part_of_the_model() {
 
 #[test]
 fn offset_rows_of_maps_are_left_out_or_stated() {
-    let spectrum = Spectrum { hurst: 0.7, roll_off: 16.0, last: LAST };
+    let spectrum = Spectrum {
+        hurst: 0.7,
+        roll_off: 16.0,
+        last: LAST,
+    };
     let whole = map(&spectrum, POINTS, 4);
     let offset = |share: f64| {
         let mut normal = Normal::new(9);
         let step = 12.0_f64.sqrt() * share * spectrum.line()[0];
-        let offsets: Vec<f64> = (0..POINTS).map(|_| step * (normal.uniform() - 0.5)).collect();
-        let heights = whole.heights.iter().enumerate().map(|(index, z)| z + offsets[index / POINTS]);
+        let offsets: Vec<f64> = (0..POINTS)
+            .map(|_| step * (normal.uniform() - 0.5))
+            .collect();
+        let heights = whole
+            .heights
+            .iter()
+            .enumerate()
+            .map(|(index, z)| z + offsets[index / POINTS]);
         estimated(&[topography(&heights.collect::<Vec<_>>(), POINTS)])
     };
     let none = offset(0.0);
@@ -318,12 +483,25 @@ fn offset_rows_of_maps_are_left_out_or_stated() {
 fn a_departure_from_the_measured_height_is_part_of_the_error() {
     // The window weighs a spike in the middle by 8/3.
     let mut normal = Normal::new(3);
-    let heights: Vec<f64> =
-        (0..POINTS).map(|i| if i == 250 { 1.0 } else { 1e-3 * (normal.uniform() - 0.5) }).collect();
+    let heights: Vec<f64> = (0..POINTS)
+        .map(|i| {
+            if i == 250 {
+                1.0
+            } else {
+                1e-3 * (normal.uniform() - 0.5)
+            }
+        })
+        .collect();
     let analysis = estimated(&[topography(&heights, 0)]);
     let (found, measured) = (analysis.line.rms_height, analysis.statistics.rms_height);
-    assert!(found.value > 1.5 * measured && found.statistical < 0.1 * found.value, "{found:?} {measured}");
-    assert!((found.value - measured).abs() < 1.96 * found.error, "{found:?} {measured}");
+    assert!(
+        found.value > 1.5 * measured && found.statistical < 0.1 * found.value,
+        "{found:?} {measured}"
+    );
+    assert!(
+        (found.value - measured).abs() < 1.96 * found.error,
+        "{found:?} {measured}"
+    );
 }
 
 /// Maps with the faults of instruments: single points with errors of up to ten times the rms height, rows that are offset by
@@ -343,42 +521,71 @@ fn faulty_maps_have_the_moments_of_their_surface() {
     .into_iter()
     .enumerate()
     {
-        let options =
-            ReadOptions { robust: spikes > 0.0, align_rows: offsets > 0.0, ..ReadOptions::default() };
+        let options = ReadOptions {
+            robust: spikes > 0.0,
+            align_rows: offsets > 0.0,
+            ..ReadOptions::default()
+        };
         // Moments of a mended and, of some, of a faulty map, over those of the surface, and the errors of the former.
         let measure = |seed: u64| {
-            let spectrum = Spectrum { hurst: [0.3, 0.5, 0.8][seed as usize % 3], roll_off: 16.0, last };
+            let spectrum = Spectrum {
+                hurst: [0.3, 0.5, 0.8][seed as usize % 3],
+                roll_off: 16.0,
+                last,
+            };
             let seed = MAPS * number as u64 + seed;
             let (exact, mut normal) = (spectrum.line(), Normal::new(seed + 1000));
             let offset: Vec<f64> = (0..MAP).map(|_| offsets * normal.normal()).collect();
             let whole = map(&spectrum, MAP, seed);
             let faulty = whole.heights.iter().enumerate().map(|(index, z)| {
-                let spike = if normal.uniform() < spikes { 20.0 * (normal.uniform() - 0.5) } else { 0.0 };
+                let spike = if normal.uniform() < spikes {
+                    20.0 * (normal.uniform() - 0.5)
+                } else {
+                    0.0
+                };
                 z + (spike + offset[index / MAP]) * exact[0]
             });
             let heights: Vec<f64> = faulty.collect();
             let mended = moments(&estimated(&[read(&heights, MAP, 1.0, &options)]));
-            let plain = (seed.is_multiple_of(5)).then(|| moments(&estimated(&[topography(&heights, MAP)])));
+            let plain =
+                (seed.is_multiple_of(5)).then(|| moments(&estimated(&[topography(&heights, MAP)])));
             [0, 1, 2].map(|index| {
                 let ratio = |moments: [Moment; 3]| moments[index].value / exact[index] - 1.0;
-                (ratio(mended), mended[index].error / exact[index], plain.map_or(0.0, ratio).abs())
+                (
+                    ratio(mended),
+                    mended[index].error / exact[index],
+                    plain.map_or(0.0, ratio).abs(),
+                )
             })
         };
         let measure = &measure;
         let maps: Vec<_> = std::thread::scope(|threads| {
-            let started: Vec<_> = (0..MAPS).map(|seed| threads.spawn(move || measure(seed))).collect();
-            started.into_iter().map(|thread| thread.join().unwrap()).collect()
+            let started: Vec<_> = (0..MAPS)
+                .map(|seed| threads.spawn(move || measure(seed)))
+                .collect();
+            started
+                .into_iter()
+                .map(|thread| thread.join().unwrap())
+                .collect()
         });
         for index in 0..3 {
-            let rms = (maps.iter().map(|map| map[index].0.powi(2)).sum::<f64>() / MAPS as f64).sqrt();
+            let rms =
+                (maps.iter().map(|map| map[index].0.powi(2)).sum::<f64>() / MAPS as f64).sqrt();
             assert!(rms < [0.05, 0.05, 0.08][index], "{name}: {maps:?}");
             mended[index] = mended[index].max(rms);
-            faulty[index] = maps.iter().map(|map| map[index].2).fold(faulty[index], f64::max);
-            covered[index] += maps.iter().filter(|map| map[index].0.abs() < 1.96 * map[index].1).count();
+            faulty[index] = maps
+                .iter()
+                .map(|map| map[index].2)
+                .fold(faulty[index], f64::max);
+            covered[index] += maps
+                .iter()
+                .filter(|map| map[index].0.abs() < 1.96 * map[index].1)
+                .count();
         }
     }
     assert!(covered.iter().all(|count| *count >= 54), "{covered:?}");
-    let [with, without] = [mended, faulty].map(|errors| errors.map(|error| (100.0 * error).round()));
+    let [with, without] =
+        [mended, faulty].map(|errors| errors.map(|error| (100.0 * error).round()));
     let says = |[h, gradient, energy]: [f64; 3]| format!("{h}, {gradient} and {energy} %");
     assert_says(
         "docs/surface-estimate.md",
@@ -393,10 +600,16 @@ fn faulty_maps_have_the_moments_of_their_surface() {
 #[test]
 fn scans_of_several_sizes_have_one_spectrum() {
     // The coarse scans alias the waves that only the fine ones resolve, and these lack the long waves.
-    let spectrum = Spectrum { hurst: 0.7, roll_off: 8.0, last: 2048.0 };
+    let spectrum = Spectrum {
+        hurst: 0.7,
+        roll_off: 8.0,
+        last: 2048.0,
+    };
     let scans = |length: f64| {
         let profiles = Profiles::on(length, &spectrum, POINTS);
-        (0..24).map(|seed| profiles.profile(seed + (1e6 * length) as u64)).collect::<Vec<_>>()
+        (0..24)
+            .map(|seed| profiles.profile(seed + (1e6 * length) as u64))
+            .collect::<Vec<_>>()
     };
     let [coarse, fine] = [1.0, 1.0 / 8.0].map(scans);
     let both = estimated(&[&coarse[..], &fine].concat());
@@ -405,5 +618,8 @@ fn scans_of_several_sizes_have_one_spectrum() {
     // A scan alone misses the short waves or the long ones.
     let [coarse, fine] = [coarse, fine].map(|scans| moments(&estimated(&scans)));
     let [of_both, exact] = [moments(&both)[0].error, spectrum.line()[1]];
-    assert!(coarse[1].value < 0.9 * exact && fine[0].error > 3.0 * of_both, "{coarse:?} {fine:?}");
+    assert!(
+        coarse[1].value < 0.9 * exact && fine[0].error > 3.0 * of_both,
+        "{coarse:?} {fine:?}"
+    );
 }

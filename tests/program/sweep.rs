@@ -74,11 +74,17 @@ fn computed(plan: &Plan) -> (TempDir, Folder) {
 }
 
 fn tables(folder: &Folder) -> [String; 2] {
-    [Merged::RESULTS, Merged::SUMMARY].map(|name| fs::read_to_string(folder.path().join(name)).unwrap())
+    [Merged::RESULTS, Merged::SUMMARY]
+        .map(|name| fs::read_to_string(folder.path().join(name)).unwrap())
 }
 
 fn shard_files(folder: &Folder) -> Vec<PathBuf> {
-    folder.files().unwrap().into_iter().map(|file| file.path).collect()
+    folder
+        .files()
+        .unwrap()
+        .into_iter()
+        .map(|file| file.path)
+        .collect()
 }
 
 /// The tables of an undisturbed run on one thread.
@@ -95,7 +101,9 @@ fn alone(scene: &Scene, loading: [Move; 2]) -> Outcome {
     scene.loading = loading.to_vec();
     scene.numerics.samples = 2;
     let scene = scene.checked().unwrap();
-    Simulation::new(PathBuf::new()).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap()
+    Simulation::new(PathBuf::new())
+        .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+        .unwrap()
 }
 
 #[test]
@@ -110,28 +118,46 @@ fn cells_are_what_single_runs_give() {
                 let mut scene = plan.scene.clone();
                 scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, values[0]));
                 scene.material = Material::effective(values[2]);
-                let Some(Roughness::SelfAffine { hurst, rms_height, seed, .. }) = &mut scene.roughness else {
+                let Some(Roughness::SelfAffine {
+                    hurst,
+                    rms_height,
+                    seed,
+                    ..
+                }) = &mut scene.roughness
+                else {
                     panic!("rough")
                 };
                 (*hurst, *seed) = (values[1], plan.seed_of(line));
                 let unit = values[2] * rms_height.unwrap() * scene.length;
-                let pressed = alone(&scene, [Move::ToForce(values[3] * unit), Move::ToSeparation]);
+                let pressed = alone(
+                    &scene,
+                    [Move::ToForce(values[3] * unit), Move::ToSeparation],
+                );
                 let touched = alone(&scene, [Move::ToTouch, Move::ToSeparation]);
                 let balanced = alone(&scene, [Move::ToZeroForce, Move::ToSeparation]);
                 let figures = pressed.figures;
                 let number = |regime: Option<Regime>| Some(f64::from(regime? as u8));
                 for (quantity, expected) in [
-                    (Quantity::FirstTouchAdhesionForce, touched.figures.adhesion_force),
-                    (Quantity::ZeroForceAdhesionForce, balanced.figures.adhesion_force),
+                    (
+                        Quantity::FirstTouchAdhesionForce,
+                        touched.figures.adhesion_force,
+                    ),
+                    (
+                        Quantity::ZeroForceAdhesionForce,
+                        balanced.figures.adhesion_force,
+                    ),
                     (Quantity::PreloadForce, figures.preload),
                     (Quantity::AdhesionForce, figures.adhesion_force),
                     (Quantity::AdhesionCoefficient, figures.adhesion_coefficient),
                     (Quantity::DissipatedEnergy, figures.dissipated_energy),
                     (Quantity::Regime, number(pressed.regime)),
-                    (Quantity::RegimeAfterZeroForce, number(pressed.regime_after_zero_force)),
+                    (
+                        Quantity::RegimeAfterZeroForce,
+                        number(pressed.regime_after_zero_force),
+                    ),
                 ] {
-                    let found =
-                        Some(recorded[plan.column(quantity).unwrap()]).filter(|value| !value.is_nan());
+                    let found = Some(recorded[plan.column(quantity).unwrap()])
+                        .filter(|value| !value.is_nan());
                     let bits = |value: Option<f64>| value.map(f64::to_bits);
                     assert_eq!(bits(found), bits(expected), "{quantity:?} in cell {cell}");
                 }
@@ -156,10 +182,20 @@ fn no_bit_depends_on_who_computes() {
     }
     assert_eq!(shard_files(&folder).len(), 3);
     // A shard with all its records present makes no file.
-    compute(&folder, 2, Shard { number: 1, count: 3 });
+    compute(
+        &folder,
+        2,
+        Shard {
+            number: 1,
+            count: 3,
+        },
+    );
     assert_eq!(shard_files(&folder).len(), 3);
     let merged = merge(&folder).unwrap();
-    assert_eq!((merged.records, merged.duplicates, merged.files), (96, 0, 3));
+    assert_eq!(
+        (merged.records, merged.duplicates, merged.files),
+        (96, 0, 3)
+    );
     assert_eq!(tables(&folder), expected, "three shards");
 }
 
@@ -183,19 +219,46 @@ fn cells_that_cannot_be_computed_have_a_reason() {
     assert_eq!(Status::of(&folder).unwrap().failed, 6);
     let [rows, summary] = tables(&folder);
     let rows: Vec<&str> = rows.lines().collect();
-    assert!(rows[0].ends_with("seed,adhesion_force,regime,reason"), "{}", rows[0]);
-    assert!(rows[1..3].iter().all(|row| row.ends_with("pressure-insensitive,")), "{rows:?}");
-    for (row, said) in [(3, "last mode at most points/2"), (5, "detaches before"), (7, "last mode at most")] {
-        assert!(rows[row].contains(",1,,,\"") || rows[row].contains(",1,,,"), "{}", rows[row]);
+    assert!(
+        rows[0].ends_with("seed,adhesion_force,regime,reason"),
+        "{}",
+        rows[0]
+    );
+    assert!(
+        rows[1..3]
+            .iter()
+            .all(|row| row.ends_with("pressure-insensitive,")),
+        "{rows:?}"
+    );
+    for (row, said) in [
+        (3, "last mode at most points/2"),
+        (5, "detaches before"),
+        (7, "last mode at most"),
+    ] {
+        assert!(
+            rows[row].contains(",1,,,\"") || rows[row].contains(",1,,,"),
+            "{}",
+            rows[row]
+        );
         assert!(rows[row].contains(said), "{}", rows[row]);
     }
     assert_eq!(summary.lines().count(), 5);
     let results = Results::open(folder.path()).unwrap();
-    let known = |cell| results.statistics(cell, Quantity::AdhesionForce).map(|all| all.count);
+    let known = |cell| {
+        results
+            .statistics(cell, Quantity::AdhesionForce)
+            .map(|all| all.count)
+    };
     assert_eq!([0, 1, 2, 3].map(known), [Some(2), None, None, None]);
     assert_eq!(results.failed().count(), 6);
     let map = StudyMap::open(folder.path()).unwrap().grid(0);
-    assert_eq!(map.cells.iter().filter(|cell| matches!(cell, Some(Err(_)))).count(), 3);
+    assert_eq!(
+        map.cells
+            .iter()
+            .filter(|cell| matches!(cell, Some(Err(_))))
+            .count(),
+        3
+    );
 }
 
 #[test]
@@ -209,14 +272,24 @@ fn results_that_differ_are_stated() {
     let (header, record) = (lines.next().unwrap(), lines.next().unwrap());
     let payload = record.split_once(',').unwrap().1;
     let (start, last) = payload.rsplit_once(',').unwrap();
-    let other = format!("{start},{:?}", last.parse::<f64>().unwrap() * (1.0 + f64::EPSILON));
-    let other = format!("{header}\n{:08x},{other}\n", crc32fast::hash(other.as_bytes()));
+    let other = format!(
+        "{start},{:?}",
+        last.parse::<f64>().unwrap() * (1.0 + f64::EPSILON)
+    );
+    let other = format!(
+        "{header}\n{:08x},{other}\n",
+        crc32fast::hash(other.as_bytes())
+    );
     fs::write(file.with_file_name("zz.shard"), other).unwrap();
     let error = merge(&folder).unwrap_err().to_string();
     let file = file.display();
-    assert!(error.starts_with("cell 0, seed 18446744073709551614 (adhesion.kappa = 0.5, "), "{error}");
     assert!(
-        error.contains(&format!("two records differ, in {file} and ")) && error.contains("zz.shard;"),
+        error.starts_with("cell 0, seed 18446744073709551614 (adhesion.kappa = 0.5, "),
+        "{error}"
+    );
+    assert!(
+        error.contains(&format!("two records differ, in {file} and "))
+            && error.contains("zz.shard;"),
         "{error}"
     );
     assert!(!folder.path().join(Merged::RESULTS).exists());
@@ -226,13 +299,24 @@ fn results_that_differ_are_stated() {
 fn what_is_missing_is_counted() {
     let plan = plan(SMALL);
     let (_place, folder) = study(&plan);
-    compute(&folder, 1, Shard { number: 1, count: 2 });
+    compute(
+        &folder,
+        1,
+        Shard {
+            number: 1,
+            count: 2,
+        },
+    );
     let merged = merge(&folder).unwrap();
     assert_eq!((merged.records, merged.missing_cells), (48, 32));
     let [results, summary] = tables(&folder);
     assert_eq!(results.lines().count(), 49);
     let whole = undisturbed(&plan);
-    assert!(results.lines().all(|row| whole[0].lines().any(|one| one == row)));
+    assert!(
+        results
+            .lines()
+            .all(|row| whole[0].lines().any(|one| one == row))
+    );
     assert!(summary.lines().count() <= 33);
     compute(&folder, 1, Shard::WHOLE);
     merge(&folder).unwrap();
@@ -246,14 +330,22 @@ fn summaries_are_the_statistics_of_the_rows() {
     let results = Results::open(folder.path()).unwrap();
     assert_eq!(results.plan(), &plan);
     let [_, summary] = tables(&folder);
-    let mut rows = summary.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    let mut rows = summary
+        .lines()
+        .map(|row| row.split(',').collect::<Vec<_>>());
     let header = rows.next().unwrap();
     for (cell, row) in (0..plan.cells()).zip(rows) {
         let column = |name: &str| row[header.iter().position(|one| *one == name).unwrap()];
         let number = |name: &str| column(name).parse::<f64>().unwrap();
-        assert_eq!((column("cell"), column("lines")), (cell.to_string().as_str(), "3"));
+        assert_eq!(
+            (column("cell"), column("lines")),
+            (cell.to_string().as_str(), "3")
+        );
         for (place, quantity) in plan.record.iter().enumerate() {
-            let values: Vec<f64> = results.records_of(cell).map(|(_, values)| values[place]).collect();
+            let values: Vec<f64> = results
+                .records_of(cell)
+                .map(|(_, values)| values[place])
+                .collect();
             let name = quantity.name();
             if quantity.is_regime() {
                 let column = |regime: Regime| format!("{name}_{}", regime.name().replace('-', "_"));
@@ -263,15 +355,33 @@ fn summaries_are_the_statistics_of_the_rows() {
                 continue;
             }
             let expected = Statistics::of(values, quantity.bounds()).unwrap();
-            let endings = ["mean", "sd", "low", "high", "min", "q1", "median", "q3", "max"];
+            let endings = [
+                "mean", "sd", "low", "high", "min", "q1", "median", "q3", "max",
+            ];
             let found = endings.map(|of| number(&format!("{name}_{of}")));
-            let Spread { standard_deviation, confidence_interval: (low, high), .. } =
-                expected.spread.unwrap();
+            let Spread {
+                standard_deviation,
+                confidence_interval: (low, high),
+                ..
+            } = expected.spread.unwrap();
             let ([lower, median, upper], (least, most)) = (expected.quartiles, expected.range);
-            let all = [expected.mean, standard_deviation, low, high, least, lower, median, upper, most];
+            let all = [
+                expected.mean,
+                standard_deviation,
+                low,
+                high,
+                least,
+                lower,
+                median,
+                upper,
+                most,
+            ];
             assert_eq!(found, all, "{name}");
             assert_eq!(results.statistics(cell, *quantity), Some(expected));
-            assert!(low >= quantity.bounds().0 && high <= quantity.bounds().1, "{name}: {low} to {high}");
+            assert!(
+                low >= quantity.bounds().0 && high <= quantity.bounds().1,
+                "{name}: {low} to {high}"
+            );
         }
     }
     // The preload varies fastest, then the last axis.
@@ -283,7 +393,9 @@ fn another_plan_is_refused() {
     let plan = plan(SMALL);
     let (_place, folder) = study(&plan);
     let other = self::plan(&SMALL.replace("to: 5.0", "to: 6.0"));
-    let error = Folder::create(folder.path(), &other).unwrap_err().to_string();
+    let error = Folder::create(folder.path(), &other)
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("holds a study of another plan"), "{error}");
     assert!(
         error.contains("there: Linear(path: \"adhesion.kappa\", from: 0.5, to: 5.0, count: 4)"),
@@ -291,10 +403,29 @@ fn another_plan_is_refused() {
     );
     // A shard file of another plan does not belong to this one.
     let (_other_place, other) = study(&other);
-    compute(&other, 1, Shard { number: 1, count: 8 });
+    compute(
+        &other,
+        1,
+        Shard {
+            number: 1,
+            count: 8,
+        },
+    );
     let stray = &shard_files(&other)[0];
-    fs::copy(stray, folder.path().join("shards").join(stray.file_name().unwrap())).unwrap();
-    assert!(merge(&folder).unwrap_err().to_string().contains("belongs to another plan"));
+    fs::copy(
+        stray,
+        folder
+            .path()
+            .join("shards")
+            .join(stray.file_name().unwrap()),
+    )
+    .unwrap();
+    assert!(
+        merge(&folder)
+            .unwrap_err()
+            .to_string()
+            .contains("belongs to another plan")
+    );
 }
 
 proptest! {
@@ -331,10 +462,22 @@ fn a_scene_may_be_varied_alone() {
     let plan = plan(text);
     let (_place, folder) = computed(&plan);
     let results = Results::open(folder.path()).unwrap();
-    let forces: Vec<_> =
-        (0..3).map(|cell| results.statistics(cell, Quantity::AdhesionForce).unwrap().mean).collect();
-    assert!(forces.windows(2).all(|pair| pair[0] < pair[1]), "{forces:?}");
+    let forces: Vec<_> = (0..3)
+        .map(|cell| {
+            results
+                .statistics(cell, Quantity::AdhesionForce)
+                .unwrap()
+                .mean
+        })
+        .collect();
+    assert!(
+        forces.windows(2).all(|pair| pair[0] < pair[1]),
+        "{forces:?}"
+    );
     let [results, _] = tables(&folder);
-    assert!(results.starts_with("cell,adhesion.work,loading.0.0,preload,seed,adhesion_force,"), "{results}");
+    assert!(
+        results.starts_with("cell,adhesion.work,loading.0.0,preload,seed,adhesion_force,"),
+        "{results}"
+    );
     assert!(results.contains("\n0,0.01,1e-5,,0,"), "{results}");
 }

@@ -17,7 +17,9 @@ const PLAN: &str = r#"(
 
 /// Σ k^(j−1−2H) over the modes 1 to 32.
 fn moment(hurst: f64, j: i32) -> f64 {
-    (1..=32).map(|k| f64::from(k).powf(f64::from(j) - 1.0 - 2.0 * hurst)).sum()
+    (1..=32)
+        .map(|k| f64::from(k).powf(f64::from(j) - 1.0 - 2.0 * hurst))
+        .sum()
 }
 
 #[test]
@@ -28,10 +30,14 @@ fn a_boundary_in_kappa_is_one_in_elastic_energy() {
     let study = place.path().join("study").to_str().unwrap().to_owned();
     // H and the boundary at each place and protocol.
     let boundaries = |over: &str| -> Vec<[f64; 2]> {
-        let of = ["sweep", "boundary", &study, "--format", "json", "--where", "0.1", "--x", over];
+        let of = [
+            "sweep", "boundary", &study, "--format", "json", "--where", "0.1", "--x", over,
+        ];
         let number = |one: &serde_json::Value, name: &str| one[name].as_f64().unwrap();
         let all = json(&of)["boundaries"].as_array().unwrap().clone();
-        all.iter().map(|one| [number(one, "H"), number(one, over)]).collect()
+        all.iter()
+            .map(|one| [number(one, "H"), number(one, over)])
+            .collect()
     };
     let [kappas, ratios] = ["kappa", "elastic_energy_ratio"].map(boundaries);
     assert_eq!(kappas.len(), 4);
@@ -42,5 +48,8 @@ fn a_boundary_in_kappa_is_one_in_elastic_energy() {
         assert!((ratio / expected - 1.0).abs() < 1e-12, "{ratio} {expected}");
     }
     let wrong = failed(2, &["sweep", "boundary", &study, "--x", "work"]);
-    assert!(wrong.contains("possible values: kappa, elastic_energy_ratio"), "{wrong}");
+    assert!(
+        wrong.contains("possible values: kappa, elastic_energy_ratio"),
+        "{wrong}"
+    );
 }

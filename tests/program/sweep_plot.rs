@@ -26,8 +26,16 @@ const PLAN: &str = r#"(
 )"#;
 
 fn asperity(folder: &Path, arguments: &[&str]) -> Result<String, String> {
-    let Finished { code, stdout, stderr } = asperity_in(folder, arguments);
-    if code == Some(0) { Ok(stdout) } else { Err(stderr) }
+    let Finished {
+        code,
+        stdout,
+        stderr,
+    } = asperity_in(folder, arguments);
+    if code == Some(0) {
+        Ok(stdout)
+    } else {
+        Err(stderr)
+    }
 }
 
 #[test]
@@ -44,17 +52,46 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     // Of preloads the first is shown.
     assert_eq!(plot(&[]), plot(&["--at", "preload=0.01"]));
     let note = asperity_in(at, &["sweep", "plot", "study"]).stderr;
-    assert!(note.contains("is the first of 3 preloads; --at preload=VALUE selects another"), "{note}");
+    assert!(
+        note.contains("is the first of 3 preloads; --at preload=VALUE selects another"),
+        "{note}"
+    );
     let error = plot(&["--x", "preload"]).unwrap_err();
-    assert!(error.starts_with("too many axes are free for a figure: roughness.hurst (0.1, "), "{error}");
-    assert!(error.trim_end().ends_with("such as --at roughness.hurst=0.1"), "{error}");
+    assert!(
+        error.starts_with("too many axes are free for a figure: roughness.hurst (0.1, "),
+        "{error}"
+    );
+    assert!(
+        error
+            .trim_end()
+            .ends_with("such as --at roughness.hurst=0.1"),
+        "{error}"
+    );
     for (arguments, expected) in [
-        (vec!["--quantity", "force"], "allowed: first_touch_adhesion_share, adhesion_coefficient"),
-        (vec!["--quantity", "regime"], "this study has no such quantity"),
-        (vec!["--x", "hurst"], "no such axis; allowed: roughness.hurst, adhesion.kappa, preload"),
-        (vec!["--at", "preload=0.2"], "--at preload=0.2: the study has no such value; allowed: 0.01, 0.1, 1"),
-        (vec!["--at", "preload=0.1", "--at", "preload=1"], "preload: named by --at and by --at"),
-        (vec!["--at", "adhesion.kappa=1", "--x", "adhesion.kappa"], "kappa: named by --x and by --at"),
+        (
+            vec!["--quantity", "force"],
+            "allowed: first_touch_adhesion_share, adhesion_coefficient",
+        ),
+        (
+            vec!["--quantity", "regime"],
+            "this study has no such quantity",
+        ),
+        (
+            vec!["--x", "hurst"],
+            "no such axis; allowed: roughness.hurst, adhesion.kappa, preload",
+        ),
+        (
+            vec!["--at", "preload=0.2"],
+            "--at preload=0.2: the study has no such value; allowed: 0.01, 0.1, 1",
+        ),
+        (
+            vec!["--at", "preload=0.1", "--at", "preload=1"],
+            "preload: named by --at and by --at",
+        ),
+        (
+            vec!["--at", "adhesion.kappa=1", "--x", "adhesion.kappa"],
+            "kappa: named by --x and by --at",
+        ),
         (vec!["--at", "preload"], "allowed: AXIS=VALUE"),
     ] {
         let error = plot(&arguments).unwrap_err();
@@ -65,10 +102,17 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     assert_eq!(map, plot(&["--at", "preload=0.1", "-o", "-"]).unwrap());
     assert!(map.starts_with("<svg ") && map.contains("Small"), "{map}");
     // Two panels with a scale of 64 colours each.
-    assert!(map.matches("crispEdges").count() > 128 && map.contains("(b) "), "{map}");
+    assert!(
+        map.matches("crispEdges").count() > 128 && map.contains("(b) "),
+        "{map}"
+    );
     plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap();
     assert_eq!(fs::read_to_string(at.join("map.svg")).unwrap(), map);
-    assert!(plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap_err().contains("--force overwrites it"));
+    assert!(
+        plot(&["--at", "preload=0.1", "-o", "map.svg"])
+            .unwrap_err()
+            .contains("--force overwrites it")
+    );
 
     // Into a pipe: text without colours.
     let text = plot(&["--at", "preload=0.1"]).unwrap();
@@ -82,9 +126,19 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     // One free axis, and three preloads as curves.
     let curves = plot(&["--at", "roughness.hurst=0.3"]).unwrap();
     assert!(curves.contains("⠒▲⠒ F_n/(E* h L) = 1\n"), "{curves}");
-    let section = plot(&["--at", "roughness.hurst=0.3", "--at", "preload=1", "--quantity", "adhesion_force"]);
+    let section = plot(&[
+        "--at",
+        "roughness.hurst=0.3",
+        "--at",
+        "preload=1",
+        "--quantity",
+        "adhesion_force",
+    ]);
     let section = section.unwrap();
-    assert!(section.contains("F_a (") && section.contains("95 % confidence"), "{section}");
+    assert!(
+        section.contains("F_a (") && section.contains("95 % confidence"),
+        "{section}"
+    );
 
     // Half of the cells: the others are gaps.
     asperity(at, &["sweep", "plan.ron", "-o", "half", "--shard", "1/5"]).unwrap();

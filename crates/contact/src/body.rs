@@ -70,7 +70,11 @@ impl Body {
     /// Creates a separated body at the indentation d = 0, just before first touch. The force curve of each motion is computed
     /// at `samples` points, at least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
-        Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
+        Self::on(
+            Leg::apart(contact, Direction::Unloading),
+            ContactState::free(0.0),
+            samples,
+        )
     }
 
     /// Creates a body that is at this indentation in m on the motion `leg`, and can continue it or turn back.
@@ -83,8 +87,18 @@ impl Body {
     }
 
     fn on(leg: Leg, state: ContactState, samples: usize) -> Self {
-        let work = Work { springs: leg.contact().gaps().len() as u64, ..Work::default() };
-        Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
+        let work = Work {
+            springs: leg.contact().gaps().len() as u64,
+            ..Work::default()
+        };
+        Body {
+            leg,
+            state,
+            samples: samples.max(2),
+            extreme: None,
+            work,
+            curve_time: Duration::ZERO,
+        }
     }
 
     /// Returns the present point of the force curve: indentation, force, contact and energy of the body.
@@ -97,9 +111,13 @@ impl Body {
     /// # Errors
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
     pub fn move_to(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
-        let Some(motion) = self.plan(target)? else { return Ok(None) };
+        let Some(motion) = self.plan(target)? else {
+            return Ok(None);
+        };
         let state = match (motion.leg.direction(), motion.goal) {
-            (Direction::Unloading, Goal::Separation(at)) => ContactState::free(at.unwrap_or(motion.low)),
+            (Direction::Unloading, Goal::Separation(at)) => {
+                ContactState::free(at.unwrap_or(motion.low))
+            }
             (Direction::Unloading, _) => motion.leg.state(motion.low)?,
             (Direction::Loading, _) => motion.leg.state(motion.high)?,
         };
@@ -135,21 +153,41 @@ impl Body {
 
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let stiffness = self.leg.contact().loading_stiffness;
-        let Some((direction, goal)) = plan(target, self.point(), stiffness)? else { return Ok(None) };
+        let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {
+            return Ok(None);
+        };
         let (at, separated) = (self.state.indentation, self.is_separated());
         if let (Goal::Indentation(to), true) = (goal, separated)
             && to < 0.0
         {
-            let direction = if to > at { Direction::Loading } else { Direction::Unloading };
+            let direction = if to > at {
+                Direction::Loading
+            } else {
+                Direction::Unloading
+            };
             let leg = Leg::apart(self.leg.contact(), direction);
-            return Ok(Some(Motion { leg, low: at.min(to), high: at.max(to), goal }));
+            return Ok(Some(Motion {
+                leg,
+                low: at.min(to),
+                high: at.max(to),
+                goal,
+            }));
         }
         let leg = self.leg_in(direction)?;
         // Nothing touches below d = 0.
         let from = if separated { at.max(0.0) } else { at };
         let (to, goal) = leg.reach(goal, from, &mut self.work)?;
-        let (low, high) = if direction == Direction::Loading { (from, to) } else { (to, from) };
-        Ok(Some(Motion { leg, low, high, goal }))
+        let (low, high) = if direction == Direction::Loading {
+            (from, to)
+        } else {
+            (to, from)
+        };
+        Ok(Some(Motion {
+            leg,
+            low,
+            high,
+            goal,
+        }))
     }
 
     /// Returns the grid of a motion for the search of extremes, and the stride at which its points are samples of the curve.
@@ -161,26 +199,44 @@ impl Body {
 
     fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
-        let Motion { leg, low, high, goal } = motion;
+        let Motion {
+            leg,
+            low,
+            high,
+            goal,
+        } = motion;
         let (before, touches) = (self.point(), self.is_separated());
         let loads = leg.direction() == Direction::Loading;
         let separates = !loads && matches!(goal, Goal::Separation(_));
         // A loading to a force needs no search: the force is below its target until then.
         let ends_at_largest = loads && matches!(goal, Goal::Force(_));
-        let (grid, stride) =
-            if ends_at_largest { (Grid::new(low, high, self.samples - 1), 1) } else { self.grid(low, high) };
+        let (grid, stride) = if ends_at_largest {
+            (Grid::new(low, high, self.samples - 1), 1)
+        } else {
+            self.grid(low, high)
+        };
         // The springs that touch first attach at the first point itself; those held to it detach just below.
-        let from = if touches || separates { f64::NEG_INFINITY } else { low };
+        let from = if touches || separates {
+            f64::NEG_INFINITY
+        } else {
+            low
+        };
         let is_long = leg.contact().gaps().len() >= TWO_THREADS;
-        let (sampled, squared_stretch) =
-            in_parallel(is_long, || leg.sample(grid), || leg.squared_stretch(from, high));
+        let (sampled, squared_stretch) = in_parallel(
+            is_long,
+            || leg.sample(grid),
+            || leg.squared_stretch(from, high),
+        );
         let sampled = sampled?;
         let last = sampled.len() - 1;
         let work = &mut self.work;
         // Where an instrument that is not rigid loses the contact.
         let loosest = match loads || leg.contact().loading_stiffness.is_infinite() {
             true => None,
-            false => Some(leg.least_displaced(&sampled, work)?.point(leg.contact().foundation)),
+            false => Some(
+                leg.least_displaced(&sampled, work)?
+                    .point(leg.contact().foundation),
+            ),
         };
         if touches || self.leg.direction() != leg.direction() {
             self.extreme = None;
@@ -190,7 +246,8 @@ impl Body {
         self.state = match (loads, goal) {
             (true, _) => sampled[last],
             (false, Goal::Separation(at)) => {
-                let lost = || loosest.map(|point| point.displacement(leg.contact().loading_stiffness));
+                let lost =
+                    || loosest.map(|point| point.displacement(leg.contact().loading_stiffness));
                 ContactState::free(at.or_else(lost).unwrap_or(low))
             }
             (false, _) => sampled[0],
@@ -198,14 +255,27 @@ impl Body {
         let chosen = sampled.iter().enumerate();
         let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
         let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
-        loosest.into_iter().for_each(|point| LegRecord::insert(&mut curve, point));
+        loosest
+            .into_iter()
+            .for_each(|point| LegRecord::insert(&mut curve, point));
         let work = &mut self.work;
         let extremes = if loads {
-            let largest =
-                if ends_at_largest { sampled[last] } else { leg.extreme(Extreme::Largest, &sampled, work) };
-            let points = curve.iter().copied().chain(touches.then(|| CurvePoint::free(low)));
+            let largest = if ends_at_largest {
+                sampled[last]
+            } else {
+                leg.extreme(Extreme::Largest, &sampled, work)
+            };
+            let points = curve
+                .iter()
+                .copied()
+                .chain(touches.then(|| CurvePoint::free(low)));
             let largest = self.point_of(largest);
-            [points.min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest), largest]
+            [
+                points
+                    .min_by(|a, b| a.force.total_cmp(&b.force))
+                    .unwrap_or(largest),
+                largest,
+            ]
         } else {
             let mut smallest = leg.extreme(Extreme::Smallest, &sampled, work);
             if smallest.totals.springs == 0 {
@@ -221,10 +291,18 @@ impl Body {
             [before, self.point()],
             leg.energy(squared_stretch),
         );
-        let smallest_of_rest =
-            if loads || self.is_separated() { None } else { Some(self.rest_of(&leg, low)?) };
+        let smallest_of_rest = if loads || self.is_separated() {
+            None
+        } else {
+            Some(self.rest_of(&leg, low)?)
+        };
         let reaches_ends = leg.reaches_ends(high);
-        let record = LegRecord { jump_energy, reaches_ends, smallest_of_rest, ..record };
+        let record = LegRecord {
+            jump_energy,
+            reaches_ends,
+            smallest_of_rest,
+            ..record
+        };
         self.work.count(&record);
         self.leg = leg;
         self.curve_time += clock.elapsed();
@@ -234,7 +312,8 @@ impl Body {
     /// Finds the point of the smallest force on the rest of an unloading, from the indentation `from` in m to separation. This
     /// search does not count as work of the loading, which does not go there.
     fn rest_of(&self, unloading: &Leg, from: f64) -> Result<CurvePoint, ContactError> {
-        let (separation, _) = unloading.reach(Goal::Separation(None), from, &mut Work::default())?;
+        let (separation, _) =
+            unloading.reach(Goal::Separation(None), from, &mut Work::default())?;
         let (grid, _) = self.grid(separation, from);
         let smallest = unloading.smallest(&grid, &mut Work::default())?;
         Ok(self.point_of(smallest))
@@ -262,7 +341,11 @@ impl Body {
                 goal @ Goal::Force(force) if force < 0.0 && force.is_finite() => {
                     Ok(Some((Direction::Loading, goal)))
                 }
-                _ => plan(target, CurvePoint::default(), loading.contact().loading_stiffness),
+                _ => plan(
+                    target,
+                    CurvePoint::default(),
+                    loading.contact().loading_stiffness,
+                ),
             };
             let reached = approach.and_then(|approach| match approach {
                 Some((Direction::Loading, goal)) => loading.reach(goal, 0.0, &mut self.work),
@@ -297,7 +380,8 @@ impl Body {
         };
         // The passes for F_a(d=0) count separately.
         let work = &mut self.work;
-        (work.loading_passes, work.unloading_passes) = (before.loading_passes, before.unloading_passes);
+        (work.loading_passes, work.unloading_passes) =
+            (before.loading_passes, before.unloading_passes);
         work.passes_without_preload += 2;
         Ok([at_touch, at_zero_force])
     }
@@ -318,8 +402,14 @@ impl Body {
         let below = &points[..points.partition_point(|&point| point <= high)];
         let apart = below.partition_point(|&point| point < separation);
         let mut forces = vec![0.0; apart];
-        forces.extend(unloading.curve(&below[apart..])?.iter().map(|point| point.force));
-        let released = [loading, &unloading].map(|leg| leg.released_energy(f64::NEG_INFINITY, high));
+        forces.extend(
+            unloading
+                .curve(&below[apart..])?
+                .iter()
+                .map(|point| point.force),
+        );
+        let released =
+            [loading, &unloading].map(|leg| leg.released_energy(f64::NEG_INFINITY, high));
         Ok(Reversal {
             turn: self.point_of(turn),
             smallest: self.point_of(smallest),
@@ -341,7 +431,11 @@ impl MovingBody for Body {
                 }
                 Ok(LegRecord::still(target, here))
             }
-            Some(Motion { leg, goal: Goal::Indentation(to), .. }) if here.springs == 0 && to < 0.0 => {
+            Some(Motion {
+                leg,
+                goal: Goal::Indentation(to),
+                ..
+            }) if here.springs == 0 && to < 0.0 => {
                 (self.leg, self.state) = (leg, ContactState::free(to));
                 Ok(LegRecord::free(target, here.indentation, to))
             }

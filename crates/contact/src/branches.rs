@@ -39,12 +39,20 @@ impl Branch {
         let mut branches: Vec<Branch> = Vec::new();
         for (stage, leg) in legs.iter().enumerate() {
             match branches.last_mut() {
-                Some(last) if last.direction == leg.direction || is_still(leg) => last.stages.end += 1,
+                Some(last) if last.direction == leg.direction || is_still(leg) => {
+                    last.stages.end += 1
+                }
                 // The first stages may leave the body in place.
                 Some(last) if legs[last.stages.clone()].iter().all(is_still) => {
-                    *last = Branch { direction: leg.direction, stages: last.stages.start..stage + 1 };
+                    *last = Branch {
+                        direction: leg.direction,
+                        stages: last.stages.start..stage + 1,
+                    };
                 }
-                _ => branches.push(Branch { direction: leg.direction, stages: stage..stage + 1 }),
+                _ => branches.push(Branch {
+                    direction: leg.direction,
+                    stages: stage..stage + 1,
+                }),
             }
         }
         branches
@@ -60,7 +68,10 @@ impl Branch {
 
     /// Returns the stages of the branch that move in its direction and have contact, with their indices. A stage of a separated
     /// body has no extremes of the contact.
-    fn touching<'l>(&self, legs: &'l [LegRecord]) -> impl DoubleEndedIterator<Item = (usize, &'l LegRecord)> {
+    fn touching<'l>(
+        &self,
+        legs: &'l [LegRecord],
+    ) -> impl DoubleEndedIterator<Item = (usize, &'l LegRecord)> {
         touching(legs, self.stages.clone(), self.direction)
     }
 
@@ -80,11 +91,17 @@ impl Branch {
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn preload(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-        let end = Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
-        let separates =
-            |leg: &LegRecord| leg.direction == Direction::Unloading && leg.end_in_contact().is_none();
-        let start = legs[..end].iter().rposition(separates).map_or(0, |stage| stage + 1);
-        let largest = touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
+        let end =
+            Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
+        let separates = |leg: &LegRecord| {
+            leg.direction == Direction::Unloading && leg.end_in_contact().is_none()
+        };
+        let start = legs[..end]
+            .iter()
+            .rposition(separates)
+            .map_or(0, |stage| stage + 1);
+        let largest =
+            touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
         // Of equal forces the last one, as on one stage.
         largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
     }
@@ -116,8 +133,11 @@ impl Branch {
             Rest::None => None,
             Rest::Unknown => Some(Warning::EndsInContact { further: None }),
             Rest::Smallest(of_rest) => {
-                let pulls_further = of_rest.force < (least.force - unloading.rounding(legs)).min(0.0);
-                pulls_further.then_some(Warning::EndsInContact { further: Some(-of_rest.force) })
+                let pulls_further =
+                    of_rest.force < (least.force - unloading.rounding(legs)).min(0.0);
+                pulls_further.then_some(Warning::EndsInContact {
+                    further: Some(-of_rest.force),
+                })
             }
         }
     }
@@ -125,7 +145,9 @@ impl Branch {
     /// Returns what is known of the way from the end of an unloading to separation.
     fn rest(&self, legs: &[LegRecord]) -> Rest {
         // The last stages may leave the body in place.
-        let Some((_, last)) = self.touching(legs).next_back() else { return Rest::None };
+        let Some((_, last)) = self.touching(legs).next_back() else {
+            return Rest::None;
+        };
         if last.end_in_contact().is_none() {
             return Rest::None;
         }
@@ -134,16 +156,21 @@ impl Branch {
 
     /// Returns the difference in N within which two forces of the branch count as equal.
     fn rounding(&self, legs: &[LegRecord]) -> f64 {
-        legs.get(self.stages.start).map_or(0.0, |first| ROUNDING * first.largest.force.abs())
+        legs.get(self.stages.start)
+            .map_or(0.0, |first| ROUNDING * first.largest.force.abs())
     }
 
     /// Returns the point of the smallest force while the branch is in contact, and the index of its stage. Returns `None` if
     /// the branch has no contact.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-        let smallest = self.touching(legs).map(|(stage, leg)| (stage, leg.smallest));
+        let smallest = self
+            .touching(legs)
+            .map(|(stage, leg)| (stage, leg.smallest));
         // Of equal forces the one at the smallest indentation, as on one stage.
         smallest.min_by(|(_, a), (_, b)| {
-            a.force.total_cmp(&b.force).then(a.indentation.total_cmp(&b.indentation))
+            a.force
+                .total_cmp(&b.force)
+                .then(a.indentation.total_cmp(&b.indentation))
         })
     }
 }
@@ -161,7 +188,10 @@ enum Rest {
 fn is_still(leg: &LegRecord) -> bool {
     let [start, end] = [leg.start(), leg.end()];
     (start - end).abs() <= NO_MOTION * start.abs().max(end.abs())
-        && leg.curve.iter().all(|point| (point.springs == 0) == (leg.curve[0].springs == 0))
+        && leg
+            .curve
+            .iter()
+            .all(|point| (point.springs == 0) == (leg.curve[0].springs == 0))
 }
 
 fn touching(

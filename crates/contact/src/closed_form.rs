@@ -55,7 +55,12 @@ impl ClosedForm {
     /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
-        ClosedForm { line_coefficient: radius.recip(), exponent: 2.0, effective_modulus, work_of_adhesion }
+        ClosedForm {
+            line_coefficient: radius.recip(),
+            exponent: 2.0,
+            effective_modulus,
+            work_of_adhesion,
+        }
     }
 
     /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface: g(x) = (π/2) |x| tan θ.
@@ -94,7 +99,8 @@ impl ClosedForm {
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
         let pressed =
-            2.0 * self.effective_modulus * n * self.line_coefficient * radius.powf(n + 1.0) / (n + 1.0);
+            2.0 * self.effective_modulus * n * self.line_coefficient * radius.powf(n + 1.0)
+                / (n + 1.0);
         pressed - self.detaching(radius)
     }
 
@@ -102,7 +108,10 @@ impl ClosedForm {
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
-        (radius, -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
+        (
+            radius,
+            -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius),
+        )
     }
 
     /// Returns the contact radius in m and the force in N at pull-off under displacement control, where the indentation d has
@@ -110,7 +119,10 @@ impl ClosedForm {
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);
-        (radius, -(2.0 * n + 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
+        (
+            radius,
+            -(2.0 * n + 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius),
+        )
     }
 
     /// Returns the contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)) in m, for m = `multiple`.
@@ -135,14 +147,20 @@ mod tests {
         let body = ClosedForm::sphere(radius, Modulus::effective(1.5e6).unwrap(), work);
         let scale = PI * work * radius;
         assert!((body.force_controlled_pull_off().1 / (-1.5 * scale) - 1.0).abs() < 1e-14);
-        assert!((body.displacement_controlled_pull_off().1 / (-5.0 / 6.0 * scale) - 1.0).abs() < 1e-14);
+        assert!(
+            (body.displacement_controlled_pull_off().1 / (-5.0 / 6.0 * scale) - 1.0).abs() < 1e-14
+        );
     }
 
     #[test]
     fn pull_off_radii_are_where_the_derivatives_vanish() {
         for (line_coefficient, exponent) in [(0.5, 1.0), (2.5, 1.5), (0.7, 4.0)] {
-            let body =
-                ClosedForm { line_coefficient, exponent, effective_modulus: 3.0, work_of_adhesion: 0.5 };
+            let body = ClosedForm {
+                line_coefficient,
+                exponent,
+                effective_modulus: 3.0,
+                work_of_adhesion: 0.5,
+            };
             let (a, force) = body.force_controlled_pull_off();
             assert!((body.force(a) / force - 1.0).abs() < 1e-12);
             assert!(body.force(a * 1.001) > force && body.force(a * 0.999) > force);

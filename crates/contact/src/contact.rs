@@ -76,7 +76,10 @@ impl ContactBuilder {
     /// Sets the stiffness k of the instrument that moves the body, in N/m. The default is infinite, a rigid instrument.
     #[must_use]
     pub fn loading_stiffness(self, stiffness: f64) -> Self {
-        ContactBuilder { loading_stiffness: stiffness, ..self }
+        ContactBuilder {
+            loading_stiffness: stiffness,
+            ..self
+        }
     }
 
     /// Sets the edge model: where the edges of contact patches may lie. The default is [`Edges::SubCell`], anywhere between
@@ -91,17 +94,46 @@ impl ContactBuilder {
     /// # Errors
     /// Returns [`ContactError::Value`] for a value out of its range.
     pub fn build(self) -> Result<Contact, ContactError> {
-        let ContactBuilder { profile, modulus, works: [closing, work], loading_stiffness, edges } = self;
-        check("work of adhesion", work, (0.0..=LARGEST).contains(&work), "from 0 to 1e50 J/m²")?;
+        let ContactBuilder {
+            profile,
+            modulus,
+            works: [closing, work],
+            loading_stiffness,
+            edges,
+        } = self;
+        check(
+            "work of adhesion",
+            work,
+            (0.0..=LARGEST).contains(&work),
+            "from 0 to 1e50 J/m²",
+        )?;
         let is_allowed = (0.0..=work).contains(&closing);
-        check("closing work", closing, is_allowed, "from 0 J/m² to the work of adhesion")?;
+        check(
+            "closing work",
+            closing,
+            is_allowed,
+            "from 0 J/m² to the work of adhesion",
+        )?;
         let is_allowed = loading_stiffness == f64::INFINITY || is_positive(loading_stiffness);
         let allowed = "from 1e-50 to 1e50 N/m, or infinite: rigid";
         check("loading stiffness", loading_stiffness, is_allowed, allowed)?;
-        let Profile { spacing, length, .. } = profile;
-        let foundation = Foundation { spacing, effective_modulus: modulus.pascals(), length };
+        let Profile {
+            spacing, length, ..
+        } = profile;
+        let foundation = Foundation {
+            spacing,
+            effective_modulus: modulus.pascals(),
+            length,
+        };
         let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
-        Ok(Contact { profile, foundation, edges, hess, loading_stiffness, closing: Arc::default() })
+        Ok(Contact {
+            profile,
+            foundation,
+            edges,
+            hess,
+            loading_stiffness,
+            closing: Arc::default(),
+        })
     }
 }
 
@@ -110,13 +142,24 @@ impl Contact {
     #[must_use]
     pub fn builder(profile: &Profile, modulus: Modulus) -> ContactBuilder {
         let (edges, loading_stiffness, profile) = (Edges::SubCell, f64::INFINITY, profile.clone());
-        ContactBuilder { profile, modulus, works: [0.0; 2], loading_stiffness, edges }
+        ContactBuilder {
+            profile,
+            modulus,
+            works: [0.0; 2],
+            loading_stiffness,
+            edges,
+        }
     }
 
     /// Copies the contact for the stepwise solver, with whole springs and a rigid instrument.
     pub(super) fn of_whole_springs(&self) -> Self {
         let closing = Arc::default();
-        Contact { edges: Edges::Grid, loading_stiffness: f64::INFINITY, closing, ..self.clone() }
+        Contact {
+            edges: Edges::Grid,
+            loading_stiffness: f64::INFINITY,
+            closing,
+            ..self.clone()
+        }
     }
 
     /// Begins to build a contact with another modulus and the same profile and edge model. The new contact has no adhesion and

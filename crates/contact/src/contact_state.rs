@@ -45,7 +45,10 @@ impl ContactState {
 
     /// Returns the state of a separated body at this indentation in m.
     pub fn free(indentation: f64) -> Self {
-        ContactState { indentation, ..ContactState::default() }
+        ContactState {
+            indentation,
+            ..ContactState::default()
+        }
     }
 
     /// Adds `springs` springs that lie parallel to the contact and are compressed by the indentation. The force of both is F +
@@ -56,7 +59,11 @@ impl ContactState {
             return *self;
         }
         let compression = self.compression + springs * self.indentation;
-        ContactState { compression, length: self.length + springs, ..*self }
+        ContactState {
+            compression,
+            length: self.length + springs,
+            ..*self
+        }
     }
 
     pub fn point(&self, foundation: Foundation) -> CurvePoint {
@@ -76,7 +83,10 @@ impl ContactState {
 /// # Panics
 /// Panics for a negative number, which only a defect of the sums can cause. It must not pass for a result.
 pub fn counted(number: i64) -> u64 {
-    assert!(number >= 0, "internal error, please report it: {number} springs or patches in contact");
+    assert!(
+        number >= 0,
+        "internal error, please report it: {number} springs or patches in contact"
+    );
     number.unsigned_abs()
 }
 
@@ -93,8 +103,16 @@ impl Tally {
     pub fn new(grid: Grid, slides: bool) -> Result<Self, ContactError> {
         let count = grid.points.len();
         let changes = resized(Vec::new(), count + 1, ContactTotals::default())?;
-        let edges = resized(Vec::new(), if slides { count } else { 0 }, EdgeSum::default())?;
-        Ok(Tally { grid, changes, edges })
+        let edges = resized(
+            Vec::new(),
+            if slides { count } else { 0 },
+            EdgeSum::default(),
+        )?;
+        Ok(Tally {
+            grid,
+            changes,
+            edges,
+        })
     }
 
     /// Returns the index of the first point of at least this indentation in m, or the number of points if there is none.
@@ -111,7 +129,9 @@ impl Tally {
     /// the second.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
-        let below = place.checked_sub(1).map_or(f64::NEG_INFINITY, |before| points[before]);
+        let below = place
+            .checked_sub(1)
+            .map_or(f64::NEG_INFINITY, |before| points[before]);
         (below, points.get(place).copied().unwrap_or(f64::INFINITY))
     }
 
@@ -131,13 +151,20 @@ impl Tally {
     /// Adds edge cells that are in contact at these points.
     #[inline]
     pub fn slide(&mut self, carries: Range<usize>, slider: &Slider) {
-        for (sums, &point) in self.edges[carries.clone()].iter_mut().zip(&self.grid.points[carries]) {
+        for (sums, &point) in self.edges[carries.clone()]
+            .iter_mut()
+            .zip(&self.grid.points[carries])
+        {
             sums.add(slider.edge_cells(point));
         }
     }
 
     pub fn finish(self, scale: &GapScale) -> Result<Vec<ContactState>, ContactError> {
-        let Tally { grid, changes, edges } = self;
+        let Tally {
+            grid,
+            changes,
+            edges,
+        } = self;
         let mut states = resized(Vec::new(), grid.points.len(), ContactState::default())?;
         let mut totals = ContactTotals::default();
         for (index, (state, &point)) in states.iter_mut().zip(&grid.points).enumerate() {
@@ -177,7 +204,13 @@ impl Extreme {
 
     /// Returns the contact of the extreme force at the points of a sampled motion, of which there is at least one.
     pub fn of(self, leg: &[ContactState]) -> ContactState {
-        leg.iter().fold(leg[0], |best, next| if self.is_beyond(next, &best) { *next } else { best })
+        leg.iter().fold(leg[0], |best, next| {
+            if self.is_beyond(next, &best) {
+                *next
+            } else {
+                best
+            }
+        })
     }
 
     /// Returns true if the bounds of the force between two indentations allow a force beyond `best`.
@@ -217,26 +250,41 @@ impl Grid {
         // A range too narrow for two different points is also one point at each end.
         let even = low + width > low && high - width < high && width.recip().is_finite();
         let mut points: Vec<f64> = if even {
-            (0..intervals).map(|k| (low + width * k as f64).min(high)).collect()
+            (0..intervals)
+                .map(|k| (low + width * k as f64).min(high))
+                .collect()
         } else {
             vec![low]
         };
         if high > low {
             points.push(high);
         }
-        Grid { points, intervals_per_metre: if even { width.recip() } else { 0.0 } }
+        Grid {
+            points,
+            intervals_per_metre: if even { width.recip() } else { 0.0 },
+        }
     }
 
     /// Creates a grid at these ascending indentations in m, at least one.
     pub fn at(points: Vec<f64>) -> Self {
-        Grid { points, intervals_per_metre: 0.0 }
+        Grid {
+            points,
+            intervals_per_metre: 0.0,
+        }
     }
 
     /// Returns the grid of every `stride`-th point and the last point.
     pub fn coarser(&self, stride: usize) -> Self {
         let last = self.points.len() - 1;
-        let points = (0..last).step_by(stride).chain([last]).map(|index| self.points[index]).collect();
-        Grid { points, intervals_per_metre: self.intervals_per_metre / stride as f64 }
+        let points = (0..last)
+            .step_by(stride)
+            .chain([last])
+            .map(|index| self.points[index])
+            .collect();
+        Grid {
+            points,
+            intervals_per_metre: self.intervals_per_metre / stride as f64,
+        }
     }
 
     /// Returns false for a grid at given points, and for a grid of two ends without points between them.
@@ -305,6 +353,9 @@ mod tests {
         let high = f64::from_bits(1 << 14);
         let grid = Grid::new(0.0, high, 4);
         assert_eq!(grid.points, [0.0, high]);
-        assert_eq!([0.0, 0.5 * high, high].map(|wanted| grid.first_at_least(wanted)), [0, 1, 1]);
+        assert_eq!(
+            [0.0, 0.5 * high, high].map(|wanted| grid.first_at_least(wanted)),
+            [0, 1, 1]
+        );
     }
 }

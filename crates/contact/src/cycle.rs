@@ -44,20 +44,29 @@ impl<'a> LoadOptions<'a> {
     /// is 512. The preload and the pull-off force are exact for any number of points.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
-        LoadOptions { samples: Some(samples), ..self }
+        LoadOptions {
+            samples: Some(samples),
+            ..self
+        }
     }
 
     /// Sets further indentations in m, in ascending order, at which forces are computed. [`Cycle::at`] returns the points.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
-        LoadOptions { indentations, ..self }
+        LoadOptions {
+            indentations,
+            ..self
+        }
     }
 
     /// Sets a function that is called before each stage with the index of the stage, from 0. If the function returns false, the
     /// loading ends with [`ContactError::Interrupted`].
     #[must_use]
     pub fn before_stage(self, proceed: &'a mut dyn FnMut(usize) -> bool) -> Self {
-        LoadOptions { before_stage: Some(proceed), ..self }
+        LoadOptions {
+            before_stage: Some(proceed),
+            ..self
+        }
     }
 }
 
@@ -153,25 +162,51 @@ impl Contact {
     /// assert!((coarse.pull_off_force().unwrap() / fine.pull_off_force().unwrap() - 1.0).abs() < 1e-12);
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
-    pub fn load_with(&self, stages: &[Move], options: LoadOptions<'_>) -> Result<Cycle, ContactError> {
-        let LoadOptions { samples, indentations, mut before_stage } = options;
+    pub fn load_with(
+        &self,
+        stages: &[Move],
+        options: LoadOptions<'_>,
+    ) -> Result<Cycle, ContactError> {
+        let LoadOptions {
+            samples,
+            indentations,
+            mut before_stage,
+        } = options;
         check_targets(stages)?;
         check_ascending(indentations)?;
         let samples = samples.unwrap_or(SAMPLES as u64);
-        check("samples", samples as f64, (2..=1_000_000).contains(&samples), "from 2 to 1000000")?;
-        let (mut body, mut at) = (Body::new(self, samples as usize), Vec::with_capacity(stages.len()));
-        let mut may_proceed = |stage| match before_stage.as_mut().is_none_or(|proceed| proceed(stage)) {
-            true => Ok(()),
-            false => Err(ContactError::Interrupted),
-        };
+        check(
+            "samples",
+            samples as f64,
+            (2..=1_000_000).contains(&samples),
+            "from 2 to 1000000",
+        )?;
+        let (mut body, mut at) = (
+            Body::new(self, samples as usize),
+            Vec::with_capacity(stages.len()),
+        );
+        let mut may_proceed =
+            |stage| match before_stage.as_mut().is_none_or(|proceed| proceed(stage)) {
+                true => Ok(()),
+                false => Err(ContactError::Interrupted),
+            };
         if !stages.is_empty() {
             may_proceed(0)?;
         }
         let history = load_body(&mut body, stages, |record, leg| {
             at.push(points_between(record, leg, indentations)?);
-            if at.len() < stages.len() { may_proceed(at.len()) } else { Ok(()) }
+            if at.len() < stages.len() {
+                may_proceed(at.len())
+            } else {
+                Ok(())
+            }
         })?;
-        Ok(Cycle { figures: Figures::of(&history), history, at, leg: body.leg() })
+        Ok(Cycle {
+            figures: Figures::of(&history),
+            history,
+            at,
+            leg: body.leg(),
+        })
     }
 
     /// Computes the unloading to separation from each of several turning points. A turning point is where a loading from
@@ -198,7 +233,11 @@ impl Contact {
     /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and for indentations that do not
     /// ascend. Returns [`ContactError::Stage`] for a target that the contact cannot reach, and for a target at which the
     /// body is not in contact.
-    pub fn reversals(&self, ends: &[Move], indentations: &[f64]) -> Result<Vec<Reversal>, ContactError> {
+    pub fn reversals(
+        &self,
+        ends: &[Move],
+        indentations: &[f64],
+    ) -> Result<Vec<Reversal>, ContactError> {
         check_targets(ends)?;
         check_ascending(indentations)?;
         let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
@@ -218,7 +257,10 @@ fn points_between(
     leg: &Leg,
     indentations: &[f64],
 ) -> Result<Vec<CurvePoint>, ContactError> {
-    let (low, high) = (record.start().min(record.end()), record.start().max(record.end()));
+    let (low, high) = (
+        record.start().min(record.end()),
+        record.start().max(record.end()),
+    );
     let first = indentations.partition_point(|&at| at < low);
     let end = indentations.partition_point(|&at| at <= high);
     leg.curve(&indentations[first..end.max(first)])
@@ -227,7 +269,9 @@ fn points_between(
 /// Returns an error for a target with which a result might not be a finite number.
 fn check_targets(targets: &[Move]) -> Result<(), ContactError> {
     for (index, target) in targets.iter().enumerate() {
-        if let Move::ToForce(value) | Move::ToIndentation(value) | Move::ToDisplacement(value) = *target {
+        if let Move::ToForce(value) | Move::ToIndentation(value) | Move::ToDisplacement(value) =
+            *target
+        {
             let name = format!("target of stage {}", index + 1);
             check(&name, value, value.abs() <= LARGEST, "from -1e50 to 1e50")?;
         }
@@ -240,7 +284,12 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
     let mut before = -LARGEST;
     for (index, &at) in indentations.iter().enumerate() {
         let name = format!("indentation with index {index}");
-        check(&name, at, (before..=LARGEST).contains(&at), "from -1e50 to 1e50 m, ascending")?;
+        check(
+            &name,
+            at,
+            (before..=LARGEST).contains(&at),
+            "from -1e50 to 1e50 m, ascending",
+        )?;
         before = at;
     }
     Ok(())
@@ -251,7 +300,12 @@ impl History {
     /// a curved body, an unloading to separation, and enough springs in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
-        let most_springs = self.legs.iter().map(LegRecord::most_springs).max().unwrap_or(0);
+        let most_springs = self
+            .legs
+            .iter()
+            .map(LegRecord::most_springs)
+            .max()
+            .unwrap_or(0);
         let mut warnings = warnings_of_contact(profile, reaches_ends, most_springs);
         warnings.extend(Branch::ends_in_contact(&self.legs));
         warnings
@@ -271,7 +325,9 @@ impl Reversal {
 fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if reaches_ends && profile.is_curved() {
-        warnings.push(Warning::ContactAtEnds { length: profile.length() });
+        warnings.push(Warning::ContactAtEnds {
+            length: profile.length(),
+        });
     }
     // A profile of few springs, all of which are in contact, is resolved as well as it can be.
     if most_springs < profile.points() as u64 {

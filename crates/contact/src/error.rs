@@ -75,7 +75,9 @@ pub enum ContactError {
     TooManySteps(f64),
     /// A motion or a search needs a [`Leg`](crate::motion::Leg) of the exact solver, but the leg belongs to the stepwise
     /// solver.
-    #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
+    #[error(
+        "a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver"
+    )]
     Stepwise,
     /// The program has a defect; the field describes the state that should not occur.
     #[error("internal error, please report it: {0}")]
@@ -89,26 +91,38 @@ pub enum ContactError {
 impl ContactError {
     /// Returns the index of the refused stage of a loading, from 0; `None` for an error that does not concern one stage.
     pub fn stage(&self) -> Option<usize> {
-        if let ContactError::Stage { index, .. } = self { Some(*index) } else { None }
+        if let ContactError::Stage { index, .. } = self {
+            Some(*index)
+        } else {
+            None
+        }
     }
 
     /// Returns the smallest force in N that the contact bears, if a target force lies below this force; `None` for other
     /// errors.
     pub fn smallest_force(&self) -> Option<f64> {
-        if let ContactError::DetachesBefore { smallest } = self.reason() { Some(*smallest) } else { None }
+        if let ContactError::DetachesBefore { smallest } = self.reason() {
+            Some(*smallest)
+        } else {
+            None
+        }
     }
 
     /// Returns true if the target is a force that the contact cannot reach.
     pub fn is_out_of_reach(&self) -> bool {
         use ContactError::{DetachesBefore, NothingToPull, OutOfReach};
-        matches!(self.reason(), NothingToPull | DetachesBefore { .. } | OutOfReach)
+        matches!(
+            self.reason(),
+            NothingToPull | DetachesBefore { .. } | OutOfReach
+        )
     }
 
     /// Describes in words why a body does not move to a target.
     pub fn in_words(&self, target: Move) -> String {
         match (self, target) {
             (&ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {
-                let [force, least] = [force, rounded_up(smallest)].map(|force| format_quantity(force, "N"));
+                let [force, least] =
+                    [force, rounded_up(smallest)].map(|force| format_quantity(force, "N"));
                 format!("the contact detaches before {force}; smallest force within reach: {least}")
             }
             (error, _) => error.to_string(),
@@ -117,7 +131,11 @@ impl ContactError {
 
     /// Returns the reason without its stage.
     fn reason(&self) -> &ContactError {
-        if let ContactError::Stage { reason, .. } = self { reason } else { self }
+        if let ContactError::Stage { reason, .. } = self {
+            reason
+        } else {
+            self
+        }
     }
 
     /// Adds the stage to the reason. Lack of memory, interruptions and defects concern the whole loading and remain unchanged.
@@ -127,7 +145,11 @@ impl ContactError {
             | ContactError::OutOfMemory { .. }
             | ContactError::Internal(_)
             | ContactError::Interrupted => self,
-            reason => ContactError::Stage { index, target, reason: Box::new(reason) },
+            reason => ContactError::Stage {
+                index,
+                target,
+                reason: Box::new(reason),
+            },
         }
     }
 }
@@ -138,12 +160,29 @@ pub fn is_positive(value: f64) -> bool {
 }
 
 /// Returns an error that names the value and what is allowed, unless the value is allowed.
-pub fn check(name: &str, value: f64, is_allowed: bool, allowed: &'static str) -> Result<(), ContactError> {
-    if is_allowed { Ok(()) } else { Err(ContactError::Value { name: name.to_owned(), value, allowed }) }
+pub fn check(
+    name: &str,
+    value: f64,
+    is_allowed: bool,
+    allowed: &'static str,
+) -> Result<(), ContactError> {
+    if is_allowed {
+        Ok(())
+    } else {
+        Err(ContactError::Value {
+            name: name.to_owned(),
+            value,
+            allowed,
+        })
+    }
 }
 
 /// Writes a value as a user would write it: numbers of ordinary size without an exponent.
 fn shown(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-3..1e10).contains(&value.abs());
-    if is_plain { value.to_string() } else { format!("{value:e}") }
+    if is_plain {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }

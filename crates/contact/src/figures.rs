@@ -42,8 +42,10 @@ impl Figures {
     /// Computes preload, pull-off and dissipated energy from the records of a history.
     pub fn of(history: &History) -> Self {
         let legs = &history.legs;
-        let ends_separated =
-            legs.last().and_then(|leg| leg.curve.last()).is_some_and(|point| point.springs == 0);
+        let ends_separated = legs
+            .last()
+            .and_then(|leg| leg.curve.last())
+            .is_some_and(|point| point.springs == 0);
         Figures::at(
             Branch::preload(legs).map(|(stage, point)| (legs[stage].target, point)),
             Branch::pull_off(legs).map(|(_, point)| point),
@@ -64,7 +66,11 @@ impl Figures {
 
     /// Computes the figures from the point of the largest force with the target of its stage, the pull-off point, and the
     /// released energy of all stages in J.
-    fn at(pressed: Option<(Move, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
+    fn at(
+        pressed: Option<(Move, CurvePoint)>,
+        pull_off: Option<CurvePoint>,
+        energy: Option<f64>,
+    ) -> Self {
         let preload = pressed.map(|(target, point)| without_rounding(target, point).force);
         // Not −F, which would make a force of zero negative.
         let adhesion_force = pull_off.map(|point| 0.0 - point.force);
@@ -116,31 +122,45 @@ impl Mark {
     /// each loading stage.
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
         let into_contact = |leg: &LegRecord| {
-            let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
+            let pair = leg
+                .curve
+                .windows(2)
+                .find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
             Some(pair[1]).filter(|_| leg.direction == Direction::Loading)
         };
         let out_of_contact = |leg: &LegRecord| {
-            let pair = leg.curve.windows(2).rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
+            let pair = leg
+                .curve
+                .windows(2)
+                .rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
             Some(pair[0])
         };
         let jump_in = legs.iter().find_map(into_contact);
         let pull_off = Branch::pull_off(legs);
         let jump_out = pull_off.and_then(|(_, least)| {
             let unloading = Branch::last_unloading(legs)?;
-            let last = legs[unloading.stages].iter().rev().find_map(out_of_contact)?;
+            let last = legs[unloading.stages]
+                .iter()
+                .rev()
+                .find_map(out_of_contact)?;
             Some(last).filter(|last| last.force > least.force * (1.0 - ROUNDING))
         });
         let found = [
             (Mark::JumpIn, jump_in),
             (
                 Mark::Preload,
-                Branch::preload(legs).map(|(stage, point)| without_rounding(legs[stage].target, point)),
+                Branch::preload(legs)
+                    .map(|(stage, point)| without_rounding(legs[stage].target, point)),
             ),
             (Mark::PullOff, pull_off.map(|(_, point)| point)),
             (Mark::JumpOut, jump_out),
         ];
-        let found = found.into_iter().filter_map(|(mark, point)| Some((mark, point?)));
-        found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
+        let found = found
+            .into_iter()
+            .filter_map(|(mark, point)| Some((mark, point?)));
+        found
+            .filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0)
+            .collect()
     }
 
     /// Returns the name of the mark as charts print it beside the point, such as `pull-off`.
@@ -167,28 +187,58 @@ mod tests {
     use super::*;
 
     fn point(indentation: f64, force: f64, springs: u64) -> CurvePoint {
-        CurvePoint { indentation, force, springs, ..CurvePoint::default() }
+        CurvePoint {
+            indentation,
+            force,
+            springs,
+            ..CurvePoint::default()
+        }
     }
 
     /// A stage with this curve, of which one point is the extreme, and a released energy of 0.25 J.
-    fn leg(target: Move, direction: Direction, curve: &[CurvePoint], extreme: CurvePoint) -> LegRecord {
+    fn leg(
+        target: Move,
+        direction: Direction,
+        curve: &[CurvePoint],
+        extreme: CurvePoint,
+    ) -> LegRecord {
         let (curve, largest, smallest) = (curve.to_vec(), extreme, extreme);
         let still = LegRecord::still(target, extreme);
-        LegRecord { direction, curve, largest, smallest, released_energy: 0.25, ..still }
+        LegRecord {
+            direction,
+            curve,
+            largest,
+            smallest,
+            released_energy: 0.25,
+            ..still
+        }
     }
 
     fn pressed(force: f64) -> LegRecord {
         let extreme = point(force / 10.0, force, 3);
-        leg(Move::ToForce(force), Direction::Loading, &[point(0.0, 0.5, 1), extreme], extreme)
+        leg(
+            Move::ToForce(force),
+            Direction::Loading,
+            &[point(0.0, 0.5, 1), extreme],
+            extreme,
+        )
     }
 
     fn pulled(force: f64, springs: u64) -> LegRecord {
         let extreme = point(-0.3, force, 2);
-        leg(Move::ToSeparation, Direction::Unloading, &[extreme, point(-0.3, 0.0, springs)], extreme)
+        leg(
+            Move::ToSeparation,
+            Direction::Unloading,
+            &[extreme, point(-0.3, 0.0, springs)],
+            extreme,
+        )
     }
 
     fn figures(legs: &[LegRecord]) -> Figures {
-        Figures::of(&History { legs: legs.to_vec(), ..History::default() })
+        Figures::of(&History {
+            legs: legs.to_vec(),
+            ..History::default()
+        })
     }
 
     #[test]
@@ -204,11 +254,20 @@ mod tests {
         };
         assert_eq!(found, expected);
         // No dissipation is 0, not −0.
-        let nothing = |leg: LegRecord| LegRecord { released_energy: -0.0, ..leg };
+        let nothing = |leg: LegRecord| LegRecord {
+            released_energy: -0.0,
+            ..leg
+        };
         let lost = figures(&[nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
-        assert!(lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()), "{lost:?}");
+        assert!(
+            lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()),
+            "{lost:?}"
+        );
         // A body in contact has not completed a loop.
-        assert_eq!(figures(&[pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
+        assert_eq!(
+            figures(&[pressed(7.0), pulled(-3.0, 1)]).dissipated_energy,
+            None
+        );
         assert_eq!(figures(&[]), Figures::default());
     }
 
@@ -227,23 +286,44 @@ mod tests {
             figures(&[pressed(1.0), pulled]).adhesion_force
         };
         let rest = Some(-0.9);
-        let ends = [ends_at(-1.0, rest), ends_at(-1.0 + 1e-12, rest), ends_at(-0.9, rest)];
+        let ends = [
+            ends_at(-1.0, rest),
+            ends_at(-1.0 + 1e-12, rest),
+            ends_at(-0.9, rest),
+        ];
         assert_eq!(ends, [None, None, Some(1.0)]);
         assert_eq!([ends_at(-0.9, Some(-1.1)), ends_at(-0.9, None)], [None; 2]);
         // A coefficient that overflows is `None`, and so is that of a target force of zero, where a rounding remains.
         for pressed in [pressed(0.0), pressed(1e-320)] {
-            assert_eq!(figures(&[pressed, pulled(-1.0, 0)]).adhesion_coefficient, None);
+            assert_eq!(
+                figures(&[pressed, pulled(-1.0, 0)]).adhesion_coefficient,
+                None
+            );
         }
         for target in [Move::ToForce(0.0), Move::ToZeroForce] {
-            let found = figures(&[LegRecord { target, ..pressed(1e-18) }, pulled(-1.0, 0)]);
-            assert_eq!((found.preload, found.adhesion_coefficient), (Some(0.0), None));
+            let found = figures(&[
+                LegRecord {
+                    target,
+                    ..pressed(1e-18)
+                },
+                pulled(-1.0, 0),
+            ]);
+            assert_eq!(
+                (found.preload, found.adhesion_coefficient),
+                (Some(0.0), None)
+            );
         }
     }
 
     #[test]
     fn a_loop_has_its_marks_and_a_curve_without_adhesion_only_the_preload() {
         let up = [point(0.0, 0.0, 0), point(0.0, -1.0, 2), point(2.0, 3.0, 9)];
-        let down = [up[2], point(-1.0, -2.0, 5), point(-1.5, -0.5, 1), point(-1.5, 0.0, 0)];
+        let down = [
+            up[2],
+            point(-1.0, -2.0, 5),
+            point(-1.5, -0.5, 1),
+            point(-1.5, 0.0, 0),
+        ];
         let mut legs = [
             leg(Move::ToForce(3.0), Direction::Loading, &up, up[2]),
             leg(Move::ToSeparation, Direction::Unloading, &down, down[1]),
@@ -256,7 +336,11 @@ mod tests {
         ];
         assert_eq!(Mark::all(&legs), expected);
         legs[1].curve.remove(2);
-        assert_eq!(Mark::all(&legs), expected[..3], "the contact is lost at pull-off");
+        assert_eq!(
+            Mark::all(&legs),
+            expected[..3],
+            "the contact is lost at pull-off"
+        );
         assert_eq!(Mark::all(&[pressed(1.0)]).len(), 1);
     }
 }

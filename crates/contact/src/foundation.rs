@@ -19,13 +19,20 @@ impl Foundation {
     #[inline]
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
-        if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
+        if length > self.length * (1.0 - 2.0 * f64::EPSILON) {
+            self.length
+        } else {
+            length
+        }
     }
 
     /// Returns half the distance between the outermost edges of the contact in m; zero in separation. `patches` and `point`
     /// describe one state. Separated regions between patches are whole cells; the outermost edges may lie inside a cell.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
-        let outermost = patches.first().zip(patches.last()).map(|(one, other)| other.last - one.first + 1);
+        let outermost = patches
+            .first()
+            .zip(patches.last())
+            .map(|(one, other)| other.last - one.first + 1);
         let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
         0.5 * (point.contact_length + between as f64 * self.spacing)
     }
@@ -50,7 +57,10 @@ pub struct HessRule {
 
 impl HessRule {
     /// The rule without adhesion: the largest stretch is zero.
-    pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
+    pub const NO_ADHESION: HessRule = HessRule {
+        opening: 0.0,
+        closing: 0.0,
+    };
 
     /// Creates the rule for the works of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
     ///
@@ -62,7 +72,10 @@ impl HessRule {
             (std::f64::consts::PI * foundation.spacing * range).sqrt()
         };
         let closing = stretch(closing);
-        HessRule { opening: stretch(opening).max(closing), closing }
+        HessRule {
+            opening: stretch(opening).max(closing),
+            closing,
+        }
     }
 
     /// Returns the largest stretch of a patch of one spring in m: on unloading before it detaches, on loading as it attaches.

@@ -75,14 +75,25 @@ impl LegRecord {
     /// Creates the record of a motion of a separated body that touches nothing, from one indentation to another in m.
     pub fn free(target: Move, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(CurvePoint::free);
-        let direction = if to > from { Direction::Loading } else { Direction::Unloading };
-        LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
+        let direction = if to > from {
+            Direction::Loading
+        } else {
+            Direction::Unloading
+        };
+        LegRecord {
+            direction,
+            curve: vec![start, end],
+            ..LegRecord::still(target, end)
+        }
     }
 
     /// Inserts a point into a curve of ascending indentations, unless the curve has a point there.
     pub(super) fn insert(curve: &mut Vec<CurvePoint>, point: CurvePoint) {
         let place = curve.partition_point(|other| other.indentation < point.indentation);
-        if curve.get(place).is_none_or(|other| other.indentation > point.indentation) {
+        if curve
+            .get(place)
+            .is_none_or(|other| other.indentation > point.indentation)
+        {
             curve.insert(place, point);
         }
     }
@@ -97,7 +108,11 @@ impl LegRecord {
         released_energy: f64,
     ) -> Self {
         let changed = after.springs.abs_diff(before.springs);
-        let (attached, detached) = if direction == Direction::Loading { (changed, 0) } else { (0, changed) };
+        let (attached, detached) = if direction == Direction::Loading {
+            (changed, 0)
+        } else {
+            (0, changed)
+        };
         if direction == Direction::Unloading {
             LegRecord::insert(&mut curve, smallest);
             curve.reverse();
@@ -105,7 +120,12 @@ impl LegRecord {
         let [start, end] = [curve[0], curve[curve.len() - 1]];
         if before.springs == 0 && start.springs > 0 {
             let points = [before, CurvePoint::free(start.indentation)];
-            curve.splice(0..0, points.into_iter().skip(usize::from(before.indentation >= start.indentation)));
+            curve.splice(
+                0..0,
+                points
+                    .into_iter()
+                    .skip(usize::from(before.indentation >= start.indentation)),
+            );
         }
         if after.springs == 0 && end.springs > 0 {
             curve.push(CurvePoint::free(end.indentation));
@@ -113,7 +133,16 @@ impl LegRecord {
             curve.extend(Some(after).filter(|after| after.indentation < end.indentation));
         }
         let still = LegRecord::still(target, end);
-        LegRecord { direction, curve, largest, smallest, attached, detached, released_energy, ..still }
+        LegRecord {
+            direction,
+            curve,
+            largest,
+            smallest,
+            attached,
+            detached,
+            released_energy,
+            ..still
+        }
     }
 
     /// Returns the last point of the curve; `None` if the body is separated there.
@@ -124,7 +153,11 @@ impl LegRecord {
     /// Returns the largest number of springs in contact at any moment of the motion.
     pub fn most_springs(&self) -> u64 {
         // A motion in one direction only attaches or only detaches springs.
-        self.curve.iter().map(|point| point.springs).max().unwrap_or(0)
+        self.curve
+            .iter()
+            .map(|point| point.springs)
+            .max()
+            .unwrap_or(0)
     }
 
     /// Returns the indentation in m at the beginning of the motion.
@@ -274,7 +307,10 @@ pub struct CurvePoint {
 impl CurvePoint {
     /// Returns the point of a body that touches nothing at an indentation in m.
     pub(crate) fn free(indentation: f64) -> Self {
-        CurvePoint { indentation, ..CurvePoint::default() }
+        CurvePoint {
+            indentation,
+            ..CurvePoint::default()
+        }
     }
 
     /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body at this point. The
@@ -316,10 +352,16 @@ impl Patch {
     /// Returns the contact patches from left to right. `contact` has one item for each spring, true for a spring in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
-        for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {
+        for spring in contact
+            .enumerate()
+            .filter_map(|(spring, contact)| contact.then_some(spring))
+        {
             match patches.last_mut() {
                 Some(patch) if patch.last + 1 == spring => patch.last = spring,
-                _ => patches.push(Patch { first: spring, last: spring }),
+                _ => patches.push(Patch {
+                    first: spring,
+                    last: spring,
+                }),
             }
         }
         patches
@@ -365,11 +407,15 @@ pub(super) fn plan(
     let separated = here.springs == 0;
     let goal = match Goal::from(target) {
         // Nothing deflects a rigid instrument, nor any other before the touch.
-        Goal::Displacement(at) if stiffness.is_infinite() || separated && at < 0.0 => Goal::Indentation(at),
+        Goal::Displacement(at) if stiffness.is_infinite() || separated && at < 0.0 => {
+            Goal::Indentation(at)
+        }
         goal => goal,
     };
     let order = match goal {
-        Goal::Force(value) | Goal::Indentation(value) | Goal::Displacement(value) if !value.is_finite() => {
+        Goal::Force(value) | Goal::Indentation(value) | Goal::Displacement(value)
+            if !value.is_finite() =>
+        {
             return Err(ContactError::NotFinite(value));
         }
         Goal::Force(force) if separated && force < 0.0 => return Err(ContactError::NothingToPull),

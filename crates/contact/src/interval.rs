@@ -44,20 +44,38 @@ impl Intervals {
     /// Creates intervals from the contact at both ends of each. `instrument` is a number of springs parallel to the contact.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let of = |&[low, high]: &[ContactState; 2]| {
-            let steps = Rc::new(vec![Step { threshold: low.indentation, totals: low.totals }]);
-            Interval { slides, instrument, scale, steps, pieces: Vec::new(), low, high }
+            let steps = Rc::new(vec![Step {
+                threshold: low.indentation,
+                totals: low.totals,
+            }]);
+            Interval {
+                slides,
+                instrument,
+                scale,
+                steps,
+                pieces: Vec::new(),
+                low,
+                high,
+            }
         };
         Intervals(ends.iter().map(of).collect())
     }
 
     pub fn ends(&self) -> (f64, f64) {
-        (self.0[0].low.indentation, self.0[self.0.len() - 1].high.indentation)
+        (
+            self.0[0].low.indentation,
+            self.0[self.0.len() - 1].high.indentation,
+        )
     }
 
     /// Returns the index range of the intervals that overlap the indentations from `from` to `to` in m.
     pub fn between(&self, from: f64, to: f64) -> Range<usize> {
-        let first = self.0.partition_point(|interval| interval.high.indentation < from);
-        let end = self.0.partition_point(|interval| interval.low.indentation < to);
+        let first = self
+            .0
+            .partition_point(|interval| interval.high.indentation < from);
+        let end = self
+            .0
+            .partition_point(|interval| interval.low.indentation < to);
         // A part without extent may end a rounding before it begins.
         first..end.max(first)
     }
@@ -75,7 +93,9 @@ impl Intervals {
 
     pub fn add_piece(&mut self, piece: Piece) {
         let range = self.between(piece.from, piece.to);
-        self.0[range].iter_mut().for_each(|interval| interval.pieces.push(piece));
+        self.0[range]
+            .iter_mut()
+            .for_each(|interval| interval.pieces.push(piece));
     }
 
     /// Returns the intervals with sorted events, and adds the number of events to `sorted`.
@@ -113,21 +133,33 @@ impl Interval {
 
     /// Returns the whole springs or cells in contact at an indentation in m.
     fn totals(&self, indentation: f64) -> ContactTotals {
-        let above = self.steps.partition_point(|step| step.threshold <= indentation);
+        let above = self
+            .steps
+            .partition_point(|step| step.threshold <= indentation);
         self.steps[above.saturating_sub(1)].totals
     }
 
     fn sliders(&self, indentation: f64) -> impl Iterator<Item = Slider> {
-        self.pieces.iter().filter(move |piece| piece.is_at(indentation)).map(|piece| piece.slider)
+        self.pieces
+            .iter()
+            .filter(move |piece| piece.is_at(indentation))
+            .map(|piece| piece.slider)
     }
 
     /// Returns the contact at the indentation `at` (m), if no event lies between `from` and `at`: no edge jumps, and no patch
     /// merges or splits. The force is convex in `at`.
     fn steady(&self, from: f64, at: f64) -> ContactState {
         let mut edges = EdgeSum::default();
-        self.sliders(from).for_each(|slider| edges.add(slider.edge_cells(at)));
-        ContactState::new(self.slides, at, self.totals(from), edges.total(), &self.scale)
-            .beside(self.instrument)
+        self.sliders(from)
+            .for_each(|slider| edges.add(slider.edge_cells(at)));
+        ContactState::new(
+            self.slides,
+            at,
+            self.totals(from),
+            edges.total(),
+            &self.scale,
+        )
+        .beside(self.instrument)
     }
 
     /// Returns the derivative of the compression with respect to the indentation, in cells, at `at` in m, if no event lies
@@ -144,7 +176,11 @@ impl Interval {
         if self.stiffness(low) >= 0.0 {
             return low;
         }
-        if self.stiffness(last) <= 0.0 { last } else { bisect(low, last, |at| self.stiffness(at) >= 0.0) }
+        if self.stiffness(last) <= 0.0 {
+            last
+        } else {
+            bisect(low, last, |at| self.stiffness(at) >= 0.0)
+        }
     }
 
     /// Returns the contact at the middle event inside; `None` without an event.
@@ -158,9 +194,16 @@ impl Interval {
     }
 
     fn between(&self, low: ContactState, high: ContactState) -> Self {
-        let overlaps = |piece: &&Piece| piece.from <= high.indentation && piece.to > low.indentation;
+        let overlaps =
+            |piece: &&Piece| piece.from <= high.indentation && piece.to > low.indentation;
         let pieces = self.pieces.iter().filter(overlaps).copied().collect();
-        Interval { steps: Rc::clone(&self.steps), pieces, low, high, ..*self }
+        Interval {
+            steps: Rc::clone(&self.steps),
+            pieces,
+            low,
+            high,
+            ..*self
+        }
     }
 
     /// Replaces `best` by the contact of the extreme force inside, if its force is beyond `best`. No force at an end is beyond
@@ -194,7 +237,10 @@ impl Interval {
     /// back from E the body jumps.
     pub fn jumped(&self, loads: bool, extreme: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
-            let [low, high] = [self.between(self.low, middle), self.between(middle, self.high)];
+            let [low, high] = [
+                self.between(self.low, middle),
+                self.between(middle, self.high),
+            ];
             let [first, second] = if loads { [low, high] } else { [high, low] };
             return first.jumped(loads, extreme) + second.jumped(loads, extreme);
         }
@@ -226,16 +272,22 @@ impl Interval {
             false => to,
         };
         *extreme = least;
-        (self.work(back, to) - level * (to - back)) + (self.work(from, flattest) - least * (flattest - from))
+        (self.work(back, to) - level * (to - back))
+            + (self.work(from, flattest) - least * (flattest - from))
     }
 
     /// Computes ∫ C dd over a range of indentations in m without an event inside, where C is the compression. The integral is
     /// half of the growth of ∫ (d − c)² dx minus the squared stretch with which springs attach at the sliding edges.
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
-        let surface = |at: f64| self.sliders(from).map(|slider| slider.surface(at)).sum::<f64>();
+        let surface = |at: f64| {
+            self.sliders(from)
+                .map(|slider| slider.surface(at))
+                .sum::<f64>()
+        };
         let squares = self.steady(from, high).squares - self.steady(from, low).squares;
-        0.5 * (squares - (surface(high) - surface(low)) + self.instrument * (high - low) * (high + low))
+        0.5 * (squares - (surface(high) - surface(low))
+            + self.instrument * (high - low) * (high + low))
     }
 
     /// Returns the smallest indentation in the interval with at least this compression. The compression at the lower end is
@@ -251,7 +303,9 @@ impl Interval {
         // Convex and below `wanted` at first: one crossing.
         let (from, to) = self.ends();
         let passes = |at: f64| self.steady(from, at).compression - wanted;
-        let found = (passes(to) >= 0.0).then(|| crossing(from, to, passes)).filter(|&found| found < to);
+        let found = (passes(to) >= 0.0)
+            .then(|| crossing(from, to, passes))
+            .filter(|&found| found < to);
         found.or_else(|| (self.high.compression >= wanted).then_some(to))
     }
 
@@ -275,7 +329,11 @@ impl Interval {
             return (self.low.compression <= wanted).then_some(from);
         }
         // The compression rises from there on: the last number at which it has not passed `wanted`.
-        Some(if passes(last) > 0.0 { last_before(flattest, last, passes) } else { last })
+        Some(if passes(last) > 0.0 {
+            last_before(flattest, last, passes)
+        } else {
+            last
+        })
     }
 }
 
@@ -297,7 +355,11 @@ pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64
         if middle <= low || middle >= high {
             break;
         }
-        if is_past(middle) { high = middle } else { low = middle }
+        if is_past(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
     }
     high
 }
@@ -331,7 +393,11 @@ fn enclose(
     for guess in 0..GUESSES {
         let middle = low + 0.5 * (high - low);
         let between = high - above * ((high - low) / (above - below));
-        let at = if guess % 4 != 3 && between > low && between < high { between } else { middle };
+        let at = if guess % 4 != 3 && between > low && between < high {
+            between
+        } else {
+            middle
+        };
         if at <= low || at >= high {
             break;
         }
@@ -376,6 +442,10 @@ mod tests {
                 zeros += 2;
             }
         }
-        assert!(evaluations.get() <= 40 * zeros, "{} evaluations for {zeros} zeros", evaluations.get());
+        assert!(
+            evaluations.get() <= 40 * zeros,
+            "{} evaluations for {zeros} zeros",
+            evaluations.get()
+        );
     }
 }

@@ -36,9 +36,19 @@ impl Modulus {
     /// Returns [`ContactError::Value`] if Young's modulus is not from 1e-50 to 1e50 Pa. Returns the same error if Poisson's
     /// ratio is −1 or less, or more than 0.5.
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
-        check("Young's modulus", youngs_modulus, is_positive(youngs_modulus), PASCALS)?;
+        check(
+            "Young's modulus",
+            youngs_modulus,
+            is_positive(youngs_modulus),
+            PASCALS,
+        )?;
         let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
-        check("Poisson's ratio", poisson_ratio, is_allowed, "above -1 and at most 0.5")?;
+        check(
+            "Poisson's ratio",
+            poisson_ratio,
+            is_allowed,
+            "above -1 and at most 0.5",
+        )?;
         // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
         Modulus::effective(youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio)))
     }

@@ -69,7 +69,9 @@ pub fn load_body(
 ) -> Result<History, ContactError> {
     let mut history = History::default();
     for (index, &target) in targets.iter().enumerate() {
-        let record = solver.advance(target).map_err(|reason| reason.in_stage(index, target))?;
+        let record = solver
+            .advance(target)
+            .map_err(|reason| reason.in_stage(index, target))?;
         after(&record, &solver.leg())?;
         history.legs.push(record);
     }

@@ -62,7 +62,9 @@ pub fn falls_to_both_ends(gaps: &[f64]) -> bool {
 /// Returns true if mean gaps, from the summit of the body to one of its ends, grow from part to part, and at the end as fast
 /// as on the way.
 fn falls_to_end(means: &[f64]) -> bool {
-    let [.., before, last] = means else { return false };
+    let [.., before, last] = means else {
+        return false;
+    };
     let always_grow = means.windows(2).all(|pair| pair[0] < pair[1]);
     let mean_growth = (last - means[0]) / (means.len() - 1) as f64;
     always_grow && last - before >= LEAST_FALL_AT_ENDS * mean_growth

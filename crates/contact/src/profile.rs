@@ -63,10 +63,19 @@ impl Profile {
         let mut heights = heights.into();
         let [_, summit] = ends(&heights, LARGEST).map_err(|index| {
             let allowed = "from -1e50 to 1e50 m";
-            value(format!("height with index {index}"), heights[index], allowed)
+            value(
+                format!("height with index {index}"),
+                heights[index],
+                allowed,
+            )
         })?;
-        heights.iter_mut().for_each(|height| *height = summit - *height);
-        Ok(Profile { summit, ..Profile::from_gaps(heights, spacing)? })
+        heights
+            .iter_mut()
+            .for_each(|height| *height = summit - *height);
+        Ok(Profile {
+            summit,
+            ..Profile::from_gaps(heights, spacing)?
+        })
     }
 
     /// Creates a profile from the gaps in m of an equivalent line, at points with this spacing in m. A gap is the depth of a
@@ -88,17 +97,49 @@ impl Profile {
         let gaps = gaps.into();
         let points = gaps.len();
         let is_allowed = (1..=MOST_POINTS).contains(&points);
-        check("number of points", points as f64, is_allowed, "from 1 to 268435456")?;
+        check(
+            "number of points",
+            points as f64,
+            is_allowed,
+            "from 1 to 268435456",
+        )?;
         let metres = "from 1e-50 to 1e50 m";
         let length = spacing * points as f64;
         check("spacing", spacing, is_positive(spacing), metres)?;
         check("spacing times points", length, is_positive(length), metres)?;
-        let not_finite = |index| value(format!("gap with index {index}"), gaps[index], "from 0 to 1e50 m");
+        let not_finite = |index| {
+            value(
+                format!("gap with index {index}"),
+                gaps[index],
+                "from 0 to 1e50 m",
+            )
+        };
         let [smallest, deepest] = ends(&gaps, f64::MAX).map_err(not_finite)?;
-        check("smallest gap of the profile", smallest, smallest == 0.0, "0: the highest point has no gap")?;
-        check("largest gap of the profile", deepest, deepest <= LARGEST, "at most 1e50 m")?;
-        let springs = Arc::new(Springs { gaps, deepest, trees: Default::default() });
-        Ok(Profile { springs, spacing, length, first: 0, summit: 0.0, nominal_form: NominalForm::Unstated })
+        check(
+            "smallest gap of the profile",
+            smallest,
+            smallest == 0.0,
+            "0: the highest point has no gap",
+        )?;
+        check(
+            "largest gap of the profile",
+            deepest,
+            deepest <= LARGEST,
+            "at most 1e50 m",
+        )?;
+        let springs = Arc::new(Springs {
+            gaps,
+            deepest,
+            trees: Default::default(),
+        });
+        Ok(Profile {
+            springs,
+            spacing,
+            length,
+            first: 0,
+            summit: 0.0,
+            nominal_form: NominalForm::Unstated,
+        })
     }
 
     /// Places the profile on a foundation, a row of springs, of the length `length` in m. The foundation may be longer than
@@ -121,7 +162,11 @@ impl Profile {
         let is_allowed = is_positive(length) && end <= length * (1.0 + 1e-9);
         let allowed = "at least the end of the profile, at most 1e50 m";
         check("length of the foundation", length, is_allowed, allowed)?;
-        Ok(Profile { length, first, ..self })
+        Ok(Profile {
+            length,
+            first,
+            ..self
+        })
     }
 
     /// Moves the profile in height, so that its highest point lies at this height in m.
@@ -129,14 +174,22 @@ impl Profile {
     /// # Errors
     /// Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
     pub fn with_summit(self, summit: f64) -> Result<Self, ContactError> {
-        check("height of the highest point", summit, summit.abs() <= LARGEST, "from -1e50 to 1e50 m")?;
+        check(
+            "height of the highest point",
+            summit,
+            summit.abs() <= LARGEST,
+            "from -1e50 to 1e50 m",
+        )?;
         Ok(Profile { summit, ..self })
     }
 
     /// States the form of the body. [`Cycle::warnings`](crate::Cycle::warnings) depends on it; forces and energies do not.
     #[must_use]
     pub fn with_nominal_form(self, nominal_form: NominalForm) -> Self {
-        Profile { nominal_form, ..self }
+        Profile {
+            nominal_form,
+            ..self
+        }
     }
 
     /// Returns the form of the body that was stated by [`Profile::with_nominal_form`].
@@ -162,7 +215,9 @@ impl Profile {
             return None;
         }
         let radius = radius_of_cut(self.gaps(), self.spacing);
-        Some(radius.map_or(Warning::HeightsAsProfile, |radius| Warning::CutLikeHeights { radius }))
+        Some(radius.map_or(Warning::HeightsAsProfile, |radius| {
+            Warning::CutLikeHeights { radius }
+        }))
     }
 
     /// Returns the number of points N, one for each spring under the profile.
@@ -244,7 +299,9 @@ impl Profile {
 impl PartialEq for Profile {
     fn eq(&self, other: &Self) -> bool {
         let of = |profile: &Self| [profile.spacing, profile.length, profile.summit];
-        of(self) == of(other) && self.first == other.first && self.springs.gaps == other.springs.gaps
+        of(self) == of(other)
+            && self.first == other.first
+            && self.springs.gaps == other.springs.gaps
     }
 }
 
@@ -259,7 +316,11 @@ impl Springs {
         self.tree_in(ContactTree::default(), edges)
     }
 
-    fn tree_in(&self, memory: ContactTree, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
+    fn tree_in(
+        &self,
+        memory: ContactTree,
+        edges: Edges,
+    ) -> Result<&Arc<ContactTree>, ContactError> {
         let tree = &self.trees[edges as usize];
         if let Some(tree) = tree.get() {
             return Ok(tree);
@@ -270,13 +331,18 @@ impl Springs {
 }
 
 fn value(name: String, value: f64, allowed: &'static str) -> ContactError {
-    ContactError::Value { name, value, allowed }
+    ContactError::Value {
+        name,
+        value,
+        allowed,
+    }
 }
 
 /// Returns the smallest and the largest value. The error is the index of the first value whose magnitude is not at most `most`.
 fn ends(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
     // In parallel: a sequence of comparisons would wait for each one.
-    let (mut smallest, mut largest, mut is_number) = ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8], true);
+    let (mut smallest, mut largest, mut is_number) =
+        ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8], true);
     let mut take = |values: &[f64]| {
         for ((smallest, largest), &value) in smallest.iter_mut().zip(&mut largest).zip(values) {
             *smallest = if value < *smallest { value } else { *smallest };
@@ -293,5 +359,8 @@ fn ends(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
     if values.is_empty() || is_number && is_allowed(smallest) && is_allowed(largest) {
         return Ok([smallest, largest]);
     }
-    Err(values.iter().position(|&value| !is_allowed(value)).unwrap_or(0))
+    Err(values
+        .iter()
+        .position(|&value| !is_allowed(value))
+        .unwrap_or(0))
 }

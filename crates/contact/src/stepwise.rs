@@ -73,7 +73,10 @@ impl<'a> Stepwise<'a> {
             squared_stretch: 0.0,
             holds: resized(Vec::new(), springs, false)?,
             thresholds: resized(Vec::new(), springs, f64::INFINITY)?,
-            work: Work { springs: springs as u64, ..Work::default() },
+            work: Work {
+                springs: springs as u64,
+                ..Work::default()
+            },
         })
     }
 
@@ -86,7 +89,11 @@ impl<'a> Stepwise<'a> {
         let spring = ContactTotals::of_patch(&[gap], false, self.contact.profile.springs.scale());
         let squared_stretch = (gap - at).max(0.0).powi(2);
         self.totals += if attaches { spring } else { -spring };
-        self.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };
+        self.squared_stretch += if attaches {
+            -squared_stretch
+        } else {
+            squared_stretch
+        };
     }
 
     /// Sweeps until no spring touches and no patch grows.
@@ -118,11 +125,20 @@ impl<'a> Stepwise<'a> {
             let (mut start, mut end) = (start, start + 1);
             loop {
                 end += self.holds[end..].iter().take_while(|&&holds| holds).count();
-                start -= self.holds[..start].iter().rev().take_while(|&&holds| holds).count();
-                let stretch = self.contact.rule().largest_stretch(Direction::Loading, end - start);
+                start -= self.holds[..start]
+                    .iter()
+                    .rev()
+                    .take_while(|&&holds| holds)
+                    .count();
+                let stretch = self
+                    .contact
+                    .rule()
+                    .largest_stretch(Direction::Loading, end - start);
                 self.work.spring_updates += 2;
                 let takes = |index: &usize| gaps.get(*index).is_some_and(|gap| gap - stretch <= at);
-                let next = Some(end).filter(takes).or_else(|| start.checked_sub(1).filter(takes));
+                let next = Some(end)
+                    .filter(takes)
+                    .or_else(|| start.checked_sub(1).filter(takes));
                 let Some(next) = next else { break };
                 self.change(next, true, at);
             }
@@ -138,9 +154,16 @@ impl<'a> Stepwise<'a> {
             self.work.relaxation_sweeps += 1;
             let mut first = 0;
             while first < gaps.len() {
-                let end = first + self.holds[first..].iter().take_while(|&&holds| holds).count();
+                let end = first
+                    + self.holds[first..]
+                        .iter()
+                        .take_while(|&&holds| holds)
+                        .count();
                 self.work.spring_updates += 2 * (end - first) as u64 + 1;
-                let stretch = self.contact.rule().largest_stretch(Direction::Unloading, end - first);
+                let stretch = self
+                    .contact
+                    .rule()
+                    .largest_stretch(Direction::Unloading, end - first);
                 for (place, &gap) in gaps[first..end].iter().enumerate() {
                     // A spring stretched too far here is stretched too far in each part of the fragment as well.
                     if at <= gap - stretch && at < gap {
@@ -156,11 +179,23 @@ impl<'a> Stepwise<'a> {
     }
 
     fn point(&self) -> CurvePoint {
-        let fragments = self.holds.chunk_by(PartialEq::eq).filter(|run| run[0]).count();
-        let totals = ContactTotals { fragments: fragments as i64, ..self.totals };
+        let fragments = self
+            .holds
+            .chunk_by(PartialEq::eq)
+            .filter(|run| run[0])
+            .count();
+        let totals = ContactTotals {
+            fragments: fragments as i64,
+            ..self.totals
+        };
         let edges = EdgeCells::default();
-        let state =
-            ContactState::new(false, self.indentation, totals, edges, &self.contact.profile.springs.scale());
+        let state = ContactState::new(
+            false,
+            self.indentation,
+            totals,
+            edges,
+            &self.contact.profile.springs.scale(),
+        );
         state.point(self.contact.foundation)
     }
 
@@ -181,14 +216,35 @@ impl<'a> Stepwise<'a> {
             return Err(ContactError::OutOfReach);
         }
         // From separation the first step is the touch.
-        let start = if self.totals.springs == 0 { start.max(0.0) } else { start };
-        let way = if direction == Direction::Loading { end - start } else { start - end };
-        if way / self.step > STEP_LIMIT as f64 { Err(ContactError::TooManySteps(self.step)) } else { Ok(()) }
+        let start = if self.totals.springs == 0 {
+            start.max(0.0)
+        } else {
+            start
+        };
+        let way = if direction == Direction::Loading {
+            end - start
+        } else {
+            start - end
+        };
+        if way / self.step > STEP_LIMIT as f64 {
+            Err(ContactError::TooManySteps(self.step))
+        } else {
+            Ok(())
+        }
     }
 
-    fn walk(&mut self, target: Move, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
+    fn walk(
+        &mut self,
+        target: Move,
+        direction: Direction,
+        goal: Goal,
+    ) -> Result<LegRecord, ContactError> {
         for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
-            *threshold = if holds { f64::NEG_INFINITY } else { f64::INFINITY };
+            *threshold = if holds {
+                f64::NEG_INFINITY
+            } else {
+                f64::INFINITY
+            };
         }
         (self.direction, self.squared_stretch) = (direction, 0.0);
         let here = self.point();
@@ -196,7 +252,11 @@ impl<'a> Stepwise<'a> {
         let loads = direction == Direction::Loading;
         // From separation the first step is the touch.
         let touches = here.springs == 0 && loads;
-        let origin = if touches { here.indentation.max(0.0) } else { here.indentation };
+        let origin = if touches {
+            here.indentation.max(0.0)
+        } else {
+            here.indentation
+        };
         for steps in u64::from(!touches).. {
             if (self.stop)() {
                 return Err(ContactError::Interrupted);
@@ -206,7 +266,11 @@ impl<'a> Stepwise<'a> {
             }
             let held_until = self.indentation;
             let moved = steps as f64 * self.step;
-            let wanted = if loads { origin + moved } else { origin - moved };
+            let wanted = if loads {
+                origin + moved
+            } else {
+                origin - moved
+            };
             self.indentation = match goal {
                 Goal::Indentation(end) if loads => wanted.min(end),
                 Goal::Indentation(end) => wanted.max(end),
@@ -219,14 +283,24 @@ impl<'a> Stepwise<'a> {
                 self.relax_unloading(held_until)
             }
             let point = self.point();
-            largest = if point.force > largest.force { point } else { largest };
-            smallest = if point.force < smallest.force { point } else { smallest };
+            largest = if point.force > largest.force {
+                point
+            } else {
+                largest
+            };
+            smallest = if point.force < smallest.force {
+                point
+            } else {
+                smallest
+            };
             let holds = point.springs > 0;
             let reached = match goal {
                 Goal::Indentation(end) => point.indentation == end,
                 Goal::Force(force) if loads => point.force >= force,
                 Goal::Force(_) if !holds => {
-                    return Err(ContactError::DetachesBefore { smallest: smallest.force });
+                    return Err(ContactError::DetachesBefore {
+                        smallest: smallest.force,
+                    });
                 }
                 Goal::Force(force) => point.force <= force,
                 Goal::Separation(_) | Goal::Displacement(_) => !holds,
@@ -236,7 +310,11 @@ impl<'a> Stepwise<'a> {
             }
         }
         // The sum counts detachments.
-        let squared = if loads { -self.squared_stretch } else { self.squared_stretch };
+        let squared = if loads {
+            -self.squared_stretch
+        } else {
+            self.squared_stretch
+        };
         let (leg, end) = (self.leg(), self.point());
         let (low, high) = (origin.min(end.indentation), origin.max(end.indentation));
         let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
@@ -248,7 +326,10 @@ impl<'a> Stepwise<'a> {
             leg.energy(squared),
         );
         let reaches_ends = leg.reaches_ends(high);
-        let record = LegRecord { reaches_ends, ..record };
+        let record = LegRecord {
+            reaches_ends,
+            ..record
+        };
         self.work.count(&record);
         Ok(record)
     }
@@ -284,9 +365,15 @@ impl MovingBody for Stepwise<'_> {
                 self.check_steps(direction, goal)?;
                 let before = self.clone();
                 match self.walk(target, direction, goal) {
-                    Ok(record) => Ok(LegRecord { smallest_of_rest: self.rest(direction)?, ..record }),
+                    Ok(record) => Ok(LegRecord {
+                        smallest_of_rest: self.rest(direction)?,
+                        ..record
+                    }),
                     Err(error) => {
-                        *self = Stepwise { work: self.work, ..before };
+                        *self = Stepwise {
+                            work: self.work,
+                            ..before
+                        };
                         Err(error)
                     }
                 }
@@ -295,7 +382,12 @@ impl MovingBody for Stepwise<'_> {
     }
 
     fn leg(&self) -> Leg {
-        Leg::of_thresholds(self.contact, self.direction, self.indentation, self.thresholds.clone())
+        Leg::of_thresholds(
+            self.contact,
+            self.direction,
+            self.indentation,
+            self.thresholds.clone(),
+        )
     }
 
     fn work(&self) -> Work {

@@ -29,7 +29,12 @@ pub struct Thresholds<'a> {
 impl<'a> Thresholds<'a> {
     pub fn new(contact: &'a Contact, thresholds: &'a [f64]) -> Self {
         let slides = contact.edges == Edges::SubCell;
-        Thresholds { gaps: contact.gaps(), thresholds, slides, scale: contact.profile.springs.scale() }
+        Thresholds {
+            gaps: contact.gaps(),
+            thresholds,
+            slides,
+            scale: contact.profile.springs.scale(),
+        }
     }
 
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
@@ -41,7 +46,12 @@ impl<'a> Thresholds<'a> {
             let place = tally.place(threshold);
             let (below, at_most) = tally.ends_before(place);
             let together = |other: &&f64| below < **other && **other <= at_most;
-            let end = first + 1 + self.thresholds[first + 1..].iter().take_while(together).count();
+            let end = first
+                + 1
+                + self.thresholds[first + 1..]
+                    .iter()
+                    .take_while(together)
+                    .count();
             if place < never {
                 tally.begin(place, self.totals(first..end));
             }
@@ -66,20 +76,35 @@ impl<'a> Thresholds<'a> {
             }
         }
         for cell in self.thresholds.windows(2).filter(|_| self.slides) {
-            let (from, to) = if cell[0] < cell[1] { (cell[0], cell[1]) } else { (cell[1], cell[0]) };
+            let (from, to) = if cell[0] < cell[1] {
+                (cell[0], cell[1])
+            } else {
+                (cell[1], cell[0])
+            };
             if from < to && from <= high && to > low {
-                intervals.add_piece(Piece { slider: Slider::of_cell(from, to), from, to });
+                intervals.add_piece(Piece {
+                    slider: Slider::of_cell(from, to),
+                    from,
+                    to,
+                });
             }
         }
         for (from, slider) in self.ends() {
-            intervals.add_piece(Piece { slider, from, to: f64::INFINITY });
+            intervals.add_piece(Piece {
+                slider,
+                from,
+                to: f64::INFINITY,
+            });
         }
     }
 
     /// Returns the half cells at both ends of the foundation, each with the gap of its spring in m; none for whole springs.
     fn ends(&self) -> impl Iterator<Item = (f64, Slider)> {
-        let ends = [self.thresholds.first(), self.thresholds.last()].into_iter().flatten();
-        ends.filter(|_| self.slides).map(|&gap| (gap, Slider::half_cell(gap)))
+        let ends = [self.thresholds.first(), self.thresholds.last()]
+            .into_iter()
+            .flatten();
+        ends.filter(|_| self.slides)
+            .map(|&gap| (gap, Slider::half_cell(gap)))
     }
 
     /// Returns what a range of neighbouring springs adds to the totals once all of them are in contact.
@@ -90,7 +115,10 @@ impl<'a> Thresholds<'a> {
     fn totals(&self, springs: Range<usize>) -> ContactTotals {
         let Range { start, end } = springs;
         let left = start > 0 && self.thresholds[start - 1] < self.thresholds[start];
-        let right = self.thresholds.get(end).is_some_and(|&after| after <= self.thresholds[end - 1]);
+        let right = self
+            .thresholds
+            .get(end)
+            .is_some_and(|&after| after <= self.thresholds[end - 1]);
         let gaps = if self.slides {
             &self.gaps[start - usize::from(left)..end + usize::from(right)]
         } else {
@@ -98,6 +126,10 @@ impl<'a> Thresholds<'a> {
         };
         let fragments = 1 - i64::from(left) - i64::from(right);
         let springs = (end - start) as i64;
-        ContactTotals { springs, fragments, ..ContactTotals::of_patch(gaps, self.slides, self.scale) }
+        ContactTotals {
+            springs,
+            fragments,
+            ..ContactTotals::of_patch(gaps, self.slides, self.scale)
+        }
     }
 }

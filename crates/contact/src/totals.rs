@@ -31,11 +31,15 @@ impl GapScale {
     /// Creates the scale for gaps up to `largest` (m, finite, at least zero).
     pub fn for_gaps_up_to(largest: f64) -> Self {
         // The smallest power of two above the largest gap, which may be zero.
-        let above = (largest.max(f64::MIN_POSITIVE).to_bits() >> MANTISSA_BITS) as i32 - EXPONENT_BIAS + 1;
+        let above =
+            (largest.max(f64::MIN_POSITIVE).to_bits() >> MANTISSA_BITS) as i32 - EXPONENT_BIAS + 1;
         let exponent = (GAP_BITS - above).min(LARGEST_SCALE_EXPONENT);
         let power_of_two =
             |exponent: i32| f64::from_bits(((EXPONENT_BIAS + exponent) as u64) << MANTISSA_BITS);
-        GapScale { quanta_per_metre: power_of_two(exponent), quantum: power_of_two(-exponent) }
+        GapScale {
+            quanta_per_metre: power_of_two(exponent),
+            quantum: power_of_two(-exponent),
+        }
     }
 
     /// Returns a gap (m) in quanta, rounded down.
@@ -76,14 +80,19 @@ pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     } else {
         gaps.iter().for_each(|&gap| add(gap));
     }
-    [i128::from(sum), ((squares + twelfth(squared_differences)) >> SQUARE_BITS).cast_signed()]
+    [
+        i128::from(sum),
+        ((squares + twelfth(squared_differences)) >> SQUARE_BITS).cast_signed(),
+    ]
 }
 
 /// Returns a twelfth of a number, at most 13 too small. A division of 128 bits would take longer than all other sums.
 #[inline]
 fn twelfth(number: u128) -> u128 {
     let [high, low] = [(number >> 64) as u64, number as u64];
-    (u128::from(high / 12) << 64) + u128::from(high % 12) * u128::from(u64::MAX / 12) + u128::from(low / 12)
+    (u128::from(high / 12) << 64)
+        + u128::from(high % 12) * u128::from(u64::MAX / 12)
+        + u128::from(low / 12)
 }
 
 /// The springs in contact at one indentation: their number, the number of patches, and the sums of their gaps and squared gaps.
@@ -102,14 +111,20 @@ pub struct ContactTotals {
 impl ContactTotals {
     /// Computes the totals of one patch: of its springs, or with `slides` of the cells between its springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
-        let mut totals = ContactTotals { springs: gaps.len() as i64, fragments: 1, ..Self::default() };
+        let mut totals = ContactTotals {
+            springs: gaps.len() as i64,
+            fragments: 1,
+            ..Self::default()
+        };
         let mut add = |[quanta, squares]: [i128; 2]| {
             (totals.quanta, totals.squares) = (totals.quanta + quanta, totals.squares + squares);
         };
         if slides {
-            gaps.windows(2).for_each(|cell| add(sums_of_few(cell, true, scale)));
+            gaps.windows(2)
+                .for_each(|cell| add(sums_of_few(cell, true, scale)));
         } else {
-            gaps.windows(1).for_each(|spring| add(sums_of_few(spring, false, scale)));
+            gaps.windows(1)
+                .for_each(|spring| add(sums_of_few(spring, false, scale)));
         }
         totals
     }
@@ -158,8 +173,18 @@ impl std::ops::Neg for ContactTotals {
 
     #[inline]
     fn neg(self) -> ContactTotals {
-        let ContactTotals { springs, fragments, quanta, squares } = self;
-        ContactTotals { springs: -springs, fragments: -fragments, quanta: -quanta, squares: -squares }
+        let ContactTotals {
+            springs,
+            fragments,
+            quanta,
+            squares,
+        } = self;
+        ContactTotals {
+            springs: -springs,
+            fragments: -fragments,
+            quanta: -quanta,
+            squares: -squares,
+        }
     }
 }
 
@@ -184,27 +209,39 @@ pub struct SquareScale {
 impl SquareScale {
     /// Creates the unit for gaps of this scale and indentations between `−largest` and `largest` in m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
-        let GapScale { mut quanta_per_metre, mut quantum } = scale;
+        let GapScale {
+            mut quanta_per_metre,
+            mut quantum,
+        } = scale;
         let mut coarser = 0;
         while largest * quanta_per_metre >= (1_u64 << (GAP_BITS + 1)) as f64 {
-            (quanta_per_metre, quantum, coarser) = (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
+            (quanta_per_metre, quantum, coarser) =
+                (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
         }
-        SquareScale { quanta_per_metre, quantum, coarser }
+        SquareScale {
+            quanta_per_metre,
+            quantum,
+            coarser,
+        }
     }
 
     /// Computes Σ (c − θ)² over `count` springs or cells at the indentation θ in m, as an integer in this unit and a remainder
     /// in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
         let shifted = |sum: i128, bits: u32| sum.checked_shr(bits).unwrap_or(0);
-        let (first, second) =
-            (shifted(totals.quanta, self.coarser), shifted(totals.squares, 2 * self.coarser));
+        let (first, second) = (
+            shifted(totals.quanta, self.coarser),
+            shifted(totals.squares, 2 * self.coarser),
+        );
         let exact = indentation * self.quanta_per_metre;
         let whole = i128::from(exact as i64);
         let number = i128::from(count);
         let factor = number * whole - 2 * first;
         let rest = factor & ((1 << SQUARE_BITS) - 1);
         let product = (factor >> SQUARE_BITS).wrapping_mul(whole);
-        let sum = second.wrapping_add(product).wrapping_add((rest * whole) >> SQUARE_BITS);
+        let sum = second
+            .wrapping_add(product)
+            .wrapping_add((rest * whole) >> SQUARE_BITS);
         let part = exact - whole as f64;
         let remainder = part * (2.0 * (number * whole - first) as f64 + count as f64 * part);
         (sum, remainder * self.quantum * self.quantum)
@@ -293,12 +330,16 @@ mod tests {
         let mut totals = ContactTotals::default();
         for &gap in gaps {
             let quanta = i128::from(scale.quanta(gap));
-            totals += ContactTotals { springs: 1, quanta, ..ContactTotals::default() };
+            totals += ContactTotals {
+                springs: 1,
+                quanta,
+                ..ContactTotals::default()
+            };
         }
         let (springs, sum) = (gaps.len() as f64, sum_of(gaps));
         let mean = sum.rounded() / springs;
-        let balances =
-            [-3, -1, 0, 1, 2].map(|places| f64::from_bits(mean.to_bits().saturating_add_signed(places)));
+        let balances = [-3, -1, 0, 1, 2]
+            .map(|places| f64::from_bits(mean.to_bits().saturating_add_signed(places)));
         for &d in indentations.iter().chain(&balances) {
             let found = totals.compression(totals.springs, d, &scale);
             let mut exact = Sum::default();
@@ -312,7 +353,9 @@ mod tests {
             room.add_sum(&error, 1.0_f64.copysign(-error.rounded()));
             if room.rounded() < 0.0 {
                 let [exact, error] = [exact, error].map(|value| value.rounded());
-                return Err(format!("at {d:e}: {found:e} against {exact:e}, error {error:e}"));
+                return Err(format!(
+                    "at {d:e}: {found:e} against {exact:e}, error {error:e}"
+                ));
             }
         }
         Ok(())
@@ -320,14 +363,21 @@ mod tests {
 
     /// Gaps of one size, of all sizes, and on a large offset with differences in the last places.
     fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
-        let alike = (-150.0..150.0_f64, prop::collection::vec(0.0..1.0_f64, 1..most))
+        let alike = (
+            -150.0..150.0_f64,
+            prop::collection::vec(0.0..1.0_f64, 1..most),
+        )
             .prop_map(|(power, gaps)| gaps.iter().map(|gap| gap * 10_f64.powf(power)).collect());
         let all_sizes = prop::collection::vec(-40.0..0.0_f64, 1..most)
             .prop_map(|powers| powers.iter().map(|power| 10_f64.powf(*power)).collect());
-        let offset =
-            (0.5..2.0_f64, prop::collection::vec(0_u64..1 << 20, 1..most)).prop_map(|(offset, places)| {
-                places.iter().map(|place| f64::from_bits(offset.to_bits() + place)).collect::<Vec<f64>>()
-            });
+        let offset = (0.5..2.0_f64, prop::collection::vec(0_u64..1 << 20, 1..most)).prop_map(
+            |(offset, places)| {
+                places
+                    .iter()
+                    .map(|place| f64::from_bits(offset.to_bits() + place))
+                    .collect::<Vec<f64>>()
+            },
+        );
         prop_oneof![alike, all_sizes, offset]
     }
 

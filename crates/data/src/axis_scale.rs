@@ -21,7 +21,11 @@ impl AxisScale {
     /// assert_eq!(AxisScale::Linear.coordinate(5.0), 5.0);
     /// ```
     pub fn coordinate(self, number: f64) -> f64 {
-        if self == AxisScale::Logarithmic { number.log10() } else { number }
+        if self == AxisScale::Logarithmic {
+            number.log10()
+        } else {
+            number
+        }
     }
 
     /// Returns where `number` lies among ascending `values` on this scale, as a fractional index: 1.5 is in the middle
@@ -30,7 +34,9 @@ impl AxisScale {
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);
-        let after = places.partition_point(|place| *place <= at).clamp(1, places.len().max(2) - 1);
+        let after = places
+            .partition_point(|place| *place <= at)
+            .clamp(1, places.len().max(2) - 1);
         match places.get(after - 1..=after) {
             Some(&[low, high]) if high > low => (after - 1) as f64 + (at - low) / (high - low),
             _ => 0.0,
@@ -39,6 +45,10 @@ impl AxisScale {
 
     /// Returns the number at a coordinate.
     pub fn number(self, coordinate: f64) -> f64 {
-        if self == AxisScale::Logarithmic { 10_f64.powf(coordinate) } else { coordinate }
+        if self == AxisScale::Logarithmic {
+            10_f64.powf(coordinate)
+        } else {
+            coordinate
+        }
     }
 }

@@ -22,7 +22,9 @@ impl Cholesky {
     pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
         for row in 0..size {
             for column in 0..=row {
-                let sum: f64 = (0..column).map(|k| matrix[row * size + k] * matrix[column * size + k]).sum();
+                let sum: f64 = (0..column)
+                    .map(|k| matrix[row * size + k] * matrix[column * size + k])
+                    .sum();
                 let rest = matrix[row * size + column] - sum;
                 matrix[row * size + column] = if row > column {
                     rest / matrix[column * size + column]
@@ -33,7 +35,10 @@ impl Cholesky {
                 };
             }
         }
-        Some(Cholesky { size, factor: matrix })
+        Some(Cholesky {
+            size,
+            factor: matrix,
+        })
     }
 
     /// Returns the solution x of M x = `right`.

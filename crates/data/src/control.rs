@@ -24,7 +24,11 @@ pub struct Control<'a> {
 
 impl Default for Control<'_> {
     fn default() -> Self {
-        Control { threads: parallel::threads(), stop: &|| false, report: None }
+        Control {
+            threads: parallel::threads(),
+            stop: &|| false,
+            report: None,
+        }
     }
 }
 
@@ -45,7 +49,10 @@ impl<'a> Control<'a> {
     /// called on the calling thread.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
-        Control { report: Some(report), ..self }
+        Control {
+            report: Some(report),
+            ..self
+        }
     }
 
     /// Returns the number of threads on which the computation runs.

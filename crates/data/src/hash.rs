@@ -10,7 +10,11 @@ const BUFFER: usize = 1 << 16;
 
 /// Returns the SHA-256 of all bytes that `hasher` has received, as 64 hexadecimal digits.
 pub fn hexadecimal(hasher: Sha256) -> String {
-    hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    hasher
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
 }
 
 /// Returns the SHA-256 of the content of a file, as 64 hexadecimal digits. Two files with the same SHA-256 are copies.

@@ -17,9 +17,18 @@ pub fn write_json(
     for (name, value) in head {
         let separator = if text.is_empty() { "" } else { "," };
         write!(text, "{separator}\"{name}\":")?;
-        value.serialize(&mut Serializer::with_formatter(&mut text, Printable::default()))?;
+        value.serialize(&mut Serializer::with_formatter(
+            &mut text,
+            Printable::default(),
+        ))?;
     }
-    value.serialize(&mut Serializer::with_formatter(&mut *out, Printable { head: text, follows: false }))?;
+    value.serialize(&mut Serializer::with_formatter(
+        &mut *out,
+        Printable {
+            head: text,
+            follows: false,
+        },
+    ))?;
     writeln!(out)
 }
 
@@ -33,7 +42,11 @@ struct Printable {
 }
 
 impl Formatter for Printable {
-    fn write_string_fragment<W: ?Sized + Write>(&mut self, out: &mut W, fragment: &str) -> io::Result<()> {
+    fn write_string_fragment<W: ?Sized + Write>(
+        &mut self,
+        out: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
         let mut rest = fragment;
         while let Some((place, c)) = rest.char_indices().find(|(_, c)| is_control(*c)) {
             write!(out, "{}\\u{:04x}", &rest[..place], u32::from(c))?;
@@ -56,7 +69,11 @@ impl Formatter for Printable {
 
     fn begin_object_key<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
         let follows = std::mem::take(&mut self.follows);
-        if first && !follows { Ok(()) } else { out.write_all(b",") }
+        if first && !follows {
+            Ok(())
+        } else {
+            out.write_all(b",")
+        }
     }
 }
 
@@ -71,14 +88,20 @@ mod tests {
         let mut text = Vec::new();
         write_json(&mut text, &value, &[]).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains(r#""\u009b2J\u007f κ \u202e\u001b\n""#) && text.lines().count() == 1, "{text}");
+        assert!(
+            text.contains(r#""\u009b2J\u007f κ \u202e\u001b\n""#) && text.lines().count() == 1,
+            "{text}"
+        );
         assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), value);
     }
 
     #[test]
     fn an_object_begins_with_its_head() {
         for (value, expected) in [
-            (json!({"a": {"b": 1}}), "{\"x\":\"1\\n\",\"y\":\"2\",\"a\":{\"b\":1}}\n"),
+            (
+                json!({"a": {"b": 1}}),
+                "{\"x\":\"1\\n\",\"y\":\"2\",\"a\":{\"b\":1}}\n",
+            ),
             (json!({}), "{\"x\":\"1\\n\",\"y\":\"2\"}\n"),
             (json!([{"a": 1}]), "[{\"a\":1}]\n"),
         ] {

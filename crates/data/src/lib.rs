@@ -50,20 +50,22 @@ pub use object::{Object, ObjectEntry, Optional};
 pub use parallel::{in_parallel, on_this_thread, on_threads};
 pub use powers::{integral_of_power, sum_of_powers};
 pub use quantity::{
-    QuantityError, exact_quantity, format_quantity, format_range, format_rounded, format_within, in_unit,
-    one_unit, parse_quantity, unit_of,
+    QuantityError, exact_quantity, format_quantity, format_range, format_rounded, format_within,
+    in_unit, one_unit, parse_quantity, unit_of,
 };
 #[cfg(feature = "files")]
 pub use read::{ReadError, into_text, open_regular, read_limited, read_regular, read_regular_text};
 #[cfg(feature = "files")]
 pub use table::{Kind, Table, TableOf};
 pub use text::{
-    belong_together, grouped, is_control, memory_size, path_name, per_cent, printable, printable_lines,
-    round_to, rounded_up, shown, si_prefix, wrap,
+    belong_together, grouped, is_control, memory_size, path_name, per_cent, printable,
+    printable_lines, round_to, rounded_up, shown, si_prefix, wrap,
 };
 pub use warning::Warning;
 #[cfg(feature = "files")]
-pub use write::{WriteError, check_writable, remove_abandoned, sync_folder, write_new, write_new_file};
+pub use write::{
+    WriteError, check_writable, remove_abandoned, sync_folder, write_new, write_new_file,
+};
 
 /// Reads tables of numbers in text files, as instruments and programs write them: lines, separators, numbers, and names of
 /// columns.

@@ -36,7 +36,9 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     }
     let mut asked = Vec::<u8>::new();
     let count = usize::try_from(bytes.saturating_add(BESIDE)).unwrap_or(usize::MAX);
-    asked.try_reserve_exact(count).map_err(|_| OutOfMemory(bytes))?;
+    asked
+        .try_reserve_exact(count)
+        .map_err(|_| OutOfMemory(bytes))?;
     // The compiler may remove an allocation without an observer.
     black_box(asked.as_ptr());
     Ok(())
@@ -47,7 +49,9 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
 pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
-    values.try_reserve_exact(count).map_err(|_| OutOfMemory::of::<T>(count))?;
+    values
+        .try_reserve_exact(count)
+        .map_err(|_| OutOfMemory::of::<T>(count))?;
     Ok(values)
 }
 
@@ -56,7 +60,9 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());
-    values.try_reserve_exact(more).map_err(|_| OutOfMemory::of::<T>(count))?;
+    values
+        .try_reserve_exact(more)
+        .map_err(|_| OutOfMemory::of::<T>(count))?;
     values.resize(count, fill);
     Ok(values)
 }
@@ -77,11 +83,17 @@ pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
 
 /// Reserves room for at least `more` further values in the vector `values`. Returns an error if the memory is too small.
 pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
-    values.try_reserve(more).map_err(|_| OutOfMemory::of::<T>(values.len() + more))
+    values
+        .try_reserve(more)
+        .map_err(|_| OutOfMemory::of::<T>(values.len() + more))
 }
 
 fn unless_far_too_large<T>(values: Vec<T>, count: usize) -> Vec<T> {
-    if values.capacity() / MOST_SPARE > count.max(SMALL) { Vec::new() } else { values }
+    if values.capacity() / MOST_SPARE > count.max(SMALL) {
+        Vec::new()
+    } else {
+        values
+    }
 }
 
 #[cfg(test)]

@@ -22,7 +22,8 @@ pub fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;
     header.extend(std::iter::repeat_n(' ', length - header.len() - 1));
     header.push('\n');
-    let length = u16::try_from(length).map_err(|_| io::Error::other("a header of more than 65535 bytes"))?;
+    let length =
+        u16::try_from(length).map_err(|_| io::Error::other("a header of more than 65535 bytes"))?;
     out.write_all(SIGNATURE)?;
     out.write_all(&SHORT_HEADER)?;
     out.write_all(&length.to_le_bytes())?;
@@ -39,8 +40,12 @@ mod tests {
         write_header(&mut array, "'<f8'", "3,").unwrap();
         assert_eq!(array.len() % ALIGNMENT, 0);
         // As written by `numpy.save`.
-        let expected = b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }";
-        assert!(array.starts_with(expected) && array.ends_with(b" \n"), "{array:?}");
+        let expected =
+            b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }";
+        assert!(
+            array.starts_with(expected) && array.ends_with(b" \n"),
+            "{array:?}"
+        );
         assert!(write_header(&mut Vec::new(), &"x".repeat(70_000), "").is_err());
     }
 }

@@ -40,15 +40,19 @@ pub fn mean(values: &[f64]) -> f64 {
 
 /// Returns the root mean square of the values; `None` without values.
 pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
-    let (count, squares) =
-        values.into_iter().fold((0_u64, 0.0), |(n, sum), value| (n + 1, sum + value.powi(2)));
+    let (count, squares) = values
+        .into_iter()
+        .fold((0_u64, 0.0), |(n, sum), value| (n + 1, sum + value.powi(2)));
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 
 /// Returns the sample standard deviation (divisor n − 1) of n values. The argument `mean` must be the mean of these values.
 /// Fewer than two values give NaN.
 pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
-    let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+    let squares = values
+        .iter()
+        .map(|value| (value - mean).powi(2))
+        .sum::<f64>();
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
@@ -64,7 +68,11 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
         return None;
     }
     let (below, &mut upper, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
-    let lower = below.iter().copied().reduce(f64::max).filter(|_| count.is_multiple_of(2));
+    let lower = below
+        .iter()
+        .copied()
+        .reduce(f64::max)
+        .filter(|_| count.is_multiple_of(2));
     Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
 }
 
@@ -115,9 +123,13 @@ pub fn between(from: f64, to: f64, share: f64) -> f64 {
 /// assert_eq!(asperity_data::slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
 /// ```
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    let mean =
+        |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
     let (x, y) = (mean(|point| point.0), mean(|point| point.1));
-    let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+    let product: f64 = points
+        .iter()
+        .map(|point| (point.0 - x) * (point.1 - y))
+        .sum();
     let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
     Some(product / square).filter(|slope| slope.is_finite())
 }
@@ -142,7 +154,10 @@ fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
         let (mut before, mut value) = (1.0, x);
         for k in 2..=degree {
             let k = k as f64;
-            (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+            (before, value) = (
+                value,
+                ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
+            );
         }
         slope = count * (x * value - before) / (x * x - 1.0);
         x -= value / slope;
@@ -190,7 +205,11 @@ fn share_within(t: f64, freedom: u32) -> f64 {
         power += 2;
         term *= cosine * cosine * f64::from(power - 1) / f64::from(power);
     }
-    if odd { FRAC_2_PI * (angle + sine * sum) } else { sine * sum }
+    if odd {
+        FRAC_2_PI * (angle + sine * sum)
+    } else {
+        sine * sum
+    }
 }
 
 #[cfg(test)]
@@ -242,7 +261,10 @@ mod tests {
     #[test]
     fn quantiles_of_nothing_and_beyond_the_sample_are_none() {
         for share in [0.0, 0.5, 1.0] {
-            assert_eq!((quantile(&[], share), quantile(&[7.0], share)), (None, Some(7.0)));
+            assert_eq!(
+                (quantile(&[], share), quantile(&[7.0], share)),
+                (None, Some(7.0))
+            );
         }
         for share in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
             assert_eq!(quantile(&[1.0, 2.0], share), None, "{share}");
@@ -254,8 +276,14 @@ mod tests {
     #[test]
     fn samples_have_moments_and_quantiles() {
         let values = [4.0, 1.0, 2.0, 3.0, 10.0];
-        assert_eq!((mean(&values), standard_deviation(&values, 4.0)), (4.0, 12.5_f64.sqrt()));
-        assert_eq!((root_mean_square([3.0, 4.0, 0.0, 0.0]), root_mean_square([])), (Some(2.5), None));
+        assert_eq!(
+            (mean(&values), standard_deviation(&values, 4.0)),
+            (4.0, 12.5_f64.sqrt())
+        );
+        assert_eq!(
+            (root_mean_square([3.0, 4.0, 0.0, 0.0]), root_mean_square([])),
+            (Some(2.5), None)
+        );
         for (mut values, expected) in [
             (vec![], None),
             (vec![3.0], Some(3.0)),
@@ -292,12 +320,21 @@ mod tests {
     #[test]
     fn nodes_integrate_polynomials() {
         for power in 0..18_i32 {
-            let found: f64 = gauss_nodes::<9>().iter().map(|(x, weight)| weight * x.powi(power)).sum();
-            let expected = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
+            let found: f64 = gauss_nodes::<9>()
+                .iter()
+                .map(|(x, weight)| weight * x.powi(power))
+                .sum();
+            let expected = if power % 2 == 0 {
+                2.0 / f64::from(power + 1)
+            } else {
+                0.0
+            };
             assert!((found - expected).abs() < 1e-14, "{power}: {found}");
         }
-        let sine: f64 =
-            gauss_nodes_on_quarter_circle::<9>().iter().map(|(angle, weight)| weight * angle.sin()).sum();
+        let sine: f64 = gauss_nodes_on_quarter_circle::<9>()
+            .iter()
+            .map(|(angle, weight)| weight * angle.sin())
+            .sum();
         assert!((sine - 1.0).abs() < 1e-14);
     }
 }

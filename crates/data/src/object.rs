@@ -65,7 +65,9 @@ mod tests {
     #[test]
     fn entries_keep_their_order() {
         let inner = [object! { "z": 1.5, "a": None::<f64> }];
-        let text = serde_json::to_string(&object! { "b": "x", "c"?: None::<u8>, "d"?: Some(1), "a": inner });
+        let text = serde_json::to_string(
+            &object! { "b": "x", "c"?: None::<u8>, "d"?: Some(1), "a": inner },
+        );
         assert_eq!(text.unwrap(), r#"{"b":"x","d":1,"a":[{"z":1.5,"a":null}]}"#);
     }
 }

@@ -32,10 +32,16 @@ pub(crate) fn begin_threads<'scope>(
 ) -> io::Result<()> {
     let begin = |_| {
         let work = work.clone();
-        Builder::new().spawn_scoped(scope, || on_this_thread(work)).map(drop)
+        Builder::new()
+            .spawn_scoped(scope, || on_this_thread(work))
+            .map(drop)
     };
     let begun: Vec<_> = (0..count).map(begin).collect();
-    if begun.iter().any(Result::is_ok) { Ok(()) } else { begun.into_iter().collect() }
+    if begun.iter().any(Result::is_ok) {
+        Ok(())
+    } else {
+        begun.into_iter().collect()
+    }
 }
 
 /// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the results in order. Each thread
@@ -69,7 +75,10 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
                 // Numbers that follow are not needed; those before are under way or done.
                 next.store(count, Ordering::SeqCst);
             }
-            found.lock().unwrap_or_else(PoisonError::into_inner).push((number, result));
+            found
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .push((number, result));
         }
     };
     let threads = jobs.min(usize::try_from(count).unwrap_or(usize::MAX));
@@ -103,7 +112,9 @@ pub fn in_parallel<A: Send, B>(
     let task = Mutex::new(Some(one));
     let take = || task.lock().unwrap_or_else(PoisonError::into_inner).take();
     scope(|scope| {
-        let thread = Builder::new().spawn_scoped(scope, || take().map(|task| task())).ok();
+        let thread = Builder::new()
+            .spawn_scoped(scope, || take().map(|task| task()))
+            .ok();
         let other = other();
         // Runs here if no other thread has begun.
         if let Some(task) = take() {
@@ -112,7 +123,9 @@ pub fn in_parallel<A: Send, B>(
         match thread.map(ScopedJoinHandle::join) {
             Some(Ok(Some(one))) => (one, other),
             Some(Err(panic)) => resume_unwind(panic),
-            Some(Ok(None)) | None => unreachable!("a task that is gone has been taken by its thread"),
+            Some(Ok(None)) | None => {
+                unreachable!("a task that is gone has been taken by its thread")
+            }
         }
     })
 }
@@ -152,7 +165,14 @@ mod tests {
             let (one, other) = in_parallel(true, one, other);
             one != other
         };
-        assert_eq!((on_two_threads(), on_this_thread(on_two_threads), on_two_threads()), (true, false, true));
+        assert_eq!(
+            (
+                on_two_threads(),
+                on_this_thread(on_two_threads),
+                on_two_threads()
+            ),
+            (true, false, true)
+        );
     }
 
     #[test]

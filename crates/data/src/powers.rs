@@ -7,8 +7,13 @@ const DIRECT_TERMS: u64 = 64;
 
 /// Coefficients B₂/2!, B₄/4!, … of the Euler-Maclaurin formula. After 64 direct terms the first omitted one is below 1e-18 of
 /// the sum.
-const EULER_MACLAURIN: [f64; 5] =
-    [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
+const EULER_MACLAURIN: [f64; 5] = [
+    1.0 / 12.0,
+    -1.0 / 720.0,
+    1.0 / 30_240.0,
+    -1.0 / 1_209_600.0,
+    1.0 / 47_900_160.0,
+];
 
 /// Returns Σ k^exponent for the integers k from `first` (at least 1) to `last`; 0 if `last` is below `first`. The relative
 /// error of the sum is a few units in the last place.
@@ -54,7 +59,11 @@ pub fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
     if (s * ratio).abs() > 1.0 {
         return (high.powf(s) - low.powf(s)) / s;
     }
-    let growth = if s == 0.0 { ratio } else { (s * ratio).exp_m1() / s };
+    let growth = if s == 0.0 {
+        ratio
+    } else {
+        (s * ratio).exp_m1() / s
+    };
     low.powf(s) * growth
 }
 
@@ -66,7 +75,9 @@ mod tests {
     fn sums_are_those_of_their_terms() {
         let direct = |exponent: f64, first: u64, last: u64| {
             let mut sum = CompensatedSum::default();
-            (first..=last).rev().for_each(|k| sum.add((k as f64).powf(exponent)));
+            (first..=last)
+                .rev()
+                .for_each(|k| sum.add((k as f64).powf(exponent)));
             sum.total()
         };
         let ranges = [
@@ -81,11 +92,27 @@ mod tests {
             (1_000_000, 1_000_065),
             (1, 1 << 20),
         ];
-        for exponent in [-3.0, -2.4, -1.0 - 1e-300, -1.0, -1.0 + 1e-12, -0.4, 0.0, 0.8, 1.0] {
+        for exponent in [
+            -3.0,
+            -2.4,
+            -1.0 - 1e-300,
+            -1.0,
+            -1.0 + 1e-12,
+            -0.4,
+            0.0,
+            0.8,
+            1.0,
+        ] {
             for (first, last) in ranges {
-                let (found, expected) = (sum_of_powers(exponent, first, last), direct(exponent, first, last));
+                let (found, expected) = (
+                    sum_of_powers(exponent, first, last),
+                    direct(exponent, first, last),
+                );
                 let error = (found / expected - 1.0).abs();
-                assert!(error <= 9e-16, "Σ k^{exponent} from {first} to {last}: error {error:e}");
+                assert!(
+                    error <= 9e-16,
+                    "Σ k^{exponent} from {first} to {last}: error {error:e}"
+                );
             }
         }
     }

@@ -69,23 +69,33 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     let factor = suffix_factor(suffix, unit).ok_or_else(|| QuantityError::wrong_unit(suffix, unit));
     let (power, factor) = factor?;
     // The prefix goes into the decimal exponent: 100 nm is then 1.0e-7 exactly as if typed so.
-    let number =
-        exponent.checked_add(power).and_then(|power| format!("{digits}e{power}").parse::<f64>().ok());
+    let number = exponent
+        .checked_add(power)
+        .and_then(|power| format!("{digits}e{power}").parse::<f64>().ok());
     let value = number.map(|number| number * factor);
     let too_large = || QuantityError(format!("{} is too large", shown(typed)));
-    value.filter(|value| value.is_finite()).ok_or_else(too_large)
+    value
+        .filter(|value| value.is_finite())
+        .ok_or_else(too_large)
 }
 
 /// Appends a unit to a typed number that has none: `50` with the unit `mJ/m²` becomes `50 mJ/m²`. Other texts stay unchanged.
 pub fn in_unit(typed: &str, unit: &str) -> String {
     let is_number = split_number(typed.trim()).is_some_and(|(.., suffix)| suffix.trim().is_empty());
-    if is_number && !unit.is_empty() { format!("{} {unit}", typed.trim()) } else { typed.to_owned() }
+    if is_number && !unit.is_empty() {
+        format!("{} {unit}", typed.trim())
+    } else {
+        typed.to_owned()
+    }
 }
 
 /// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. For a number without a unit it
 /// returns an empty text.
 pub fn unit_of(shown: &str) -> &str {
-    shown.trim_start_matches(['=', ' ']).split_once(' ').map_or("", |(_, unit)| unit)
+    shown
+        .trim_start_matches(['=', ' '])
+        .split_once(' ')
+        .map_or("", |(_, unit)| unit)
 }
 
 /// Splits `2.5e3 MPa` into its digits, its exponent of ten, and the rest.
@@ -95,7 +105,9 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     if text[..sign].chars().count() > 1 || text.starts_with('−') {
         return None;
     }
-    let end = signless.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(signless.len());
+    let end = signless
+        .find(|c: char| !c.is_ascii_digit() && c != '.')
+        .unwrap_or(signless.len());
     let digits = &text[..sign + end];
     let number = &digits[sign..];
     if !number.contains(|c: char| c.is_ascii_digit()) || number.matches('.').count() > 1 {
@@ -105,11 +117,17 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     // An e is an exponent only with digits after it; an E alone is the prefix exa.
     if let Some(after) = rest.strip_prefix(['e', 'E']) {
         let unsigned = after.strip_prefix(['+', '-']).unwrap_or(after);
-        let length = unsigned.find(|c: char| !c.is_ascii_digit()).unwrap_or(unsigned.len());
+        let length = unsigned
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(unsigned.len());
         if length > 0 {
             let split = after.len() - unsigned.len() + length;
             // An exponent with more digits than this makes the number zero or too large.
-            let beyond = if after.starts_with('-') { i32::MIN / 2 } else { i32::MAX / 2 };
+            let beyond = if after.starts_with('-') {
+                i32::MIN / 2
+            } else {
+                i32::MAX / 2
+            };
             let exponent = after[..split].parse().unwrap_or(beyond);
             return Some((digits, exponent, &after[split..]));
         }
@@ -170,10 +188,18 @@ const ROUNDING: f64 = 1e-36;
 /// Formats a value with its unit, rounded to `digits` significant digits. `digits` is from 1 to 4.
 pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     // The number next to zero is a state just after a jump at zero.
-    let least = if unit == "1" || unit.is_empty() { f64::MIN_POSITIVE } else { ROUNDING };
+    let least = if unit == "1" || unit.is_empty() {
+        f64::MIN_POSITIVE
+    } else {
+        ROUNDING
+    };
     let value = if value.abs() < least { 0.0 } else { value };
     // Rounded first, so that 999.99 becomes 1000 before the choice of its prefix.
-    with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
+    with_unit(
+        value,
+        &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1),
+        unit,
+    )
 }
 
 /// Formats a value with its unit, rounded to the second significant digit of its `uncertainty`, which is not written:
@@ -210,7 +236,9 @@ pub fn one_unit([low, high]: [String; 2]) -> String {
         return low;
     }
     match (low.split_once(' '), high.split_once(' ')) {
-        (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => format!("{number} to {high}"),
+        (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => {
+            format!("{number} to {high}")
+        }
         _ => format!("{low} to {high}"),
     }
 }
@@ -223,7 +251,11 @@ pub fn exact_quantity(value: f64, unit: &str) -> String {
 /// Formats a value with the usual prefix of its unit. `scientific` has its digits and exponent.
 fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let plain = unit == "1" || unit.is_empty();
-    let unit_after = if plain { String::new() } else { format!(" {unit}") };
+    let unit_after = if plain {
+        String::new()
+    } else {
+        format!(" {unit}")
+    };
     if !value.is_finite() || value == 0.0 {
         return format!("{value}{unit_after}");
     }
@@ -252,14 +284,21 @@ fn shifted(mantissa: &str, power: i32) -> String {
     let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
     let zeros = |count: i32| "0".repeat(usize::try_from(count).unwrap_or(0));
     // Zeros in front for a point before the first digit, and behind for one after the last.
-    let digits = format!("{}{digits}{}", zeros(-power), zeros(power + 1 - digits.len() as i32));
+    let digits = format!(
+        "{}{digits}{}",
+        zeros(-power),
+        zeros(power + 1 - digits.len() as i32)
+    );
     let (whole, fraction) = digits.split_at(usize::try_from(power + 1).unwrap_or(1).max(1));
     trimmed(&format!("{sign}{whole}.{fraction}"))
 }
 
 fn trimmed(number: &str) -> String {
     if number.contains('.') {
-        number.trim_end_matches('0').trim_end_matches('.').to_string()
+        number
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_string()
     } else {
         number.to_string()
     }
@@ -283,7 +322,11 @@ mod tests {
             (1.234_56, 0.0, "1.235 m"),
             (1.234_56, f64::INFINITY, "1.235 m"),
         ] {
-            let unit = text.split_once(' ').unwrap().1.trim_start_matches(['m', 'µ']);
+            let unit = text
+                .split_once(' ')
+                .unwrap()
+                .1
+                .trim_start_matches(['m', 'µ']);
             let unit = if unit.is_empty() { "m" } else { unit };
             assert_eq!(format_within(value, uncertainty, unit), text);
         }
@@ -292,10 +335,19 @@ mod tests {
     #[test]
     fn what_people_type_is_read() {
         for (unit, all) in [
-            ("Pa", "2.5 MPa = 2.5e6; 2.5e6 = 2.5e6; 2.5M = 2.5e6; 2 E = 2e18; 2EPa = 2e18; 2E3Pa = 2e3"),
-            ("m", "10 µm = 1e-5; 10um = 1e-5; 10 μm = 1e-5; 5cm = 0.05; 50m = 50; 50 mm = 0.05"),
+            (
+                "Pa",
+                "2.5 MPa = 2.5e6; 2.5e6 = 2.5e6; 2.5M = 2.5e6; 2 E = 2e18; 2EPa = 2e18; 2E3Pa = 2e3",
+            ),
+            (
+                "m",
+                "10 µm = 1e-5; 10um = 1e-5; 10 μm = 1e-5; 5cm = 0.05; 50m = 50; 50 mm = 0.05",
+            ),
             ("m", "0e99999999999 km = 0; 1e-99999999999 nm = 0"),
-            ("J/m²", "50m = 0.05; 50 mJ/m2 = 0.05; 50 mJ/m^2 = 0.05; 50 mN/m = 0.05; 1e-3 = 1e-3"),
+            (
+                "J/m²",
+                "50m = 0.05; 50 mJ/m2 = 0.05; 50 mJ/m^2 = 0.05; 50 mN/m = 0.05; 1e-3 = 1e-3",
+            ),
             ("N", "-20 uN = -20e-6"),
             (
                 "1",
@@ -305,7 +357,11 @@ mod tests {
             ("m^(1−n)", "3e5 = 3e5; 3 m^(1−n) = 3"),
         ] {
             for (text, value) in all.split("; ").map(|one| one.split_once(" = ").unwrap()) {
-                assert_eq!(parse_quantity(text, unit), Ok(value.parse().unwrap()), "{text} {unit}");
+                assert_eq!(
+                    parse_quantity(text, unit),
+                    Ok(value.parse().unwrap()),
+                    "{text} {unit}"
+                );
             }
         }
     }
@@ -320,7 +376,9 @@ mod tests {
             "touch|10 µN|touch",
             "0.8|0.7|0.8",
         ] {
-            let [typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            let [typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
             assert_eq!(in_unit(typed, unit_of(shown)), read, "{row}");
         }
     }
@@ -333,14 +391,31 @@ mod tests {
             ("Pa", "1 mpa|1 kk|1e|1e2147483647 k"),
             ("m^(1−n)", "1k"),
         ] {
-            assert!(texts.split('|').all(|text| parse_quantity(text, unit).is_err()), "{unit}");
+            assert!(
+                texts
+                    .split('|')
+                    .all(|text| parse_quantity(text, unit).is_err()),
+                "{unit}"
+            );
         }
         for (text, unit, message) in [
             ("2 kg", "m", "kg is not a unit of length: use m, mm, µm, nm"),
-            ("1 N/m2", "J/m²", "N/m2 is not a unit of energy per area: use J/m², mJ/m², N/m, mN/m"),
-            ("5 ‰", "1", "‰ is not a prefix of a number: use k, M, G, Ki, Mi, Gi, %"),
+            (
+                "1 N/m2",
+                "J/m²",
+                "N/m2 is not a unit of energy per area: use J/m², mJ/m², N/m, mN/m",
+            ),
+            (
+                "5 ‰",
+                "1",
+                "‰ is not a prefix of a number: use k, M, G, Ki, Mi, Gi, %",
+            ),
             ("1k", "m^(1−n)", "k is not the unit m^(1−n)"),
-            ("ten", "N", "\"ten\" is not a number, such as 1.0e-3, 2.5 mN or 2.5kN"),
+            (
+                "ten",
+                "N",
+                "\"ten\" is not a number, such as 1.0e-3, 2.5 mN or 2.5kN",
+            ),
             ("1e400", "1", "1e400 is too large"),
         ] {
             assert_eq!(parse_quantity(text, unit).unwrap_err().to_string(), message);
@@ -351,7 +426,10 @@ mod tests {
     fn quantities_are_written_as_people_read_them() {
         for (unit, all) in [
             ("Pa", "2.67e6 = 2.67 MPa; 2.666666e6 = 2.667 MPa"),
-            ("m", "1e-7 = 100 nm; 1e-4 = 100 µm; 999.99e-9 = 1 µm; 1e-30 = 1e-30 m; 1 = 1 m"),
+            (
+                "m",
+                "1e-7 = 100 nm; 1e-4 = 100 µm; 999.99e-9 = 1 µm; 1e-30 = 1e-30 m; 1 = 1 m",
+            ),
             ("J/m²", "0.05 = 50 mJ/m²"),
             ("N", "0 = 0 N; -2.5e-5 = -25 µN"),
             ("1", "0.7 = 0.7; 16384 = 16380; 1e-6 = 1e-6; 2.5e7 = 2.5e7"),
@@ -379,7 +457,9 @@ mod tests {
     fn every_unit_of_the_table_is_understood() {
         for (base, _, units) in DIMENSIONS {
             assert!(
-                units.split(", ").all(|unit| parse_quantity(&format!("1 {unit}"), base).is_ok()),
+                units
+                    .split(", ")
+                    .all(|unit| parse_quantity(&format!("1 {unit}"), base).is_ok()),
                 "{base}"
             );
         }

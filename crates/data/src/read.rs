@@ -88,12 +88,18 @@ pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadErro
     let mut bytes = Vec::new();
     // One more byte distinguishes a file of the limit from a longer one.
     source.take(limit as u64 + 1).read_to_end(&mut bytes)?;
-    if bytes.len() > limit { Err(ReadError::TooLong { limit }) } else { Ok(bytes) }
+    if bytes.len() > limit {
+        Err(ReadError::TooLong { limit })
+    } else {
+        Ok(bytes)
+    }
 }
 
 /// Converts bytes in UTF-8 to text without a copy.
 pub fn into_text(bytes: Vec<u8>) -> Result<String, ReadError> {
-    String::from_utf8(bytes).map_err(|error| ReadError::NotText { byte: error.utf8_error().valid_up_to() })
+    String::from_utf8(bytes).map_err(|error| ReadError::NotText {
+        byte: error.utf8_error().valid_up_to(),
+    })
 }
 
 fn check_regular(found: &std::fs::Metadata) -> Result<(), ReadError> {
@@ -117,10 +123,19 @@ mod tests {
         std::fs::write(&path, "12345").unwrap();
         assert_eq!(read_regular(&path, 5).unwrap(), b"12345");
         assert_eq!(read_regular_text(&path, 6).unwrap(), "12345");
-        assert!(matches!(read_regular(&path, 4), Err(ReadError::TooLong { limit: 4 })));
+        assert!(matches!(
+            read_regular(&path, 4),
+            Err(ReadError::TooLong { limit: 4 })
+        ));
         std::fs::write(&path, b"a\xff").unwrap();
-        assert!(matches!(read_regular_text(&path, 5), Err(ReadError::NotText { byte: 1 })));
-        assert!(matches!(read_regular(folder.path(), 5), Err(ReadError::Folder)));
+        assert!(matches!(
+            read_regular_text(&path, 5),
+            Err(ReadError::NotText { byte: 1 })
+        ));
+        assert!(matches!(
+            read_regular(folder.path(), 5),
+            Err(ReadError::Folder)
+        ));
         let none = read_regular(&folder.path().join("none"), 5).unwrap_err();
         assert_eq!(none.to_string(), "cannot be read: there is no such file");
     }
@@ -135,7 +150,10 @@ mod tests {
             }
         }
         let mut endless = Endless(0);
-        assert!(matches!(read_limited(&mut endless, 1000), Err(ReadError::TooLong { limit: 1000 })));
+        assert!(matches!(
+            read_limited(&mut endless, 1000),
+            Err(ReadError::TooLong { limit: 1000 })
+        ));
         assert_eq!(endless.0, 1001);
     }
 
@@ -151,9 +169,19 @@ mod tests {
         std::os::unix::fs::symlink(&pipe, &link).unwrap();
         let socket = folder.path().join("socket");
         let _listener = UnixListener::bind(&socket).unwrap();
-        for path in [&pipe, &link, &socket, Path::new("/dev/zero"), Path::new("/dev/null")] {
+        for path in [
+            &pipe,
+            &link,
+            &socket,
+            Path::new("/dev/zero"),
+            Path::new("/dev/null"),
+        ] {
             let read = read_regular(path, 5);
-            assert!(matches!(read, Err(ReadError::NotRegular)), "{}: {read:?}", path.display());
+            assert!(
+                matches!(read, Err(ReadError::NotRegular)),
+                "{}: {read:?}",
+                path.display()
+            );
         }
     }
 }

@@ -44,7 +44,11 @@ pub struct TableOf<'a, T> {
 impl<'a> Table<'a> {
     /// Begins a table that has no columns yet. Each call of `rows` returns an iterator over all rows.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
-        TableOf { rows: Rc::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
+        TableOf {
+            rows: Rc::new(move || Box::new(rows())),
+            columns: Vec::new(),
+            values: Vec::new(),
+        }
     }
 }
 
@@ -80,7 +84,11 @@ impl<'a, T: 'a> TableOf<'a, T> {
             let values = Rc::clone(&values);
             Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
         };
-        Table { columns: self.columns, count: Box::new(move || counted().count()), rows: Rc::new(rows) }
+        Table {
+            columns: self.columns,
+            count: Box::new(move || counted().count()),
+            rows: Rc::new(rows),
+        }
     }
 }
 
@@ -97,7 +105,9 @@ impl Table<'_> {
 
     /// Writes the table as CSV. The lines of `provenance` come first, as comments that state how the table was made.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
-        provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))?;
+        provenance
+            .lines()
+            .try_for_each(|line| writeln!(out, "# {line}"))?;
         let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
         writeln!(out, "{}", names.join(","))?;
         let mut line = String::new();
@@ -128,8 +138,11 @@ impl Table<'_> {
             Kind::Whole => "<u8".to_owned(),
             Kind::Text(characters) => format!("<U{characters}"),
         };
-        let fields: Vec<_> =
-            self.columns.iter().map(|(name, kind)| format!("('{name}', '{}')", descr(*kind))).collect();
+        let fields: Vec<_> = self
+            .columns
+            .iter()
+            .map(|(name, kind)| format!("('{name}', '{}')", descr(*kind)))
+            .collect();
         let shape = format!("{},", (self.count)());
         npy::write_header(out, &format!("[{}]", fields.join(", ")), &shape)?;
         for row in (self.rows)() {
@@ -142,11 +155,18 @@ impl Table<'_> {
                     (Kind::Whole, Value::Number(number)) => {
                         out.write_all(&number.as_u64().unwrap_or_default().to_le_bytes())
                     }
-                    (Kind::Text(characters), Value::String(text)) if text.chars().count() <= *characters => {
+                    (Kind::Text(characters), Value::String(text))
+                        if text.chars().count() <= *characters =>
+                    {
                         let codes = text.chars().map(u32::from).chain(std::iter::repeat(0));
-                        codes.take(*characters).try_for_each(|code| out.write_all(&code.to_le_bytes()))
+                        codes
+                            .take(*characters)
+                            .try_for_each(|code| out.write_all(&code.to_le_bytes()))
                     }
-                    _ => Err(io::Error::other(format!("{value} in a column of {}", descr(*kind)))),
+                    _ => Err(io::Error::other(format!(
+                        "{value} in a column of {}",
+                        descr(*kind)
+                    ))),
                 }?;
             }
         }
@@ -185,24 +205,32 @@ mod tests {
     #[test]
     fn columns_have_their_types_in_every_format() {
         let rows = || [(Some(0.1), 7, "é"), (None, 8, "y,")].into_iter();
-        let table = Table::of(rows).real("a", |row| row.0).whole("b", |row| row.1);
+        let table = Table::of(rows)
+            .real("a", |row| row.0)
+            .whole("b", |row| row.1);
         let table = table.with("c", Kind::Text(2), |row| row.2).done();
         let objects = serde_json::to_string(&table).unwrap();
-        assert_eq!(objects, r#"[{"a":0.1,"b":7,"c":"é"},{"a":null,"b":8,"c":"y,"}]"#);
+        assert_eq!(
+            objects,
+            r#"[{"a":0.1,"b":7,"c":"é"},{"a":null,"b":8,"c":"y,"}]"#
+        );
         let mut csv = Vec::new();
         table.write_csv(&mut csv, "one\ntwo\n").unwrap();
-        assert_eq!(String::from_utf8(csv).unwrap(), "# one\n# two\na,b,c\n0.1,7,é\n,8,\"y,\"\n");
+        assert_eq!(
+            String::from_utf8(csv).unwrap(),
+            "# one\n# two\na,b,c\n0.1,7,é\n,8,\"y,\"\n"
+        );
         let mut array = Vec::new();
         table.write_npy(&mut array).unwrap();
         let header = 128;
-        let descr =
-            "{'descr': [('a', '<f8'), ('b', '<u8'), ('c', '<U2')], 'fortran_order': False, 'shape': (2,), }";
+        let descr = "{'descr': [('a', '<f8'), ('b', '<u8'), ('c', '<U2')], 'fortran_order': False, 'shape': (2,), }";
         assert_eq!(&array[10..10 + descr.len()], descr.as_bytes());
         let mut expected = Vec::new();
         for (real, whole, word) in [(0.1, 7_u64, ['é', '\0']), (f64::NAN, 8, ['y', ','])] {
             expected.extend(f64::to_le_bytes(real));
             expected.extend(whole.to_le_bytes());
-            word.into_iter().for_each(|code| expected.extend(u32::from(code).to_le_bytes()));
+            word.into_iter()
+                .for_each(|code| expected.extend(u32::from(code).to_le_bytes()));
         }
         assert_eq!(array[header..], expected);
         let long = Table::of(|| ["xyz"].into_iter()).with("c", Kind::Text(2), |word| *word);

@@ -30,7 +30,10 @@ pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
 
 /// Returns the SI prefix for a power of ten, such as `k` for 3; `None` if the power has no prefix.
 pub fn si_prefix(power: i32) -> Option<&'static str> {
-    SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
+    SI_PREFIXES
+        .iter()
+        .find(|(_, of)| *of == power)
+        .map(|(prefix, _)| *prefix)
 }
 
 /// Returns `value` rounded to `digits` significant digits.
@@ -39,20 +42,25 @@ pub fn si_prefix(power: i32) -> Option<&'static str> {
 /// assert_eq!(asperity_data::round_to(0.1 + 0.2, 12), 0.3);
 /// ```
 pub fn round_to(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+    format!("{value:.*e}", digits.saturating_sub(1))
+        .parse()
+        .unwrap_or(value)
 }
 
 /// Returns the smallest number of four significant digits that is not below `value`.
 pub fn rounded_up(value: f64) -> f64 {
     let nearest = round_to(value, 4);
     let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
-    if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
+    if nearest >= value {
+        nearest
+    } else {
+        round_to(value + last_digit, 4)
+    }
 }
 
 /// Returns true for a character that could change how other text is displayed, such as a control or bidirectional control.
 pub fn is_control(c: char) -> bool {
-    let bidirectional =
-        matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let bidirectional = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let invisible = matches!(
         c,
         '\u{ad}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180e}' | '\u{200b}' | '\u{2028}' | '\u{2029}'
@@ -145,9 +153,11 @@ const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
 /// Returns true for one of these units, with or without a prefix, also if punctuation follows.
 fn is_unit(word: &str) -> bool {
     let word = word.trim_end_matches([',', ';', ':', '.', ')']);
-    let without_prefix =
-        word.strip_prefix(['q', 'r', 'y', 'z', 'a', 'f', 'p', 'n', 'µ', 'm', 'k', 'M', 'G', 'T', 'P', 'E']);
-    UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
+    let without_prefix = word.strip_prefix([
+        'q', 'r', 'y', 'z', 'a', 'f', 'p', 'n', 'µ', 'm', 'k', 'M', 'G', 'T', 'P', 'E',
+    ]);
+    UNITS.contains(&word)
+        || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
 }
 
 /// Returns true if a line must not break between a word and the next one, as inside `16 384` or before a unit.
@@ -218,22 +228,43 @@ mod tests {
             ("\u{1b}]52;c;eA==\u{7}", "\\u{1b}]52;c;eA==\\u{7}"),
             ("a\u{9b}2Jb\u{7f}", "a\\u{9b}2Jb\\u{7f}"),
             ("abc\u{202e}nor.exe", "abc\\u{202e}nor.exe"),
-            ("\u{2066}\u{200e}\u{200f}\u{61c}\u{2028}", "\\u{2066}\\u{200e}\\u{200f}\\u{61c}\\u{2028}"),
+            (
+                "\u{2066}\u{200e}\u{200f}\u{61c}\u{2028}",
+                "\\u{2066}\\u{200e}\\u{200f}\\u{61c}\\u{2028}",
+            ),
             ("two\nlines\r", "two\\nlines\\r"),
-            ("\u{ad}\u{180e}\u{3164}\u{fff9}\u{e0020}", "\\u{ad}\\u{180e}\\u{3164}\\u{fff9}\\u{e0020}"),
-            ("a\u{200b}b\u{feff}\u{2060}", "a\\u{200b}b\\u{feff}\\u{2060}"),
+            (
+                "\u{ad}\u{180e}\u{3164}\u{fff9}\u{e0020}",
+                "\\u{ad}\\u{180e}\\u{3164}\\u{fff9}\\u{e0020}",
+            ),
+            (
+                "a\u{200b}b\u{feff}\u{2060}",
+                "a\\u{200b}b\\u{feff}\\u{2060}",
+            ),
         ] {
             assert_eq!(printable(text), expected);
         }
-        assert_eq!(printable_lines("two\nlines\r\u{1b}"), "two\nlines\\r\\u{1b}");
+        assert_eq!(
+            printable_lines("two\nlines\r\u{1b}"),
+            "two\nlines\\r\\u{1b}"
+        );
     }
 
     #[test]
     fn ordinary_text_of_any_script_stays() {
         // A joiner is part of the spelling of Persian, Hindi and families of emoji.
-        for text in ["κ* = 0.6 µm", "نمونه\u{200c}ها", "क्\u{200d}ष", "👩\u{200d}🔬", "粗糙度", "שלום"]
-        {
-            assert!(matches!(printable(text), Cow::Borrowed(same) if same == text), "{text}");
+        for text in [
+            "κ* = 0.6 µm",
+            "نمونه\u{200c}ها",
+            "क्\u{200d}ष",
+            "👩\u{200d}🔬",
+            "粗糙度",
+            "שלום",
+        ] {
+            assert!(
+                matches!(printable(text), Cow::Borrowed(same) if same == text),
+                "{text}"
+            );
         }
     }
 
@@ -248,7 +279,10 @@ mod tests {
     #[test]
     fn thousands_are_apart() {
         let counts = [0, 999, 1000, 16_384, 1_048_576];
-        assert_eq!(counts.map(grouped), ["0", "999", "1 000", "16 384", "1 048 576"]);
+        assert_eq!(
+            counts.map(grouped),
+            ["0", "999", "1 000", "16 384", "1 048 576"]
+        );
     }
 
     #[test]
@@ -258,9 +292,18 @@ mod tests {
         assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
         assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
         assert_eq!(wrap("", 4), [""]);
-        assert_eq!(wrap("line 800.6 µs, tree 80.75 µs", 16), ["line 800.6 µs,", "tree 80.75 µs"]);
-        assert_eq!(wrap("with 16 384 springs", 7), ["with", "16 384", "springs"]);
-        assert_eq!(wrap("about 3 MiB of memory", 9), ["about", "3 MiB of", "memory"]);
+        assert_eq!(
+            wrap("line 800.6 µs, tree 80.75 µs", 16),
+            ["line 800.6 µs,", "tree 80.75 µs"]
+        );
+        assert_eq!(
+            wrap("with 16 384 springs", 7),
+            ["with", "16 384", "springs"]
+        );
+        assert_eq!(
+            wrap("about 3 MiB of memory", 9),
+            ["about", "3 MiB of", "memory"]
+        );
         assert_eq!(wrap("1 of 3 legs m", 6), ["1 of 3", "legs m"]);
     }
 }

@@ -15,8 +15,12 @@ impl Separator {
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
-        let is_in_line = |mark: &char| outside.contains(*mark) && (*mark != ',' || !has_decimal_commas(line));
-        [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
+        let is_in_line =
+            |mark: &char| outside.contains(*mark) && (*mark != ',' || !has_decimal_commas(line));
+        [';', '\t', ',']
+            .into_iter()
+            .find(is_in_line)
+            .map_or(Separator::SPACE, Separator)
     }
 
     /// Splits a line, which must have no blanks at its ends, into columns. Separators within quotation marks do not split the
@@ -24,9 +28,17 @@ impl Separator {
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
-        let is_mark =
-            move |c: char| is_outside(c) && if is_spaced { c.is_ascii_whitespace() } else { c == self.0 };
-        let cells = line.split(is_mark).filter(move |cell| !(is_spaced && cell.is_empty()));
+        let is_mark = move |c: char| {
+            is_outside(c)
+                && if is_spaced {
+                    c.is_ascii_whitespace()
+                } else {
+                    c == self.0
+                }
+        };
+        let cells = line
+            .split(is_mark)
+            .filter(move |cell| !(is_spaced && cell.is_empty()));
         cells.map(|cell| cell.trim().trim_matches('"').trim())
     }
 }
@@ -45,9 +57,14 @@ fn has_decimal_commas(line: &str) -> bool {
     let mut decimal = Decimal::default();
     let is_number = |word: &str| {
         let inside = word.split_once(',').is_none_or(|(before, after)| {
-            before.ends_with(|c: char| c.is_ascii_digit()) && after.starts_with(|c: char| c.is_ascii_digit())
+            before.ends_with(|c: char| c.is_ascii_digit())
+                && after.starts_with(|c: char| c.is_ascii_digit())
         });
-        inside && matches!(decimal.read(word, Separator::SPACE), TextCell::Number(_) | TextCell::Missing)
+        inside
+            && matches!(
+                decimal.read(word, Separator::SPACE),
+                TextCell::Number(_) | TextCell::Missing
+            )
     };
     line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
 }
@@ -66,7 +83,9 @@ pub enum TextCell {
 }
 
 /// Marks of missing points, besides an empty cell and `NaN`.
-const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
+const MISSING: [&str; 9] = [
+    "bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*",
+];
 
 /// Text that states which decimal marks and separators of thousands the numbers in a text table may have. Messages about a
 /// cell with [`TextCell::OtherMark`] contain it.
@@ -74,7 +93,9 @@ pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
 /// Characters that separate thousands. A comma or a point may also be a decimal mark.
-const GROUPING: [char; 8] = [',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}'];
+const GROUPING: [char; 8] = [
+    ',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}',
+];
 
 /// Reader of the numbers in a text table. It takes the decimal mark and the separator of thousands from the first numbers
 /// that have them.
@@ -113,18 +134,26 @@ impl Decimal {
         } else if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
             return TextCell::Missing;
         } else if separator == Separator(',') {
-            return if may_be_grouped(cell) { TextCell::OtherMark } else { TextCell::NoNumber };
+            return if may_be_grouped(cell) {
+                TextCell::OtherMark
+            } else {
+                TextCell::NoNumber
+            };
         } else if cell.contains('.') {
             return TextCell::NoNumber;
         } else {
-            let Ok(value) = cell.replacen(',', ".", 1).parse() else { return TextCell::NoNumber };
+            let Ok(value) = cell.replacen(',', ".", 1).parse() else {
+                return TextCell::NoNumber;
+            };
             self.is_certain = self.is_certain || !may_be_grouped(cell);
             (value, Some(','))
         };
         if value.is_nan() {
             return TextCell::Missing;
         }
-        if mark.is_some() && (mark == self.group || self.mark.is_some_and(|found| mark != Some(found))) {
+        if mark.is_some()
+            && (mark == self.group || self.mark.is_some_and(|found| mark != Some(found)))
+        {
             return TextCell::OtherMark;
         }
         self.mark = self.mark.or(mark);
@@ -136,7 +165,11 @@ impl Decimal {
     /// in `1,234`.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
-        if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }
+        if is_doubtful {
+            Err(TextFault::DoubtfulCommas)
+        } else {
+            Ok(())
+        }
     }
 }
 
@@ -149,20 +182,27 @@ fn may_be_grouped(cell: &str) -> bool {
 /// if it is the mark `known`, or if a decimal mark follows.
 fn ungrouped(cell: &str, known: Option<char>) -> Option<(String, Option<char>)> {
     let unsigned = cell.trim_start_matches(['+', '-']);
-    let mark = unsigned.chars().find(|c| !c.is_ascii_digit()).filter(|mark| GROUPING.contains(mark))?;
+    let mark = unsigned
+        .chars()
+        .find(|c| !c.is_ascii_digit())
+        .filter(|mark| GROUPING.contains(mark))?;
     let (first, mut rest) = unsigned.split_once(mark)?;
     if !(1..=3).contains(&first.len()) || first.starts_with('0') {
         return None;
     }
     let (mut digits, mut groups) = (cell[..cell.len() - unsigned.len()].to_owned() + first, 0);
     loop {
-        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        let end = rest
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(rest.len());
         if end != 3 {
             return None;
         }
         digits += &rest[..end];
         (rest, groups) = (&rest[end..], groups + 1);
-        let Some(next) = rest.strip_prefix(mark) else { break };
+        let Some(next) = rest.strip_prefix(mark) else {
+            break;
+        };
         rest = next;
     }
     let has_decimals = rest.starts_with([',', '.']);
@@ -177,7 +217,10 @@ mod tests {
     fn read(line: &str) -> Vec<TextCell> {
         let separator = Separator::of(line);
         let mut decimal = Decimal::default();
-        separator.split(line).map(|cell| decimal.read(cell, separator)).collect()
+        separator
+            .split(line)
+            .map(|cell| decimal.read(cell, separator))
+            .collect()
     }
 
     #[test]
@@ -190,17 +233,26 @@ mod tests {
             ("0.5,1.25", vec![Number(0.5), Number(1.25)]),
             ("0,5", vec![Number(0.0), Number(5.0)]),
             ("0,5 1,25", vec![Number(0.5), Number(1.25)]),
-            ("0,5 1,25e-3 7", vec![Number(0.5), Number(1.25e-3), Number(7.0)]),
+            (
+                "0,5 1,25e-3 7",
+                vec![Number(0.5), Number(1.25e-3), Number(7.0)],
+            ),
             ("0,5;1,25", vec![Number(0.5), Number(1.25)]),
             ("0,5\t-1,25E+2", vec![Number(0.5), Number(-125.0)]),
             ("0,5; 1.25", vec![Number(0.5), OtherMark]),
             ("0.5;1,25", vec![Number(0.5), OtherMark]),
             ("1.2,34;2", vec![NoNumber, Number(2.0)]),
-            ("1;;NaN;bad;x", vec![Number(1.0), Missing, Missing, Missing, NoNumber]),
+            (
+                "1;;NaN;bad;x",
+                vec![Number(1.0), Missing, Missing, Missing, NoNumber],
+            ),
             ("1,,2", vec![Number(1.0), Missing, Number(2.0)]),
             ("12", vec![Number(12.0)]),
             ("\"0.5\",\"-1.25\"", vec![Number(0.5), Number(-1.25)]),
-            ("\"0,5\";\" 1,25 \";\"\"", vec![Number(0.5), Number(1.25), Missing]),
+            (
+                "\"0,5\";\" 1,25 \";\"\"",
+                vec![Number(0.5), Number(1.25), Missing],
+            ),
             ("\"0,5\" \"1,25\"", vec![Number(0.5), Number(1.25)]),
             ("\"1,234\",\"5\"", vec![OtherMark, Number(5.0)]),
             ("\"0,5\",\"5\"", vec![NoNumber, Number(5.0)]),
@@ -214,19 +266,40 @@ mod tests {
     fn thousands_are_separated_where_no_mark_is_doubtful() {
         use TextCell::{NoNumber, Number, OtherMark};
         for (line, expected) in [
-            ("1,234.5;-2,345,678;1,234", vec![Number(1234.5), Number(-2345678.0), Number(1234.0)]),
-            ("1.234,5;2.345;0,5", vec![Number(1234.5), Number(2345.0), Number(0.5)]),
-            ("1'234.5\t2\u{2019}345\t0.5", vec![Number(1234.5), Number(2345.0), Number(0.5)]),
-            ("1 234,5;\u{2212}12 345 678e-3;0,5", vec![Number(1234.5), Number(-12345.678), Number(0.5)]),
-            ("1\u{a0}234.5 2\u{202f}345.5", vec![Number(1234.5), Number(2345.5)]),
+            (
+                "1,234.5;-2,345,678;1,234",
+                vec![Number(1234.5), Number(-2345678.0), Number(1234.0)],
+            ),
+            (
+                "1.234,5;2.345;0,5",
+                vec![Number(1234.5), Number(2345.0), Number(0.5)],
+            ),
+            (
+                "1'234.5\t2\u{2019}345\t0.5",
+                vec![Number(1234.5), Number(2345.0), Number(0.5)],
+            ),
+            (
+                "1 234,5;\u{2212}12 345 678e-3;0,5",
+                vec![Number(1234.5), Number(-12345.678), Number(0.5)],
+            ),
+            (
+                "1\u{a0}234.5 2\u{202f}345.5",
+                vec![Number(1234.5), Number(2345.5)],
+            ),
             ("1,234.5 999.5", vec![Number(1234.5), Number(999.5)]),
-            ("\"1,234.5\",\"2,345\"", vec![Number(1234.5), Number(2345.0)]),
+            (
+                "\"1,234.5\",\"2,345\"",
+                vec![Number(1234.5), Number(2345.0)],
+            ),
             // A decimal mark that was found before or is found behind it.
             ("0.5;1,234", vec![Number(0.5), OtherMark]),
             ("1,234;1,234.5", vec![Number(1.234), OtherMark]),
             ("1,234.5;0,5", vec![Number(1234.5), OtherMark]),
             // Groups of other lengths.
-            ("1 23;1,2345.6;0,123.4;1234,567.8;1,234,56", vec![NoNumber; 5]),
+            (
+                "1 23;1,2345.6;0,123.4;1234,567.8;1,234,56",
+                vec![NoNumber; 5],
+            ),
         ] {
             assert_eq!(read(line), expected, "{line}");
         }
@@ -247,9 +320,9 @@ mod tests {
         ] {
             let separator = Separator::of(line);
             let mut decimal = Decimal::default();
-            separator
-                .split(line)
-                .for_each(|cell| assert!(matches!(decimal.read(cell, separator), TextCell::Number(_))));
+            separator.split(line).for_each(|cell| {
+                assert!(matches!(decimal.read(cell, separator), TextCell::Number(_)))
+            });
             assert_eq!(decimal.check().is_err(), is_doubtful, "{line}");
         }
     }

@@ -55,7 +55,8 @@ pub fn each_line<E: From<TextFault>>(
     for (index, line) in text.split(|byte| *byte == end).enumerate() {
         let line = line_text(line, index + 1)?;
         if !line.is_empty() {
-            in_provenance = line.starts_with(COMMENT) && (in_provenance || line.starts_with(PROVENANCE));
+            in_provenance =
+                line.starts_with(COMMENT) && (in_provenance || line.starts_with(PROVENANCE));
         }
         if !in_provenance {
             take(index + 1, &line)?;
@@ -72,7 +73,13 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
         return Ok(Cow::Borrowed(text));
     }
     check_room(2 * text.len() as u64)?;
-    Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
+    Ok(Cow::Owned(
+        encoding
+            .decode_without_bom_handling(text)
+            .0
+            .into_owned()
+            .into_bytes(),
+    ))
 }
 
 /// Returns a line as UTF-8, without white space around it. Invalid UTF-8 is read as Windows-1252, in which older programs
@@ -95,7 +102,10 @@ mod tests {
 
     #[test]
     fn binary_content_and_endless_lines_are_refused() {
-        assert_eq!(line_text(b"b\0", 2), Err(TextFault::NotText { line: 2, byte: 1 }));
+        assert_eq!(
+            line_text(b"b\0", 2),
+            Err(TextFault::NotText { line: 2, byte: 1 })
+        );
         let mut long = vec![b'1'; TextFault::LONGEST_LINE];
         assert_eq!(line_text(&long, 1).unwrap().len(), TextFault::LONGEST_LINE);
         long.push(b'1');

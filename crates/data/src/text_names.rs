@@ -29,10 +29,19 @@ pub enum Role {
 const ROLES: [(Role, &str); 6] = [
     (Role::X, "x"),
     (Role::Y, "y"),
-    (Role::Height, "z height heights höhe hauteur altura altezza výška elevation topography"),
-    (Role::X, "position positions pos lateral distance length weg"),
+    (
+        Role::Height,
+        "z height heights höhe hauteur altura altezza výška elevation topography",
+    ),
+    (
+        Role::X,
+        "position positions pos lateral distance length weg",
+    ),
     (Role::Valid, "valid validity isvalid"),
-    (Role::Number, "index idx no nr number point points pt sample id"),
+    (
+        Role::Number,
+        "index idx no nr number point points pt sample id",
+    ),
 ];
 
 /// Name and meaning of a column, and its unit if the name states one.
@@ -59,7 +68,8 @@ impl HeadLines {
         if self.0.len() == LAST_LINES {
             self.0.pop_front();
         }
-        self.0.push_back(line.trim_start_matches(COMMENT).trim().to_owned());
+        self.0
+            .push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
 
     /// Returns the name, the meaning and the unit of each of `count` columns, from the last line that has a name for each
@@ -74,14 +84,24 @@ impl HeadLines {
     ) -> Vec<TextColumn> {
         let mut units: Option<Vec<String>> = None;
         for line in self.0.iter().rev() {
-            let Some(found) = cells_of(line, count, cells, separator) else { continue };
-            let is_number = |cell: &String| {
-                matches!(Decimal::default().read(cell, Separator::SPACE), TextCell::Number(_))
+            let Some(found) = cells_of(line, count, cells, separator) else {
+                continue;
             };
-            if found.iter().any(is_number) || !found.iter().any(|cell| cell.contains(char::is_alphanumeric)) {
+            let is_number = |cell: &String| {
+                matches!(
+                    Decimal::default().read(cell, Separator::SPACE),
+                    TextCell::Number(_)
+                )
+            };
+            if found.iter().any(is_number)
+                || !found
+                    .iter()
+                    .any(|cell| cell.contains(char::is_alphanumeric))
+            {
                 continue;
             }
-            let mut columns: Vec<TextColumn> = found.iter().map(|cell| column(cell, is_unit)).collect();
+            let mut columns: Vec<TextColumn> =
+                found.iter().map(|cell| column(cell, is_unit)).collect();
             let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
             let names = columns.iter().any(|column| column.role != Role::Unknown);
             if units.is_none() && !names && bare.iter().any(|cell| is_unit(cell)) {
@@ -127,16 +147,31 @@ pub fn is_one_of(word: &str, words: &str) -> bool {
 /// `most`. Otherwise the line is split at its own separator, or after closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = match line.split_once([':', '=']) {
-        Some((key, cells)) if is_one_of(&key.trim().to_lowercase(), "columns names fields units") => cells,
+        Some((key, cells))
+            if is_one_of(&key.trim().to_lowercase(), "columns names fields units") =>
+        {
+            cells
+        }
         Some(_) => return None,
         None => line,
     };
     // Between a name and its unit there may be a blank.
-    let joined = line.trim().replace(" [", "[").replace(" (", "(").replace(" / ", "/");
+    let joined = line
+        .trim()
+        .replace(" [", "[")
+        .replace(" (", "(")
+        .replace(" / ", "/");
     let split = |separator: Separator| {
-        let line = if separator == Separator::SPACE { &joined } else { line.trim() };
+        let line = if separator == Separator::SPACE {
+            &joined
+        } else {
+            line.trim()
+        };
         let mut cells: Vec<String> = separator.split(line).map(str::to_owned).collect();
-        let end = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
+        let end = cells
+            .iter()
+            .rposition(|cell| !cell.is_empty())
+            .map_or(0, |last| last + 1);
         cells.truncate(end);
         cells
     };
@@ -149,9 +184,12 @@ fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Opti
     if cells.len() == count {
         return Some(cells);
     }
-    let pieces = joined.split_inclusive([']', ')']).map(|piece| piece.trim().to_owned());
+    let pieces = joined
+        .split_inclusive([']', ')'])
+        .map(|piece| piece.trim().to_owned());
     let pieces: Vec<String> = pieces.filter(|piece| !piece.is_empty()).collect();
-    (pieces.len() == count && pieces.iter().all(|piece| piece.ends_with([']', ')']))).then_some(pieces)
+    (pieces.len() == count && pieces.iter().all(|piece| piece.ends_with([']', ')'])))
+        .then_some(pieces)
 }
 
 fn bare(cell: &str) -> &str {
@@ -164,21 +202,47 @@ fn bare(cell: &str) -> &str {
 fn column(cell: &str, is_unit: fn(&str) -> bool) -> TextColumn {
     let bracket = |(at, mark): (usize, &str)| {
         let unit = bare(cell[at + 1..].split([']', ')']).next()?);
-        Some((&cell[..at], unit, mark == "[" || unit.chars().count() < LONGEST_UNIT))
+        Some((
+            &cell[..at],
+            unit,
+            mark == "[" || unit.chars().count() < LONGEST_UNIT,
+        ))
     };
-    let slash = cell.rsplit_once('/').map(|(name, unit)| (name, bare(unit), true));
+    let slash = cell
+        .rsplit_once('/')
+        .map(|(name, unit)| (name, bare(unit), true));
     // `Length 5 um` is a size.
     let last_word = cell.rsplit_once([' ', '_']).filter(|(name, _)| {
-        !name.rsplit(' ').next().is_some_and(|before| before.contains(|c: char| c.is_ascii_digit()))
+        !name
+            .rsplit(' ')
+            .next()
+            .is_some_and(|before| before.contains(|c: char| c.is_ascii_digit()))
     });
-    let parts = cell.match_indices(['[', '(']).filter_map(bracket).chain(slash);
-    let parts: Vec<_> = parts.chain(last_word.map(|(name, unit)| (name, unit, false))).collect();
+    let parts = cell
+        .match_indices(['[', '('])
+        .filter_map(bracket)
+        .chain(slash);
+    let parts: Vec<_> = parts
+        .chain(last_word.map(|(name, unit)| (name, unit, false)))
+        .collect();
     let known = parts.iter().find(|(_, unit, _)| is_unit(unit));
     let found = known.or_else(|| parts.iter().find(|(.., is_stated)| *is_stated));
-    let (name, unit) = found.map_or((cell, None), |(name, unit, _)| (*name, Some((*unit).to_owned())));
-    let lower = cell.split(['[', '(', '/']).next().unwrap_or_default().to_lowercase();
-    let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let role = ROLES.iter().find(|(_, known)| words().any(|word| is_one_of(word, known)));
+    let (name, unit) = found.map_or((cell, None), |(name, unit, _)| {
+        (*name, Some((*unit).to_owned()))
+    });
+    let lower = cell
+        .split(['[', '(', '/'])
+        .next()
+        .unwrap_or_default()
+        .to_lowercase();
+    let words = || {
+        lower
+            .split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty())
+    };
+    let role = ROLES
+        .iter()
+        .find(|(_, known)| words().any(|word| is_one_of(word, known)));
     TextColumn {
         name: name.trim_matches(['"', ' ']).to_owned(),
         role: role.map_or(Role::Unknown, |(role, _)| *role),

@@ -222,7 +222,10 @@ impl Warning {
     /// Returns a warning if the slopes of a roughness are not small. `is_measured` is true for a measured surface.
     pub fn of_gradient(rms_gradient: f64, is_measured: bool) -> Option<Warning> {
         let is_steep = rms_gradient > Self::LARGEST_GRADIENT;
-        is_steep.then_some(Warning::SteepRoughness { rms_gradient, is_measured })
+        is_steep.then_some(Warning::SteepRoughness {
+            rms_gradient,
+            is_measured,
+        })
     }
 
     /// Returns a warning if attraction of this Tabor number has too long a range for the model.
@@ -241,7 +244,11 @@ impl Warning {
         let is_longer = scan > length * (1.0 + 1e-9);
         let [surface, profile] = rms_heights;
         let has_other_height = (profile / surface - 1.0).abs() > Self::LARGEST_CHANGE_OF_HEIGHT;
-        (is_longer && has_other_height).then_some(Warning::ScanLongerThanLength { scan, length, rms_heights })
+        (is_longer && has_other_height).then_some(Warning::ScanLongerThanLength {
+            scan,
+            length,
+            rms_heights,
+        })
     }
 
     /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), and `jkr_factor` the factor by which the
@@ -485,7 +492,9 @@ impl Warning {
             Warning::FewSpringsInContact { .. } => {
                 "More numerics.points help, or a length that is little larger than the contact."
             }
-            Warning::FewSpringsPerWave { .. } => "More numerics.points help, or a longer shortest wave.",
+            Warning::FewSpringsPerWave { .. } => {
+                "More numerics.points help, or a longer shortest wave."
+            }
             Warning::RoundedWaves { .. } => {
                 "A length that is a multiple of both wavelengths, or roughness.modes, states waves that are used unchanged."
             }
@@ -493,10 +502,14 @@ impl Warning {
                 "The length is the width of the real contact; if the contact is so small, report median and quartiles of \
                  many random profiles."
             }
-            Warning::SteepRoughness { is_measured: false, .. } => {
+            Warning::SteepRoughness {
+                is_measured: false, ..
+            } => {
                 "A smaller roughness.rms_height or rms_gradient, or a longer shortest wave, has smaller slopes."
             }
-            Warning::SteepRoughness { is_measured: true, .. } => {
+            Warning::SteepRoughness {
+                is_measured: true, ..
+            } => {
                 "If the unit of positions or of heights is wrong, roughness.unit and roughness.height_unit state it."
             }
             Warning::LongRangedAttraction { .. } => {
@@ -551,12 +564,19 @@ impl Display for Warning {
 /// A warning is written as its text.
 #[cfg(feature = "files")]
 impl serde::Serialize for Warning {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        serializer: S,
+    ) -> std::result::Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
 }
 
 /// Writes how many times a wave fits: `once`, `2.5 times`.
 fn times(waves: f64) -> String {
-    if waves == 1.0 { "once".to_owned() } else { format!("{} times", format_rounded(waves, 2, "1")) }
+    if waves == 1.0 {
+        "once".to_owned()
+    } else {
+        format!("{} times", format_rounded(waves, 2, "1"))
+    }
 }

@@ -45,11 +45,17 @@ pub enum WriteError {
 
 impl WriteError {
     fn unsuitable(path: &Path, fault: impl Into<String>) -> WriteError {
-        WriteError::Unsuitable { path: path.into(), fault: fault.into() }
+        WriteError::Unsuitable {
+            path: path.into(),
+            fault: fault.into(),
+        }
     }
 
     fn failed(path: &Path) -> impl Fn(io::Error) -> WriteError {
-        move |reason| WriteError::Failed { path: path.into(), reason }
+        move |reason| WriteError::Failed {
+            path: path.into(),
+            reason,
+        }
     }
 }
 
@@ -69,7 +75,10 @@ pub fn write_new(
     if target(path, overwrite)?.is_some() {
         return write_new_file(path, overwrite, write);
     }
-    let mut stream = OpenOptions::new().write(true).open(path).map_err(WriteError::failed(path))?;
+    let mut stream = OpenOptions::new()
+        .write(true)
+        .open(path)
+        .map_err(WriteError::failed(path))?;
     fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
@@ -90,10 +99,11 @@ pub fn write_new_file(
         file.file.set_permissions(permissions).map_err(&failed)?;
     }
     file.file.sync_all().map_err(&failed)?;
-    file.persist(&place, overwrite).map_err(|reason| match reason.kind() {
-        io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
-        _ => failed(reason),
-    })?;
+    file.persist(&place, overwrite)
+        .map_err(|reason| match reason.kind() {
+            io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
+            _ => failed(reason),
+        })?;
     // The name has to be durable as well.
     sync_folder(folder_of(&place)).map_err(failed)
 }
@@ -103,8 +113,9 @@ pub fn write_new_file(
 pub fn remove_abandoned(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
-        let is_temporary =
-            name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+        let is_temporary = name
+            .to_str()
+            .is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
         if is_temporary && is_abandoned(&entry.path()) {
             let _ = fs::remove_file(entry.path());
         }
@@ -113,7 +124,9 @@ pub fn remove_abandoned(folder: &Path) {
 
 /// Returns true if a temporary file belongs to no process any more. Its process locks it just after its creation.
 fn is_abandoned(path: &Path) -> bool {
-    let Ok(file) = crate::read::open_regular(path) else { return false };
+    let Ok(file) = crate::read::open_regular(path) else {
+        return false;
+    };
     let modified = file.metadata().and_then(|found| found.modified());
     let is_old = modified.is_ok_and(|time| time.elapsed().is_ok_and(|age| age >= ABANDONED));
     is_old && file.try_lock().is_ok()
@@ -141,7 +154,11 @@ impl Temporary {
                 linked.map_err(without_path)?.into_temp_path()
             }
         };
-        let named = if overwrite { name.persist(path) } else { name.persist_noclobber(path) };
+        let named = if overwrite {
+            name.persist(path)
+        } else {
+            name.persist_noclobber(path)
+        };
         // The file is open, and locked, until here.
         named.map_err(|error| error.error)
     }
@@ -170,14 +187,24 @@ fn temporary(path: &Path) -> Result<Temporary, WriteError> {
         use std::os::unix::fs::PermissionsExt;
         file.permissions(Permissions::from_mode(0o666));
     }
-    let file = file.tempfile_in(folder).map_err(|reason| match folder.is_dir() {
-        true => WriteError::Failed { path: path.into(), reason: without_path(reason) },
-        false => WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder))),
-    })?;
+    let file = file
+        .tempfile_in(folder)
+        .map_err(|reason| match folder.is_dir() {
+            true => WriteError::Failed {
+                path: path.into(),
+                reason: without_path(reason),
+            },
+            false => {
+                WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder)))
+            }
+        })?;
     let (file, name) = file.into_parts();
     #[cfg(unix)]
     let _ = file.try_lock();
-    Ok(Temporary { file, name: Some(name) })
+    Ok(Temporary {
+        file,
+        name: Some(name),
+    })
 }
 
 fn names() -> tempfile::Builder<'static, 'static> {
@@ -220,17 +247,25 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
 /// Waits until the names of the files in the folder `path` have been written to the disk.
 pub fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
-    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    let path = if path.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        path
+    };
     match File::open(path).and_then(|folder| folder.sync_all()) {
         // Some systems cannot open a folder, some folders may not be read, and some file systems cannot synchronise one:
         // there, names are as safe as the system makes them.
-        Err(error) if matches!(error.kind(), PermissionDenied | InvalidInput | Unsupported) => Ok(()),
+        Err(error) if matches!(error.kind(), PermissionDenied | InvalidInput | Unsupported) => {
+            Ok(())
+        }
         synced => synced,
     }
 }
 
 fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
+    path.parent()
+        .filter(|folder| *folder != Path::new(""))
+        .unwrap_or(Path::new("."))
 }
 
 fn fill(
@@ -244,12 +279,18 @@ fn fill(
 
 /// Returns the path to which `path` leads through links, with the permissions of the file there, if it exists. Returns `None`
 /// for a pipe or a device.
-fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permissions>)>, WriteError> {
+fn target(
+    path: &Path,
+    overwrite: bool,
+) -> Result<Option<(PathBuf, Option<Permissions>)>, WriteError> {
     let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
     let found = fs::metadata(path);
     let is_folder = found.as_ref().is_ok_and(fs::Metadata::is_dir);
     if path.file_name().is_none() || ends_as_folder || is_folder {
-        return Err(WriteError::unsuitable(path, "this is not the name of a file"));
+        return Err(WriteError::unsuitable(
+            path,
+            "this is not the name of a file",
+        ));
     }
     match found {
         Ok(found) if !found.is_file() => Ok(None),
@@ -263,7 +304,9 @@ fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permis
             Ok(Some((path, Some(found.permissions()))))
         }
         // A dangling link exists all the same.
-        Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => Err(WriteError::Exists(path.into())),
+        Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => {
+            Err(WriteError::Exists(path.into()))
+        }
         // To its target, as through any other link. A circle of links is another error.
         Err(reason) if reason.kind() == io::ErrorKind::NotFound && path.is_symlink() => {
             let link = fs::read_link(path).map_err(WriteError::failed(path))?;
@@ -280,7 +323,9 @@ mod tests {
 
     fn names_in(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+        entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect()
     }
 
     #[test]
@@ -290,7 +335,10 @@ mod tests {
         write_new(&path, false, |out| out.write_all(b"one")).unwrap();
         let again = write_new(&path, false, |out| out.write_all(b"two"));
         assert!(matches!(again, Err(WriteError::Exists(_))), "{again:?}");
-        assert!(matches!(check_writable(&path, false), Err(WriteError::Exists(_))));
+        assert!(matches!(
+            check_writable(&path, false),
+            Err(WriteError::Exists(_))
+        ));
         assert_eq!(fs::read(&path).unwrap(), b"one");
         check_writable(&path, true).unwrap();
         write_new(&path, true, |out| out.write_all(b"two")).unwrap();
@@ -306,10 +354,18 @@ mod tests {
         let broken = |out: &mut (dyn Write + Send)| {
             out.write_all(&[b'x'; 2 * BUFFER])?;
             // Nothing would stay if the process ended here.
-            assert!(!cfg!(target_os = "linux") || !in_folder().iter().any(|name| name.ends_with(".tmp")));
+            assert!(
+                !cfg!(target_os = "linux")
+                    || !in_folder().iter().any(|name| name.ends_with(".tmp"))
+            );
             Err(io::Error::other("no more"))
         };
-        assert!(write_new(&path, false, broken).unwrap_err().to_string().contains("no more"));
+        assert!(
+            write_new(&path, false, broken)
+                .unwrap_err()
+                .to_string()
+                .contains("no more")
+        );
         assert_eq!(names_in(folder.path()), Vec::<String>::new());
         write_new(&path, false, |out| out.write_all(b"one")).unwrap();
         assert!(write_new(&path, true, broken).is_err());
@@ -341,7 +397,10 @@ mod tests {
             let watch = scope.spawn(|| {
                 let mut seen = 0;
                 while !is_done.load(Ordering::SeqCst) {
-                    seen += names_in(folder.path()).iter().filter(|name| name.ends_with(SUFFIX)).count();
+                    seen += names_in(folder.path())
+                        .iter()
+                        .filter(|name| name.ends_with(SUFFIX))
+                        .count();
                 }
                 seen
             });
@@ -370,7 +429,10 @@ mod tests {
         };
         drop(make(".asperity-dead.tmp", Some(old)));
         drop(make(".asperity-young.tmp", None));
-        drop(make(".asperity-future.tmp", Some(std::time::SystemTime::now() + ABANDONED)));
+        drop(make(
+            ".asperity-future.tmp",
+            Some(std::time::SystemTime::now() + ABANDONED),
+        ));
         drop(make("asperity-other.tmp", Some(old)));
         drop(make(".asperity-other.csv", Some(old)));
         let alive = make(".asperity-alive.tmp", Some(old));
@@ -379,9 +441,16 @@ mod tests {
         remove_abandoned(folder.path());
         let mut left = names_in(folder.path());
         left.sort();
-        let kept =
-            [".asperity-alive.tmp", ".asperity-folder.tmp", ".asperity-future.tmp", ".asperity-other.csv"];
-        assert_eq!(left, [&kept[..], &[".asperity-young.tmp", "asperity-other.tmp"]].concat());
+        let kept = [
+            ".asperity-alive.tmp",
+            ".asperity-folder.tmp",
+            ".asperity-future.tmp",
+            ".asperity-other.csv",
+        ];
+        assert_eq!(
+            left,
+            [&kept[..], &[".asperity-young.tmp", "asperity-other.tmp"]].concat()
+        );
         drop(alive);
         remove_abandoned(folder.path());
         assert!(!folder.path().join(".asperity-alive.tmp").exists());
@@ -396,7 +465,9 @@ mod tests {
         let file = temporary(&folder.path().join("curve.csv")).unwrap();
         let name = folder.path().join(".asperity-named.tmp");
         link(&file.file, &name).unwrap();
-        file.file.set_modified(std::time::SystemTime::now() - 2 * ABANDONED).unwrap();
+        file.file
+            .set_modified(std::time::SystemTime::now() - 2 * ABANDONED)
+            .unwrap();
         assert!(!is_abandoned(&name));
         drop(file);
         assert!(is_abandoned(&name));
@@ -417,7 +488,9 @@ mod tests {
                 "{message}"
             );
         }
-        let error = names().tempfile_in(folder.path().join("missing")).unwrap_err();
+        let error = names()
+            .tempfile_in(folder.path().join("missing"))
+            .unwrap_err();
         assert!(error.to_string().contains(PREFIX), "{error}");
         let plain = without_path(error);
         assert_eq!(plain.kind(), io::ErrorKind::NotFound);
@@ -446,13 +519,22 @@ mod tests {
     #[test]
     fn links_lead_to_the_file_they_name() {
         let folder = tempfile::tempdir().unwrap();
-        let (file, link, lost) =
-            (folder.path().join("file"), folder.path().join("link"), folder.path().join("lost"));
+        let (file, link, lost) = (
+            folder.path().join("file"),
+            folder.path().join("link"),
+            folder.path().join("lost"),
+        );
         std::os::unix::fs::symlink(&file, &link).unwrap();
         std::os::unix::fs::symlink(folder.path().join("nothing"), &lost).unwrap();
         fs::write(&file, "one").unwrap();
-        assert!(matches!(check_writable(&link, false), Err(WriteError::Exists(_))));
-        assert!(matches!(check_writable(&lost, false), Err(WriteError::Exists(_))));
+        assert!(matches!(
+            check_writable(&link, false),
+            Err(WriteError::Exists(_))
+        ));
+        assert!(matches!(
+            check_writable(&lost, false),
+            Err(WriteError::Exists(_))
+        ));
         write_new(&link, true, |out| out.write_all(b"two")).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"two");
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
@@ -471,7 +553,10 @@ mod tests {
         for path in [&pipe, Path::new("/dev/null")] {
             for overwrite in [false, true] {
                 let refused = write_new_file(path, overwrite, |out| out.write_all(b"one"));
-                assert!(matches!(refused, Err(WriteError::Unsuitable { .. })), "{refused:?}");
+                assert!(
+                    matches!(refused, Err(WriteError::Unsuitable { .. })),
+                    "{refused:?}"
+                );
             }
         }
         assert_eq!(names_in(folder.path()), ["pipe"]);

@@ -17,11 +17,20 @@ impl Baseline {
         let count = values.len() as f64;
         let place = |index: usize| index as f64 - 0.5 * (count - 1.0);
         let mean = mean(values);
-        let product: f64 = values.iter().enumerate().map(|(index, value)| place(index) * value).sum();
+        let product: f64 = values
+            .iter()
+            .enumerate()
+            .map(|(index, value)| place(index) * value)
+            .sum();
         let slope = product / (count * (count * count - 1.0) / 12.0);
         let rest = |(index, value): (usize, &f64)| (value - mean - slope * place(index)).powi(2);
         let noise = (values.iter().enumerate().map(rest).sum::<f64>() / (count - 2.0)).sqrt();
-        Baseline { count, mean, slope, noise }
+        Baseline {
+            count,
+            mean,
+            slope,
+            noise,
+        }
     }
 
     /// Returns the deviations of `values` from the line. The first value lies at the beginning of the line.
@@ -73,7 +82,9 @@ pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let length = dot(&column, &column).sqrt();
         // What remains of a column that depends on the others is rounding.
         let is_other = length > 1e-9 * whole;
-        column.iter_mut().for_each(|one| *one = if is_other { *one / length } else { 0.0 });
+        column
+            .iter_mut()
+            .for_each(|one| *one = if is_other { *one / length } else { 0.0 });
         basis.push(column);
     }
     basis
@@ -82,7 +93,10 @@ pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
 /// Subtracts from the values their component along a column of length 1, and returns the component.
 pub(crate) fn take_off(values: &mut [f64], column: &[f64]) -> f64 {
     let along = dot(values, column);
-    values.iter_mut().zip(column).for_each(|(value, one)| *value -= along * one);
+    values
+        .iter_mut()
+        .zip(column)
+        .for_each(|(value, one)| *value -= along * one);
     along
 }
 
@@ -93,5 +107,7 @@ pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
 
 /// Smallest and largest of the values.
 pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    })
 }

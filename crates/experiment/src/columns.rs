@@ -29,8 +29,7 @@ const QUANTITIES: [(&str, &str, &str, &str); 2] = [
     ),
 ];
 /// Names of columns with the displacement of the body, without the deflection of the instrument.
-const OF_BODY: &str =
-    "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
+const OF_BODY: &str = "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
 /// Names of a column of segments.
 const SEGMENT: &str = "segment segmentname segmenttype phase direction";
 /// Words for approach and for retraction in the names of columns side by side, and words for a pause in the names of
@@ -88,10 +87,14 @@ impl Choice {
     ) -> Result<Self, SurfaceError> {
         let count = columns.len();
         let is_unnamed = columns.iter().all(|column| column.name.is_empty());
-        let has_units = !options.units.is_empty() || columns.iter().any(|column| column.unit.is_some());
+        let has_units =
+            !options.units.is_empty() || columns.iter().any(|column| column.unit.is_some());
         let units = if is_unnamed && !has_units { UNITS } else { "" };
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS.to_owned() + units);
-        let names = columns.iter().map(|column| &*column.name).filter(|name| !name.is_empty());
+        let names = columns
+            .iter()
+            .map(|column| &*column.name)
+            .filter(|name| !name.is_empty());
         let all = match &*names.map(shown).collect::<Vec<_>>().join(", ") {
             "" => format!("{count} columns without names"),
             names => format!("{count} columns {names}"),
@@ -100,13 +103,21 @@ impl Choice {
         let known = known(&named);
         let place = |wanted: &String| {
             let letters = letters(wanted);
-            let is_it = |column: &TextColumn| !letters.is_empty() && self::letters(&column.name) == letters;
+            let is_it =
+                |column: &TextColumn| !letters.is_empty() && self::letters(&column.name) == letters;
             let found = columns.iter().position(is_it);
-            let number = || wanted.parse().ok().filter(|number| (1..=count).contains(number));
+            let number = || {
+                wanted
+                    .parse()
+                    .ok()
+                    .filter(|number| (1..=count).contains(number))
+            };
             let place = found.or_else(|| Some(number()? - 1));
             place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
         };
-        let is_unknown = !named.iter().any(|one| QUANTITIES.iter().any(|row| is_one_of(&one.rest, row.3)));
+        let is_unknown = !named
+            .iter()
+            .any(|one| QUANTITIES.iter().any(|row| is_one_of(&one.rest, row.3)));
         let ramp = options.ramp.or(stated.metadata.ramp).filter(|_| count == 1);
         if count == 1 && ramp.is_none() {
             let allowed = "a column of displacements too, or --ramp 500nm for forces of an approach and a retraction over 500 nm";
@@ -118,15 +129,20 @@ impl Choice {
                 (vec![[0, 1]], None)
             }
             [] => {
-                let places =
-                    known.clone().map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
+                let places = known
+                    .clone()
+                    .map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
                 (places, None)
             }
             [at, force] => (vec![[place(at)?, place(force)?]], None),
             [at, force, segment] => (vec![[place(at)?, place(force)?]], Some(place(segment)?)),
-            [at, force, back, back_force] => {
-                (vec![[place(at)?, place(force)?], [place(back)?, place(back_force)?]], None)
-            }
+            [at, force, back, back_force] => (
+                vec![
+                    [place(at)?, place(force)?],
+                    [place(back)?, place(back_force)?],
+                ],
+                None,
+            ),
             other => return Err(wrong(format!("--columns with {}", other.len()))),
         };
         if places.len() == 1 && segment.is_none() {
@@ -142,8 +158,9 @@ impl Choice {
             && *by_name != places
         {
             let [at, force] = by_name[0].map(name);
-            statements
-                .push(format!("Columns by --columns; by the names of the file they are {at} and {force}."));
+            statements.push(format!(
+                "Columns by --columns; by the names of the file they are {at} and {force}."
+            ));
         }
         let mut words = Vec::new();
         let mut pair = |places: [usize; 2]| {
@@ -157,24 +174,40 @@ impl Choice {
                     ));
                     continue;
                 }
-                let unit = columns[place].unit.as_deref().or(named[place].unit.as_deref());
+                let unit = columns[place]
+                    .unit
+                    .as_deref()
+                    .or(named[place].unit.as_deref());
                 let (value, word) = of_one(quantity, unit, stated, options, &mut statements)?;
                 units[quantity] = value;
                 words.push(format!("{} ({word})", name(place)));
             }
             Ok(Pair { places, units })
         };
-        let pairs = places.iter().map(|places| pair(*places)).collect::<Result<_, SurfaceError>>()?;
+        let pairs = places
+            .iter()
+            .map(|places| pair(*places))
+            .collect::<Result<_, SurfaceError>>()?;
         statements.dedup();
         let mut assumed = format!("Columns: {}", words[..2].join(", "));
         if let Some(beside) = words.get(2..).filter(|beside| !beside.is_empty()) {
             assumed += &format!(", the retraction in {}", beside.join(", "));
         }
         // A number in place of the name overrules what the name says.
-        let is_by_name = options.columns.first().is_none_or(|typed| typed.parse::<usize>().is_err());
+        let is_by_name = options
+            .columns
+            .first()
+            .is_none_or(|typed| typed.parse::<usize>().is_err());
         let first = places[0][0];
         let of_body = (is_by_name && is_one_of(&named[first].rest, OF_BODY)).then(|| name(first));
-        Ok(Choice { pairs, segment, ramp, of_body, assumed, statements })
+        Ok(Choice {
+            pairs,
+            segment,
+            ramp,
+            of_body,
+            assumed,
+            statements,
+        })
     }
 }
 
@@ -190,9 +223,15 @@ fn of_one(
     let (term, si, example, _) = QUANTITIES[quantity];
     let option = options.units.get(quantity).map(String::as_str);
     let wrong = |fault: String, allowed: &str| refused(Place::File, fault, allowed);
-    let text = option.or(stated).or(file.is_si.then_some(si)).ok_or_else(|| {
-        wrong(format!("no unit of the {term} is stated"), "--units nm,nN for displacement and force")
-    })?;
+    let text = option
+        .or(stated)
+        .or(file.is_si.then_some(si))
+        .ok_or_else(|| {
+            wrong(
+                format!("no unit of the {term} is stated"),
+                "--units nm,nN for displacement and force",
+            )
+        })?;
     if quantity == 1
         && option.is_none()
         && let Some(of_one) = of_deflection(text, file.metadata)
@@ -212,11 +251,15 @@ fn of_one(
             &format!("{example} and the like, or the value of 1, such as --units nm,3.01nN"),
         )
     })?;
-    let other = stated.or(file.is_si.then_some(si)).filter(|other| unit(other, si) != Some(value));
+    let other = stated
+        .or(file.is_si.then_some(si))
+        .filter(|other| unit(other, si) != Some(value));
     if let Some((other, option)) = other.zip(option) {
         let other = shown(other);
-        statements
-            .push(format!("Unit of the {term} by --units: {}; the file states {other}.", shown(option)));
+        statements.push(format!(
+            "Unit of the {term} by --units: {}; the file states {other}.",
+            shown(option)
+        ));
     }
     Ok((value, shown(text)))
 }
@@ -227,17 +270,29 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String)
     let (of_length, of_voltage) = (unit(text, "m"), unit(text, "V"));
     let stiffness = metadata.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
     let sensitivity = of_voltage.and(metadata.sensitivity);
-    let deflection =
-        of_length.or(of_voltage.zip(sensitivity).map(|(volts, sensitivity)| volts * sensitivity));
+    let deflection = of_length.or(of_voltage
+        .zip(sensitivity)
+        .map(|(volts, sensitivity)| volts * sensitivity));
     let missing = |what: &str| {
-        let fault = format!("the force is a deflection in {}, and the file states no {what}", shown(text));
-        Err(refused(Place::File, fault, "the force of 1 in the column, such as --units nm,3.01nN"))
+        let fault = format!(
+            "the force is a deflection in {}, and the file states no {what}",
+            shown(text)
+        );
+        Err(refused(
+            Place::File,
+            fault,
+            "the force of 1 in the column, such as --units nm,3.01nN",
+        ))
     };
     Some(match (of_length.or(of_voltage)?, deflection, stiffness) {
         (_, Some(deflection), Some(stiffness)) => {
-            let by = sensitivity
-                .map_or_else(String::new, |found| format!("{} and ", format_quantity(found, "m/V")));
-            Ok((deflection * stiffness, format!("{by}{}", format_quantity(stiffness, "N/m"))))
+            let by = sensitivity.map_or_else(String::new, |found| {
+                format!("{} and ", format_quantity(found, "m/V"))
+            });
+            Ok((
+                deflection * stiffness,
+                format!("{by}{}", format_quantity(stiffness, "N/m")),
+            ))
         }
         (_, Some(_), None) => missing("stiffness of the instrument"),
         (_, None, _) => missing("sensitivity"),
@@ -257,13 +312,19 @@ struct Named {
 
 impl Named {
     fn of(column: &TextColumn) -> Named {
-        let words: Vec<&str> =
-            column.name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+        let words: Vec<&str> = column
+            .name
+            .split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty())
+            .collect();
         let is_unit = |word: &&&str| {
-            **word == "V" || word.chars().count() > 1 && (is_unit(word) || unit(word, "V").is_some())
+            **word == "V"
+                || word.chars().count() > 1 && (is_unit(word) || unit(word, "V").is_some())
         };
         let unit = words.iter().skip(1).find(is_unit).copied();
-        let rest = words.iter().filter(|word| direction(word).is_none() && Some(**word) != unit);
+        let rest = words
+            .iter()
+            .filter(|word| direction(word).is_none() && Some(**word) != unit);
         Named {
             direction: words.iter().find_map(|word| direction(word)),
             rest: rest.map(|word| letters(word)).collect(),
@@ -289,7 +350,9 @@ fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
         let is = |known: &str| {
             let fits = |(_, one): &(usize, &Named)| one.direction == direction && one.rest == known;
             let ranked = named.iter().enumerate().filter(fits);
-            ranked.min_by_key(|(_, one)| if quantity == 1 { one.rank() } else { 0 }).map(|(place, _)| place)
+            ranked
+                .min_by_key(|(_, one)| if quantity == 1 { one.rank() } else { 0 })
+                .map(|(place, _)| place)
         };
         let found = QUANTITIES[quantity].3.split(' ').find_map(is);
         // A column may be named by its direction alone.
@@ -318,7 +381,10 @@ fn is_one_of(word: &str, words: &str) -> bool {
 
 /// The letters of a name in lower case, so that `Z-Sense` and `z_sense` are the same.
 fn letters(name: &str) -> String {
-    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+    name.chars()
+        .filter(|c| c.is_alphanumeric())
+        .flat_map(char::to_lowercase)
+        .collect()
 }
 
 /// Direction that a word states: 0 approach, 1 retraction.
@@ -329,12 +395,16 @@ fn direction(word: &str) -> Option<usize> {
 
 /// Returns true for the name of a segment in which the instrument waits.
 pub(crate) fn is_pause(text: &str) -> bool {
-    text.split(|c: char| !c.is_alphanumeric()).any(|word| is_one_of(&letters(word), PAUSES))
+    text.split(|c: char| !c.is_alphanumeric())
+        .any(|word| is_one_of(&letters(word), PAUSES))
 }
 
 /// Returns true for a line that names a segment.
 pub(crate) fn names_segment(text: &str) -> bool {
-    is_pause(text) || text.split(|c: char| !c.is_alphanumeric()).any(|word| direction(word).is_some())
+    is_pause(text)
+        || text
+            .split(|c: char| !c.is_alphanumeric())
+            .any(|word| direction(word).is_some())
 }
 
 /// Returns true for a unit of length, force or voltage.
@@ -344,5 +414,7 @@ pub(crate) fn is_unit(text: &str) -> bool {
 
 /// A unit, such as nm, as a number of SI units.
 fn unit(text: &str, si: &str) -> Option<f64> {
-    parse_quantity(&format!("1 {text}"), si).ok().filter(|_| text.ends_with(si))
+    parse_quantity(&format!("1 {text}"), si)
+        .ok()
+        .filter(|_| text.ends_with(si))
 }

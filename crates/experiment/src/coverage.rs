@@ -30,7 +30,9 @@ impl fmt::Display for Held {
 #[test]
 #[ignore = "fits of many curves take ten seconds or more"]
 fn intervals_hold_the_truth_of_most_spheres() {
-    let effort = std::env::var("TEST_EFFORT").ok().and_then(|effort| effort.parse().ok());
+    let effort = std::env::var("TEST_EFFORT")
+        .ok()
+        .and_then(|effort| effort.parse().ok());
     let count = effort.unwrap_or(8).clamp(8, 200);
     let worker = || {
         move |seed: u64| {
@@ -42,8 +44,12 @@ fn intervals_hold_the_truth_of_most_spheres() {
             Ok::<_, ExperimentError>((made, curve, seconds, first))
         }
     };
-    let fits =
-        on_threads(count, std::thread::available_parallelism().map_or(1, usize::from), worker).unwrap();
+    let fits = on_threads(
+        count,
+        std::thread::available_parallelism().map_or(1, usize::from),
+        worker,
+    )
+    .unwrap();
     let mut seconds = Vec::new();
     // Of smooth and of rough spheres by parameter.
     let mut rows = [[Held::default(); 7]; 2];
@@ -52,7 +58,11 @@ fn intervals_hold_the_truth_of_most_spheres() {
         // The zero of the reading is off by the mean of the noise before contact.
         let zero = -noise(&made, seed)[..curve.free].iter().sum::<f64>() / curve.free as f64;
         let count_held = |held: &mut Held, fit: &FitResult, one: &FittedParameter| {
-            let truth = if one.parameter == Parameter::Zero { zero } else { truth(&made, one.parameter) };
+            let truth = if one.parameter == Parameter::Zero {
+                zero
+            } else {
+                truth(&made, one.parameter)
+            };
             let holds = one.interval.0 <= truth && truth <= one.interval.1;
             (held.held, held.all) = (held.held + usize::from(holds), held.all + 1);
             if !holds {
@@ -60,25 +70,43 @@ fn intervals_hold_the_truth_of_most_spheres() {
             }
         };
         for one in &first.parameters {
-            count_held(&mut rows[(seed % 2) as usize][one.parameter as usize], &first, one);
+            count_held(
+                &mut rows[(seed % 2) as usize][one.parameter as usize],
+                &first,
+                one,
+            );
         }
     }
     let all = rows.map(|row| {
         let sum = |count: fn(&Held) -> usize| row.iter().map(count).sum();
-        Held { held: sum(|one| one.held), all: sum(|one| one.all) }
+        Held {
+            held: sum(|one| one.held),
+            all: sum(|one| one.all),
+        }
     });
     let percent = |held: Held| format!("{held}, {:.1} %", 100.0 * held.share());
     let row = |parameter: &Parameter| {
         let [smooth, rough] = rows.map(|row| row[*parameter as usize]);
         format!("| {} | {smooth} | {rough} |\n", parameter.row().term)
     };
-    let tried = Parameter::ALL.into_iter().filter(|one| rows[0][*one as usize].all > 0);
+    let tried = Parameter::ALL
+        .into_iter()
+        .filter(|one| rows[0][*one as usize].all > 0);
     let table: String = tried.map(|one| row(&one)).collect();
-    let table = format!("{table}| all | {} | {} |\n", percent(all[0]), percent(all[1]));
-    let (mean, longest) =
-        (seconds.iter().sum::<f64>() / seconds.len() as f64, seconds.iter().copied().fold(0.0, f64::max));
+    let table = format!(
+        "{table}| all | {} | {} |\n",
+        percent(all[0]),
+        percent(all[1])
+    );
+    let (mean, longest) = (
+        seconds.iter().sum::<f64>() / seconds.len() as f64,
+        seconds.iter().copied().fold(0.0, f64::max),
+    );
     println!("{table}{mean:.2} s for a fit, {longest:.2} s at most");
-    let first = Held { held: all[0].held + all[1].held, all: all[0].all + all[1].all };
+    let first = Held {
+        held: all[0].held + all[1].held,
+        all: all[0].all + all[1].all,
+    };
     assert!(first.share() >= 0.93);
     let docs = include_str!("../../../docs/experiment.md");
     assert!(count < 200 || docs.contains(&table));

@@ -89,7 +89,11 @@ impl MeasuredCurve {
     /// assert!(curve.statements[0].contains("2 segments"));
     /// # Ok::<(), asperity_experiment::ExperimentError>(())
     /// ```
-    pub fn parse(name: &Path, bytes: &[u8], options: &CurveOptions) -> Result<Self, ExperimentError> {
+    pub fn parse(
+        name: &Path,
+        bytes: &[u8],
+        options: &CurveOptions,
+    ) -> Result<Self, ExperimentError> {
         MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
     }
 
@@ -128,14 +132,28 @@ impl MeasuredCurve {
 
     fn prepare(columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         let left_out = columns.left_out();
-        let Columns { mut displacement, mut force, labels, is_beside, missing, mut statements, .. } = columns;
+        let Columns {
+            mut displacement,
+            mut force,
+            labels,
+            is_beside,
+            missing,
+            mut statements,
+            ..
+        } = columns;
         let count = displacement.len();
         if count < FEWEST_POINTS {
             let fault = format!("{count} points with displacement and force");
             return refused(fault, format!("at least {FEWEST_POINTS}"));
         }
-        if let Some(noise) = options.noise.filter(|noise| !(*noise > 0.0 && noise.is_finite())) {
-            return refused(format!("a noise of {noise} N"), "a standard deviation above 0");
+        if let Some(noise) = options
+            .noise
+            .filter(|noise| !(*noise > 0.0 && noise.is_finite()))
+        {
+            return refused(
+                format!("a noise of {noise} N"),
+                "a standard deviation above 0",
+            );
         }
         if are_shuffled(&displacement) {
             let fault = "the displacement goes to and fro from point to point";
@@ -147,23 +165,38 @@ impl MeasuredCurve {
         let (low, high) = ends(force.iter().copied());
         let least = NO_NOISE * (high - low);
         let mut segments = Segments::of(&displacement, &labels);
-        let turned = in_order(&mut displacement, &mut force, &mut segments, is_beside, least);
-        let moving = segments.is_still.iter().filter(|is_still| !**is_still).count();
+        let turned = in_order(
+            &mut displacement,
+            &mut force,
+            &mut segments,
+            is_beside,
+            least,
+        );
+        let moving = segments
+            .is_still
+            .iter()
+            .filter(|is_still| !**is_still)
+            .count();
         let averaged = moving.div_ceil(MOST_POINTS).max(1);
         let mut points = Points::averaged(&displacement, &force, &segments, averaged);
         let is_single = points.segment.last() == Some(&0);
         if is_single && ends_free(&points.force, least) {
             points.segment.fill(1);
-            statements.push("A retraction alone: the model is loaded up to its first point.".to_owned());
+            statements
+                .push("A retraction alone: the model is loaded up to its first point.".to_owned());
         } else if is_single && options.segments != [1] {
             let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without \
                            contact; --segments 1 for an approach alone";
             return refused("the displacement does not turn: one segment", allowed);
         }
         let negate = points.reverse(options.negate)?;
-        let instrument = options.instrument.or(columns.stiffness.as_ref().map(|stated| stated.1));
+        let instrument = options
+            .instrument
+            .or(columns.stiffness.as_ref().map(|stated| stated.1));
         let of_body = columns.of_body.filter(|name| {
-            instrument.inspect(|stiffness| statements.push(points.put_on_spring(name, *stiffness))).is_none()
+            instrument
+                .inspect(|stiffness| statements.push(points.put_on_spring(name, *stiffness)))
+                .is_none()
         });
         let free = FreeParts::of(&points, options, averaged, least)?;
         let noise = options.noise.unwrap_or(free.line(&points).noise).max(least);
@@ -172,8 +205,8 @@ impl MeasuredCurve {
         let kept = kept(&points, options)?;
         let last = points.segment[points.segment.len() - 1];
         let turned = turned.map(str::to_owned);
-        let negated =
-            (negate != Negate::None).then(|| format!("{negate} reversed, so that pressing is positive"));
+        let negated = (negate != Negate::None)
+            .then(|| format!("{negate} reversed, so that pressing is positive"));
         let mut assumed = vec![columns.assumed];
         assumed.extend(turned.into_iter().chain(negated));
         assumed.extend(counted(&points, &kept, &free, options));
@@ -188,12 +221,23 @@ impl MeasuredCurve {
             (None, Some(_)) => "that before contact",
             (None, None) => "that after contact",
         };
-        statements.push(format!("{text} Noise {}, {found}.", format_quantity(noise, "N")));
-        let chosen = options.segments.iter().max().map_or(last, |most| (most - 1).min(last));
+        statements.push(format!(
+            "{text} Noise {}, {found}.",
+            format_quantity(noise, "N")
+        ));
+        let chosen = options
+            .segments
+            .iter()
+            .max()
+            .map_or(last, |most| (most - 1).min(last));
         // After the last approach that is used the body is pulled off.
-        let turns =
-            points.turns(chosen + usize::from(chosen.is_multiple_of(2) && (chosen < last || last == 0)));
-        let of_kept = |values: &[f64]| kept.iter().map(|index| values[*index]).collect::<Vec<f64>>();
+        let turns = points
+            .turns(chosen + usize::from(chosen.is_multiple_of(2) && (chosen < last || last == 0)));
+        let of_kept = |values: &[f64]| {
+            kept.iter()
+                .map(|index| values[*index])
+                .collect::<Vec<f64>>()
+        };
         Ok(MeasuredCurve {
             displacement: of_kept(&points.displacement),
             force: of_kept(&points.force),
@@ -219,13 +263,20 @@ impl MeasuredCurve {
 
     /// Returns the displacement in m and the force in N of each point.
     pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.displacement.iter().copied().zip(self.force.iter().copied())
+        self.displacement
+            .iter()
+            .copied()
+            .zip(self.force.iter().copied())
     }
 
     /// Returns the largest tensile force during the retractions in N, as a positive number; `None` if this force is at
     /// most 5 times the [`Self::noise`].
     pub fn pull_off_force(&self) -> Option<f64> {
-        let pulled = self.force.iter().zip(&self.segment).filter(|(_, segment)| *segment % 2 == 1);
+        let pulled = self
+            .force
+            .iter()
+            .zip(&self.segment)
+            .filter(|(_, segment)| *segment % 2 == 1);
         let force = -ends(pulled.map(|(force, _)| *force)).0;
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
@@ -258,7 +309,11 @@ impl MeasuredCurve {
         let columns = [vec![1.0; time.len()], time, displacement];
         let [zero, drift, tilt] = self.is_estimated;
         let used = columns.into_iter().zip([zero && !has_zero, drift, tilt]);
-        right_angled(&used.filter_map(|(column, is_used)| is_used.then_some(column)).collect::<Vec<_>>())
+        right_angled(
+            &used
+                .filter_map(|(column, is_used)| is_used.then_some(column))
+                .collect::<Vec<_>>(),
+        )
     }
 }
 
@@ -292,15 +347,25 @@ fn in_order(
 }
 
 /// Returns the numbers of points that are used, that lie before or after contact, and that belong to pauses, in words.
-fn counted(points: &Points, kept: &[usize], free: &FreeParts, options: &CurveOptions) -> Vec<String> {
+fn counted(
+    points: &Points,
+    kept: &[usize],
+    free: &FreeParts,
+    options: &CurveOptions,
+) -> Vec<String> {
     let sum = |of: &dyn Fn(usize) -> bool| {
-        let counted = (0..points.counts.len()).filter(|index| of(*index)).map(|index| points.counts[index]);
+        let counted = (0..points.counts.len())
+            .filter(|index| of(*index))
+            .map(|index| points.counts[index]);
         counted.sum::<usize>() as u64
     };
     let (first, last) = (points.segment[0], points.segment[points.segment.len() - 1]);
     let place = match (first, free.before) {
         (0, Some(free)) => format!("{} before contact", grouped(sum(&|index| index < free))),
-        _ => format!("{} after contact", grouped(sum(&|index| index >= points.counts.len() - free.after))),
+        _ => format!(
+            "{} after contact",
+            grouped(sum(&|index| index >= points.counts.len() - free.after))
+        ),
     };
     let segments = match &options.segments[..] {
         [] if first == last => "1 segment".to_owned(),
@@ -324,12 +389,20 @@ fn counted(points: &Points, kept: &[usize], free: &FreeParts, options: &CurveOpt
 fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
     let first = points.of(points.segment[0]);
     let count = (first.len() / 20).max(1);
-    let pressed = if points.segment[0] == 0 { first.end - count..first.end } else { 0..count };
+    let pressed = if points.segment[0] == 0 {
+        first.end - count..first.end
+    } else {
+        0..count
+    };
     let pressed = mean(&points.force[pressed]);
     if options.negate.is_some() || pressed >= PULLS * noise {
         return Ok(());
     }
-    let place = if points.segment[0] == 0 { "end of the approach" } else { "beginning of the retraction" };
+    let place = if points.segment[0] == 0 {
+        "end of the approach"
+    } else {
+        "beginning of the retraction"
+    };
     let found = format_quantity(pressed, "N");
     refused(
         format!("the force is negative where the body presses: {found} at the {place}"),
@@ -344,16 +417,34 @@ mod tests {
 
     #[test]
     fn many_points_are_averaged_and_missing_ones_counted() {
-        let text =
-            text_of_spring("displacement [nm],force [nN]\nNaN,1\n0,\n", 100_000, |d, f| format!("{d},{f}"));
+        let text = text_of_spring(
+            "displacement [nm],force [nN]\nNaN,1\n0,\n",
+            100_000,
+            |d, f| format!("{d},{f}"),
+        );
         let curve = from_text(&text, &CurveOptions::default()).unwrap();
         assert_eq!((curve.missing, curve.points), (2, 100_000));
-        assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 2, "{:?}", curve.statements);
+        assert!(
+            curve.force.len() <= MOST_POINTS && curve.statements.len() == 2,
+            "{:?}",
+            curve.statements
+        );
         let said = "2 left out since a value is missing; means of 25 points each, 4 000 of them.";
-        assert!(curve.statements[0].ends_with(said), "{:?}", curve.statements);
-        assert!((curve.force[2000] / 1e-7 - 1.0).abs() < 0.01, "{:e}", curve.force[2000]);
+        assert!(
+            curve.statements[0].ends_with(said),
+            "{:?}",
+            curve.statements
+        );
+        assert!(
+            (curve.force[2000] / 1e-7 - 1.0).abs() < 0.01,
+            "{:e}",
+            curve.force[2000]
+        );
         // Points of the file are counted, not means.
-        let options = CurveOptions { free_points: Some(2700), ..CurveOptions::default() };
+        let options = CurveOptions {
+            free_points: Some(2700),
+            ..CurveOptions::default()
+        };
         let curve = from_text(&lines(of_spring(9000)), &options).unwrap();
         assert_eq!((curve.force.len(), curve.free), (3000, 900));
     }
@@ -362,24 +453,57 @@ mod tests {
     #[test]
     fn chosen_segments_are_used_without_pauses() {
         let read = |points: &[(f64, f64)], segments: &[usize]| {
-            let options = CurveOptions { segments: segments.to_vec(), ..CurveOptions::default() };
+            let options = CurveOptions {
+                segments: segments.to_vec(),
+                ..CurveOptions::default()
+            };
             from_text(&lines(points.iter().copied()), &options).unwrap()
         };
         let mut all = of_spring(600);
         let (whole, retraction) = (read(&all, &[]), read(&all, &[2]));
-        assert_eq!((retraction.points, retraction.free, retraction.segment[0]), (300, 0, 1));
-        assert_eq!((&retraction.force[..], retraction.touch), (&whole.force[300..], whole.touch));
+        assert_eq!(
+            (retraction.points, retraction.free, retraction.segment[0]),
+            (300, 0, 1)
+        );
+        assert_eq!(
+            (&retraction.force[..], retraction.touch),
+            (&whole.force[300..], whole.touch)
+        );
         assert_eq!(retraction.turns, whole.turns);
         let alone = read(&all[300..], &[]);
-        assert_eq!((alone.points, alone.segment[0], alone.turns.len()), (300, 1, 2));
-        assert!(alone.force.iter().zip(&retraction.force).all(|(one, other)| (one - other).abs() < 5e-11));
-        assert!((alone.touch - whole.touch).abs() < 2e-9, "{} {}", alone.touch, whole.touch);
+        assert_eq!(
+            (alone.points, alone.segment[0], alone.turns.len()),
+            (300, 1, 2)
+        );
+        assert!(
+            alone
+                .force
+                .iter()
+                .zip(&retraction.force)
+                .all(|(one, other)| (one - other).abs() < 5e-11)
+        );
+        assert!(
+            (alone.touch - whole.touch).abs() < 2e-9,
+            "{} {}",
+            alone.touch,
+            whole.touch
+        );
         let approach = read(&all[..300], &[1]);
-        assert_eq!((&approach.force[..], approach.turns.len()), (&whole.force[..300], 2));
-        all.splice(300..300, (0..200).map(|index| (50.0, 101.0 - 0.02 * f64::from(index))));
+        assert_eq!(
+            (&approach.force[..], approach.turns.len()),
+            (&whole.force[..300], 2)
+        );
+        all.splice(
+            300..300,
+            (0..200).map(|index| (50.0, 101.0 - 0.02 * f64::from(index))),
+        );
         let (moving, retraction) = (read(&all, &[]), read(&all, &[2]));
         assert!((590..=600).contains(&moving.points), "{}", moving.points);
-        assert!((290..=300).contains(&retraction.points), "{}", retraction.points);
+        assert!(
+            (290..=300).contains(&retraction.points),
+            "{}",
+            retraction.points
+        );
     }
 
     #[test]
@@ -389,35 +513,92 @@ mod tests {
         };
         let (all, plain) = (of_spring(600), of(&|_, f| f));
         // 17 points of an approach.
-        let few = (0..42_i32).map(|index| if index < 17 { 10 * index } else { 170 - 7 * (index - 17) });
+        let few = (0..42_i32).map(|index| {
+            if index < 17 {
+                10 * index
+            } else {
+                170 - 7 * (index - 17)
+            }
+        });
         for (text, said) in [
-            (of(&|d, _| if (d as i64) % 2 == 0 { 1.0 } else { 1.1 }), "no contact: "),
+            (
+                of(&|d, _| if (d as i64) % 2 == 0 { 1.0 } else { 1.1 }),
+                "no contact: ",
+            ),
             // A curve that begins in contact: it has no line before a change.
-            (of(&|d, f| f + (d + 100.0).powi(2)), "no part before contact: the force"),
+            (
+                of(&|d, f| f + (d + 100.0).powi(2)),
+                "no part before contact: the force",
+            ),
             (of(&|d, f| f + 9.0 * d), "no part before contact: the force"),
-            (of(&|d, _| 9.0 * d + (d * 7.0).sin()), "no contact, or contact from the first"),
-            (of(&|_, f| -f), "the force is negative where the body presses: -9"),
+            (
+                of(&|d, _| 9.0 * d + (d * 7.0).sin()),
+                "no contact, or contact from the first",
+            ),
+            (
+                of(&|_, f| -f),
+                "the force is negative where the body presses: -9",
+            ),
             (
                 lines(few.map(|d| (f64::from(d), f64::from((d - 90).max(0))))),
                 "18 points in the approach are too few",
             ),
-            (lines((0..600).map(|index| all[index * 251 % 600])), "the displacement goes to and fro"),
-            (lines(all[..301].iter().copied()), "the displacement does not turn"),
-            (lines([(1.0, 2.0)]), "1 points with displacement and force; allowed: at least 40"),
+            (
+                lines((0..600).map(|index| all[index * 251 % 600])),
+                "the displacement goes to and fro",
+            ),
+            (
+                lines(all[..301].iter().copied()),
+                "the displacement does not turn",
+            ),
+            (
+                lines([(1.0, 2.0)]),
+                "1 points with displacement and force; allowed: at least 40",
+            ),
             (String::new(), "0 points"),
         ] {
             let error = from_text(&text, &CurveOptions::default()).expect_err(said);
-            assert!(error.starts_with(said) && error.contains("allowed: "), "{said}: {error}");
+            assert!(
+                error.starts_with(said) && error.contains("allowed: "),
+                "{said}: {error}"
+            );
         }
         let with = CurveOptions::default;
         for (options, said) in [
-            (CurveOptions { negate: Some(Negate::Displacement), ..with() }, "the body moves away"),
-            (CurveOptions { free_points: Some(400), ..with() }, "no part before contact: 400 of"),
-            (CurveOptions { noise: Some(-5e-9), ..with() }, "a noise of -0.000000005 N"),
-            (CurveOptions { segments: vec![3], ..with() }, "--segments 3: the curve has no such segment"),
+            (
+                CurveOptions {
+                    negate: Some(Negate::Displacement),
+                    ..with()
+                },
+                "the body moves away",
+            ),
+            (
+                CurveOptions {
+                    free_points: Some(400),
+                    ..with()
+                },
+                "no part before contact: 400 of",
+            ),
+            (
+                CurveOptions {
+                    noise: Some(-5e-9),
+                    ..with()
+                },
+                "a noise of -0.000000005 N",
+            ),
+            (
+                CurveOptions {
+                    segments: vec![3],
+                    ..with()
+                },
+                "--segments 3: the curve has no such segment",
+            ),
         ] {
             let error = from_text(&plain, &options).expect_err(said);
-            assert!(error.starts_with(said) && error.contains("allowed: "), "{said}: {error}");
+            assert!(
+                error.starts_with(said) && error.contains("allowed: "),
+                "{said}: {error}"
+            );
         }
     }
 }

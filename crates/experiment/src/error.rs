@@ -32,6 +32,12 @@ impl From<ContactError> for ExperimentError {
 }
 
 /// Error of a curve or a scene that cannot be fitted.
-pub(crate) fn refused<T>(found: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
-    Err(ExperimentError::Refused { found: found.into(), allowed: allowed.into() })
+pub(crate) fn refused<T>(
+    found: impl Into<String>,
+    allowed: impl Into<String>,
+) -> Result<T, ExperimentError> {
+    Err(ExperimentError::Refused {
+        found: found.into(),
+        allowed: allowed.into(),
+    })
 }

@@ -57,7 +57,10 @@ pub struct Fit<'a> {
 impl<'a> Fit<'a> {
     /// Makes a fit of a scene, so far without free parameters. [`Fit::free`] adds them.
     pub fn of(document: &'a Document) -> Self {
-        Fit { document, free: Vec::new() }
+        Fit {
+            document,
+            free: Vec::new(),
+        }
     }
 
     /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare [`Parameter`] the fit chooses
@@ -75,9 +78,15 @@ impl<'a> Fit<'a> {
     /// Returns an error if no parameter is free, if a parameter is given twice, or if the scene lacks a free parameter,
     /// such as the radius of its form. It also returns an error if `numerics.solver` of the scene is `Stepwise`, if the
     /// curve turns before contact, if a computation fails, or if `control` stops the fit.
-    pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
+    pub fn run(
+        &self,
+        curve: &MeasuredCurve,
+        mut control: Control<'_>,
+    ) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
-        find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))
+        find(curve, self.document, &self.free, stop, &mut |computed| {
+            control.report(computed as u64)
+        })
     }
 }
 
@@ -93,18 +102,34 @@ fn find(
     let mut simulation = Simulation::new(given.resolve(""));
     let instrument = curve.with_instrument(given).map_err(wrong)?.1;
     let (document, space) = Space::of(curve, given, &mut simulation, free, stop)?;
-    let is_fixed = space.coordinates.iter().all(|one| one.parameter != Parameter::Offset);
-    let assumptions = instrument.into_iter().chain(is_fixed.then(|| fixed_touch(curve))).collect();
-    let Searched { found, rests, misfit, evaluations } =
-        searched(curve, &document, &mut simulation, &space, report)?;
+    let is_fixed = space
+        .coordinates
+        .iter()
+        .all(|one| one.parameter != Parameter::Offset);
+    let assumptions = instrument
+        .into_iter()
+        .chain(is_fixed.then(|| fixed_touch(curve)))
+        .collect();
+    let Searched {
+        found,
+        rests,
+        misfit,
+        evaluations,
+    } = searched(curve, &document, &mut simulation, &space, report)?;
     if let Some(free) = space.extended(&found.best.at, free) {
         let mut report = |computed: usize| report(evaluations + computed);
         let fit = find(curve, given, &free, stop, &mut report)?;
-        return Ok(FitResult { evaluations: evaluations + fit.evaluations, ..fit });
+        return Ok(FitResult {
+            evaluations: evaluations + fit.evaluations,
+            ..fit
+        });
     }
     let values = space.values(&found.best.at);
     let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
-        samples.iter().map(|at| space.values(at)[one.parameter as usize]).collect()
+        samples
+            .iter()
+            .map(|at| space.values(at)[one.parameter as usize])
+            .collect()
     };
     let by_blocks = |one: &Coordinate| block_error(&of_samples(&found.samples, one), &found.blocks);
     let correlation_factor = correlated(&found.rests);
@@ -115,48 +140,101 @@ fn find(
     let fitted = |one: &Coordinate| {
         let of = |values: &Values| values[one.parameter as usize];
         let value = of(&values);
-        let Spread { standard_deviation, interval: (low, high) } =
-            spread(of_samples(&samples, one)).unwrap_or(Spread::at(value));
+        let Spread {
+            standard_deviation,
+            interval: (low, high),
+        } = spread(of_samples(&samples, one)).unwrap_or(Spread::at(value));
         let noise_error = standard_deviation.max(by_blocks(one));
         let half = NORMAL * noise_error;
-        let least = if one.parameter.is_signed() { f64::NEG_INFINITY } else { 0.0 };
+        let least = if one.parameter.is_signed() {
+            f64::NEG_INFINITY
+        } else {
+            0.0
+        };
         let is_bound = one.parameter == Parameter::Work && is_without_adhesion;
-        let low = if is_bound { 0.0 } else { low.min(value - half).max(least) };
-        let Coordinate { parameter, start, range, .. } = *one;
+        let low = if is_bound {
+            0.0
+        } else {
+            low.min(value - half).max(least)
+        };
+        let Coordinate {
+            parameter,
+            start,
+            range,
+            ..
+        } = *one;
         let is_unknown = has_other_profile && !parameter.is_signed();
-        let interval = if is_unknown { range } else { (low, high.max(value + half)) };
-        FittedParameter { parameter, start, range, value, interval, noise_error }
+        let interval = if is_unknown {
+            range
+        } else {
+            (low, high.max(value + half))
+        };
+        FittedParameter {
+            parameter,
+            start,
+            range,
+            value,
+            interval,
+            noise_error,
+        }
     };
     let parameters: Vec<FittedParameter> = space.coordinates.iter().map(fitted).collect();
     let name = |index: usize| space.coordinates[index].parameter;
     let count = parameters.len();
     let pairs = (0..count).flat_map(|one| (one + 1..count).map(move |other| [one, other]));
-    let correlations: Vec<_> =
-        pairs.map(|pair| (name(pair[0]), name(pair[1]), correlation(&samples, pair))).collect();
-    let alike = correlations.iter().filter(|(.., value)| value.abs() > CORRELATED);
+    let correlations: Vec<_> = pairs
+        .map(|pair| (name(pair[0]), name(pair[1]), correlation(&samples, pair)))
+        .collect();
+    let alike = correlations
+        .iter()
+        .filter(|(.., value)| value.abs() > CORRELATED);
     let mut not_distinguished: Vec<_> = alike.map(|&(one, other, _)| (one, other)).collect();
     for (index, coordinate) in space.coordinates.iter().enumerate() {
         let (low, high) = coordinate.ends();
         let of_coordinate = samples.iter().map(|at| at[index]).collect();
-        let (from, to) = spread(of_coordinate).unwrap_or(Spread::at(found.best.at[index])).interval;
+        let (from, to) = spread(of_coordinate)
+            .unwrap_or(Spread::at(found.best.at[index]))
+            .interval;
         let is_wide = !coordinate.parameter.is_signed() && 0.5 * (to - from) > FLAT;
         let is_at_end = (from - low).min(high - to) < 0.01 * (to - from)
             || is_without_adhesion && coordinate.parameter == Parameter::Work;
-        let is_named = not_distinguished.iter().any(|&(one, other)| [one, other].contains(&name(index)));
+        let is_named = not_distinguished
+            .iter()
+            .any(|&(one, other)| [one, other].contains(&name(index)));
         if !is_named && (is_wide || is_at_end) {
             not_distinguished.push((name(index), name(index)));
         }
     }
-    let work = parameters.iter().find(|one| one.parameter == Parameter::Work);
-    let work_at_most = work.filter(|_| is_without_adhesion).map(|work| work.interval.1);
-    let model =
-        curve.force.iter().zip(&rests).map(|(measured, rest)| measured - rest * curve.noise).collect();
+    let work = parameters
+        .iter()
+        .find(|one| one.parameter == Parameter::Work);
+    let work_at_most = work
+        .filter(|_| is_without_adhesion)
+        .map(|work| work.interval.1);
+    let model = curve
+        .force
+        .iter()
+        .zip(&rests)
+        .map(|(measured, rest)| measured - rest * curve.noise)
+        .collect();
     let free: Vec<Parameter> = space.coordinates.iter().map(|one| one.parameter).collect();
-    let found = with_values(&document, &values, |parameter| free.contains(&parameter), curve)?;
+    let found = with_values(
+        &document,
+        &values,
+        |parameter| free.contains(&parameter),
+        curve,
+    )?;
     let (_, governing) = simulation.contact(found.scene())?;
     let tabor = governing.tabor_number(found.scene());
-    let reason =
-        (misfit > MISFIT).then(|| reason(curve, found.scene(), &mut simulation, (&values, &free), tabor));
+    let reason = (misfit > MISFIT).then(|| {
+        reason(
+            curve,
+            found.scene(),
+            &mut simulation,
+            (&values, &free),
+            tabor,
+        )
+    });
     let residual_over_noise = (dot(&rests, &rests) / rests.len() as f64).sqrt();
     let beyond = rests.iter().filter(|rest| rest.abs() > WRONG_SIDE).count();
     Ok(FitResult {
@@ -182,7 +260,9 @@ fn find(
 /// distance of two points shifts the modulus by more than its interval where the noise is small.
 fn fixed_touch(curve: &MeasuredCurve) -> String {
     let distances = curve.displacement.iter().map(|at| (at - curve.touch).abs());
-    let next = distances.filter(|distance| *distance > 0.0).fold(f64::INFINITY, f64::min);
+    let next = distances
+        .filter(|distance| *distance > 0.0)
+        .fold(f64::INFINITY, f64::min);
     let [touch, next] = [curve.touch, next].map(|at| format_rounded(at, 3, "m"));
     format!(
         "First touch was taken at the point at {touch}, and the next point is {next} away. The offset was not fitted, so the \
@@ -211,9 +291,17 @@ fn searched(
 ) -> Result<Searched, ExperimentError> {
     let (mut found, mut computed) = (None, 0);
     if let Some(part) = curve.thinned(ENOUGH) {
-        let space = Space { curve: &part, ..space.clone() };
+        let space = Space {
+            curve: &part,
+            ..space.clone()
+        };
         let model = Model::new(&part, document.scene(), simulation);
-        let mut search = Search { space: &space, model, report: &mut *report, lines: space.lines() };
+        let mut search = Search {
+            space: &space,
+            model,
+            report: &mut *report,
+            lines: space.lines(),
+        };
         let (population, generator) = search.first()?;
         if search.is_systematic(&population) {
             found = Some(search.find_from(population, generator)?);
@@ -222,12 +310,22 @@ fn searched(
     }
     let model = Model::new(curve, document.scene(), simulation);
     let mut count = |evaluations: usize| report(computed + evaluations);
-    let mut search = Search { space, model, report: &mut count, lines: space.lines() };
+    let mut search = Search {
+        space,
+        model,
+        report: &mut count,
+        lines: space.lines(),
+    };
     let found = found.map_or_else(|| search.find(), Ok)?;
     let rests = search.rests(&found.best.at, WRONG_SIDE * found.noise)?;
     let misfit = space.misfit(&search.eased(&found.best.at, &rests)?);
     let evaluations = computed + search.model.evaluations;
-    Ok(Searched { found, rests, misfit, evaluations })
+    Ok(Searched {
+        found,
+        rests,
+        misfit,
+        evaluations,
+    })
 }
 
 #[cfg(test)]
@@ -246,7 +344,10 @@ mod tests {
         assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
         for one in &fit.parameters {
             let truth = truth(made, one.parameter);
-            assert!((one.value - truth).abs() < 4.0 * one.noise_error, "{one:?}: {truth:e}");
+            assert!(
+                (one.value - truth).abs() < 4.0 * one.noise_error,
+                "{one:?}: {truth:e}"
+            );
             assert!(one.noise_error < 0.02 * truth, "{one:?}");
         }
     }
@@ -266,15 +367,25 @@ mod tests {
         let fit = fitted(&curve, &made, "work,modulus,offset");
         assert_found(&made, &fit);
         // The forces of the model, with the zero and drift of the curve, leave the residual.
-        let squares = curve.force.iter().zip(&fit.model).map(|(force, model)| (force - model).powi(2));
+        let squares = curve
+            .force
+            .iter()
+            .zip(&fit.model)
+            .map(|(force, model)| (force - model).powi(2));
         let residual = (squares.sum::<f64>() / curve.force.len() as f64).sqrt();
-        assert!((residual / fit.residual - 1.0).abs() < 1e-9, "{residual} {}", fit.residual);
+        assert!(
+            (residual / fit.residual - 1.0).abs() < 1e-9,
+            "{residual} {}",
+            fit.residual
+        );
         assert!((fit.residual / curve.noise / fit.residual_over_noise - 1.0).abs() < 1e-9);
         let work = fit.parameters[0].value;
         assert_eq!(serde_json::json!(fit)["parameters"]["work"]["value"], work);
         let scene = fit.document.scene();
         assert_eq!(scene.adhesion.unwrap().work(), Some(work));
-        assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
+        assert!(
+            matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0)
+        );
     }
 
     /// First touch lies between two points: an offset that is not fitted shifts the modulus beyond its interval, which is said.
@@ -282,15 +393,29 @@ mod tests {
     fn an_offset_that_is_not_fitted_is_named() {
         let made = random(4, 512);
         let curve = measured(&made, 4);
-        let [fixed, free] = ["work,modulus", "work,modulus,offset"].map(|free| fitted(&curve, &made, free));
+        let [fixed, free] =
+            ["work,modulus", "work,modulus,offset"].map(|free| fitted(&curve, &made, free));
         let truth = truth(&made, Parameter::Modulus);
         let holds = |fit: &FitResult| {
             let (low, high) = fit.parameters[1].interval;
             (low..=high).contains(&truth)
         };
-        assert!(!holds(&fixed) && holds(&free), "{truth:e} {:?} {:?}", fixed.parameters, free.parameters);
-        let of_offset = |fit: &FitResult| fit.assumptions.iter().any(|text| text.contains("--free offset"));
-        assert!(of_offset(&fixed) && !of_offset(&free), "{:?}", fixed.assumptions);
+        assert!(
+            !holds(&fixed) && holds(&free),
+            "{truth:e} {:?} {:?}",
+            fixed.parameters,
+            free.parameters
+        );
+        let of_offset = |fit: &FitResult| {
+            fit.assumptions
+                .iter()
+                .any(|text| text.contains("--free offset"))
+        };
+        assert!(
+            of_offset(&fixed) && !of_offset(&free),
+            "{:?}",
+            fixed.assumptions
+        );
     }
 
     /// A point in the middle of the jump at pull-off changes neither the fit nor the number of curves computed for it; as far
@@ -302,7 +427,9 @@ mod tests {
         let clean = fitted(&curve, &made, "work,modulus,offset");
         let rise = |index: &usize| curve.force[*index] - curve.force[index - 1];
         let retraction = curve.segment.partition_point(|segment| *segment == 0) + 1;
-        let jump = (retraction..1000).max_by(|one, other| rise(one).total_cmp(&rise(other))).unwrap();
+        let jump = (retraction..1000)
+            .max_by(|one, other| rise(one).total_cmp(&rise(other)))
+            .unwrap();
         let half = 0.5 * rise(&jump);
         assert!(half > 10.0 * curve.noise, "{half:e} {:e}", curve.noise);
         let with = |points: &[usize]| {
@@ -311,7 +438,10 @@ mod tests {
             fitted(&curve, &made, "work,modulus,offset")
         };
         let inside = with(&[jump]);
-        assert!(inside.describes() && inside.misfit < 1.02 * clean.misfit, "{inside:?}");
+        assert!(
+            inside.describes() && inside.misfit < 1.02 * clean.misfit,
+            "{inside:?}"
+        );
         assert!(
             inside.beyond_five_sigma > 0.0 && inside.evaluations < clean.evaluations * 5 / 4,
             "{inside:?}"
@@ -327,12 +457,27 @@ mod tests {
         let curve = measured(&made, 67);
         let fit = fitted(&curve, &made, "work,offset");
         let (work, truth) = (fit.parameters[0], truth(&made, Parameter::Work));
-        assert!(truth > 31.0 * work.start && work.range.1 > 800.0 * work.start, "{work:?}");
+        assert!(
+            truth > 31.0 * work.start && work.range.1 > 800.0 * work.start,
+            "{work:?}"
+        );
         let width = work.interval.1 - work.interval.0;
-        assert!(fit.describes() && (work.value - truth).abs() < width, "{work:?} {truth:e}");
-        assert!((work.value / truth - 1.0).abs() < 0.02, "{work:?} {truth:e}");
+        assert!(
+            fit.describes() && (work.value - truth).abs() < width,
+            "{work:?} {truth:e}"
+        );
+        assert!(
+            (work.value / truth - 1.0).abs() < 0.02,
+            "{work:?} {truth:e}"
+        );
         let Free { parameter, .. } = "work".parse().unwrap();
-        let given = [Free { parameter, range: Some((0.0, 30.0 * work.start)) }, "offset".parse().unwrap()];
+        let given = [
+            Free {
+                parameter,
+                range: Some((0.0, 30.0 * work.start)),
+            },
+            "offset".parse().unwrap(),
+        ];
         let document = Document::from_scene(&made.scene, "made").unwrap();
         let bounded = find(&curve, &document, &given, &|| false, &mut |_| ()).unwrap();
         assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
@@ -345,7 +490,11 @@ mod tests {
         let curve = measured(&made, 13);
         made.scene.set_seed(99);
         let fit = fitted(&curve, &made, "work,modulus,offset");
-        assert!(fit.has_other_profile() && fit.reason == Some(Reason::OtherProfile), "{:?}", fit.reason);
+        assert!(
+            fit.has_other_profile() && fit.reason == Some(Reason::OtherProfile),
+            "{:?}",
+            fit.reason
+        );
         for one in &fit.parameters[..2] {
             assert_eq!(one.interval, one.range);
             let truth = truth(&made, one.parameter);
@@ -360,12 +509,23 @@ mod tests {
         for (seed, work) in [(1, 0.05), (2, 1e-6)] {
             let curve = read(rubber(4e-8, seed, |_, _| 1.0).into_iter(), Drift::Keep);
             let fit = fit_from(&curve, &on_rubber(work, 2.7e6), "work,modulus,offset");
-            let [work, modulus, _] = fit.parameters[..] else { panic!("{:?}", fit.parameters) };
+            let [work, modulus, _] = fit.parameters[..] else {
+                panic!("{:?}", fit.parameters)
+            };
             assert!(fit.describes() && work.interval.0 == 0.0, "{fit:?}");
             assert!((2e-4..5e-3).contains(&work.interval.1), "{work:?}");
             assert_eq!(fit.work_at_most, Some(work.interval.1));
-            assert_eq!(fit.not_distinguished.iter().filter(|pair| pair.0 == Parameter::Work).count(), 1);
-            assert!(modulus.interval.0 < 2e6 && 2e6 < modulus.interval.1, "{modulus:?}");
+            assert_eq!(
+                fit.not_distinguished
+                    .iter()
+                    .filter(|pair| pair.0 == Parameter::Work)
+                    .count(),
+                1
+            );
+            assert!(
+                modulus.interval.0 < 2e6 && 2e6 < modulus.interval.1,
+                "{modulus:?}"
+            );
         }
     }
 
@@ -375,9 +535,20 @@ mod tests {
     #[test]
     fn a_tension_beyond_the_noise_is_adhesion() {
         let bound = |times: f64| {
-            let pulled =
-                |(at, force): (f64, f64)| (at, if at > 2.001e-6 { force - times * 4e-8 } else { force });
-            let mut curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter().map(pulled), Drift::Keep);
+            let pulled = |(at, force): (f64, f64)| {
+                (
+                    at,
+                    if at > 2.001e-6 {
+                        force - times * 4e-8
+                    } else {
+                        force
+                    },
+                )
+            };
+            let mut curve = read(
+                rubber(4e-8, 1, |_, _| 1.0).into_iter().map(pulled),
+                Drift::Keep,
+            );
             curve.touch = 2e-6;
             fit_from(&curve, &on_rubber(1e-3, 2e6), "work,offset").work_at_most
         };
@@ -396,16 +567,29 @@ mod tests {
             fit_from(&curve, &on_rubber(1e-3, 2.7e6), "work,modulus,offset")
         });
         for fit in &fits {
-            assert!(!fit.describes() && fit.misfit > 10.0 && fit.beyond_five_sigma > 0.2, "{fit:?}");
+            assert!(
+                !fit.describes() && fit.misfit > 10.0 && fit.beyond_five_sigma > 0.2,
+                "{fit:?}"
+            );
             assert!(fit.reason.is_some(), "{fit:?}");
-            assert!((fit.residual_over_noise / fit.misfit - 0.8).abs() < 0.2, "{fit:?}");
+            assert!(
+                (fit.residual_over_noise / fit.misfit - 0.8).abs() < 0.2,
+                "{fit:?}"
+            );
         }
         for (one, other) in fits[0].parameters.iter().zip(&fits[1].parameters) {
-            let overlap = one.interval.1.min(other.interval.1) - one.interval.0.max(other.interval.0);
-            assert!(overlap > 0.2 * (one.interval.1 - one.interval.0), "{one:?} {other:?}");
+            let overlap =
+                one.interval.1.min(other.interval.1) - one.interval.0.max(other.interval.0);
+            assert!(
+                overlap > 0.2 * (one.interval.1 - one.interval.0),
+                "{one:?} {other:?}"
+            );
         }
         let modulus = fits[0].parameters[1];
-        assert!(modulus.interval.1 / modulus.interval.0 > 1.02, "{modulus:?}");
+        assert!(
+            modulus.interval.1 / modulus.interval.0 > 1.02,
+            "{modulus:?}"
+        );
     }
 
     /// Ranges and starts are those of the curve: values of the scene for free parameters change no bit.
@@ -415,8 +599,14 @@ mod tests {
         let [one, other, stiff] = [(1e-6, 2e3), (50.0, 2e9), (1e-6, 2e3)]
             .map(|(work, modulus)| on_rubber(work, modulus))
             .map(|document| fit_from(&curve, &document, "work,modulus,offset"));
-        assert_eq!((&one.parameters, one.evaluations), (&other.parameters, other.evaluations));
-        assert_eq!((one.document.text(), &one.parameters), (other.document.text(), &stiff.parameters));
+        assert_eq!(
+            (&one.parameters, one.evaluations),
+            (&other.parameters, other.evaluations)
+        );
+        assert_eq!(
+            (one.document.text(), &one.parameters),
+            (other.document.text(), &stiff.parameters)
+        );
         let start = one.parameters[1].start;
         assert!((1e6..4e6).contains(&start), "{start:e}");
     }
@@ -425,15 +615,24 @@ mod tests {
     /// computed to its end.
     #[test]
     fn few_curves_are_computed_where_the_model_does_not_describe_the_curve() {
-        let stiffens =
-            |indentation: f64, direction: f64| 1.0 + 0.3 * indentation.max(0.0) / 1e-6 + 0.1 * direction;
+        let stiffens = |indentation: f64, direction: f64| {
+            1.0 + 0.3 * indentation.max(0.0) / 1e-6 + 0.1 * direction
+        };
         let curve = read(rubber_of(500, 1e-9, 3, stiffens).into_iter(), Drift::Keep);
         let fit = fit_from(&curve, &on_rubber(1e-3, 2.7e6), "work,modulus,offset");
-        assert!(fit.reason.is_some() && fit.evaluations < 15_000, "{}", fit.evaluations);
+        assert!(
+            fit.reason.is_some() && fit.evaluations < 15_000,
+            "{}",
+            fit.evaluations
+        );
         assert_eq!(fit.model.len(), 1000);
         let described = read(rubber(1e-8, 2, |_, _| 1.0).into_iter(), Drift::Keep);
         let fit = fit_from(&described, &on_rubber(1e-3, 2.7e6), "work,modulus,offset");
-        assert!(fit.reason.is_none() && fit.evaluations < 7_000, "{}", fit.evaluations);
+        assert!(
+            fit.reason.is_none() && fit.evaluations < 7_000,
+            "{}",
+            fit.evaluations
+        );
     }
 
     /// A parameter is undetermined if its interval is wider than a factor e either way.
@@ -444,7 +643,11 @@ mod tests {
             let mut curve = plain.clone();
             curve.noise = share * dot(&curve.force, &curve.force).sqrt();
             let noise = gauss(curve.noise, 4);
-            curve.force.iter_mut().zip(noise).for_each(|(force, noise)| *force += noise);
+            curve
+                .force
+                .iter_mut()
+                .zip(noise)
+                .for_each(|(force, noise)| *force += noise);
             fit_from(&curve, &on_rubber(1e-6, 2e6), "modulus=1e5..1e7").not_distinguished
         };
         assert_eq!(found(0.05), []);

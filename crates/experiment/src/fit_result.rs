@@ -42,7 +42,15 @@ impl FittedParameter {
     /// [`Self::interval`], the more digits the text has.
     pub fn text(&self, value: f64) -> String {
         let half = 0.5 * (self.interval.1 - self.interval.0);
-        format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
+        format_within(
+            value,
+            if self.interval == self.range {
+                0.0
+            } else {
+                half
+            },
+            self.parameter.row().unit,
+        )
     }
 }
 
@@ -94,7 +102,10 @@ pub struct FitResult {
     pub document: Document,
 }
 
-fn by_name<S: Serializer>(parameters: &[FittedParameter], serializer: S) -> Result<S::Ok, S::Error> {
+fn by_name<S: Serializer>(
+    parameters: &[FittedParameter],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
     serializer.collect_map(parameters.iter().map(|one| (one.parameter, one)))
 }
 

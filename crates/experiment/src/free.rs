@@ -46,11 +46,16 @@ pub(crate) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline
     let floor = count as f64 * least * least;
     let sum = |end: &usize| before[*end - 1] + behind[*end] + floor;
     let places = FEWEST..=count - FEWEST_IN_CONTACT;
-    let best = places.min_by(|one, other| sum(one).total_cmp(&sum(other))).unwrap_or(FEWEST);
+    let best = places
+        .min_by(|one, other| sum(one).total_cmp(&sum(other)))
+        .unwrap_or(FEWEST);
     let whole = before[count - 1] + floor;
     if count as f64 * (whole / sum(&best)).ln() < GAIN {
         let (low, high) = ends(values.iter().copied());
-        return Err(NoBaseline::Straight(high - low, Baseline::through(values).noise));
+        return Err(NoBaseline::Straight(
+            high - low,
+            Baseline::through(values).noise,
+        ));
     }
     let free = without_weak_contact(values, best, least);
     let slope = Baseline::through(&values[..free]).slope.abs();
@@ -86,7 +91,13 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     };
     while free > 2 * FEWEST {
         let parts = PARTS.map(|part| (free / part).max(3));
-        let Some(last) = parts.into_iter().chain([1]).find(|last| deviates(free, *last)) else { break };
+        let Some(last) = parts
+            .into_iter()
+            .chain([1])
+            .find(|last| deviates(free, *last))
+        else {
+            break;
+        };
         free -= last.div_ceil(3);
     }
     free
@@ -113,8 +124,19 @@ impl Slopes {
         columns.extend((0..3).filter(|of| is_asked[*of]).map(column));
         let mut found = least_squares(&columns, &column(3))?.into_iter();
         let zero = found.next()?.0;
-        let mut slope = |of: usize| if is_asked[of] { found.next() } else { Some((0.0, 0.0)) };
-        Some(Slopes { zero, drift: slope(0)?, tilt: slope(1)?, step: slope(2)? })
+        let mut slope = |of: usize| {
+            if is_asked[of] {
+                found.next()
+            } else {
+                Some((0.0, 0.0))
+            }
+        };
+        Some(Slopes {
+            zero,
+            drift: slope(0)?,
+            tilt: slope(1)?,
+            step: slope(2)?,
+        })
     }
 
     /// Returns the root mean square deviation of points from drift, tilt and step in N, and the deviation expected from the
@@ -126,9 +148,15 @@ impl Slopes {
         right_angled(&columns).iter().for_each(|one| {
             take_off(&mut rests, one);
         });
-        let changes: f64 = rests.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+        let changes: f64 = rests
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).powi(2))
+            .sum();
         let count = rests.len() as f64;
-        ((dot(&rests, &rests) / count).sqrt(), (0.5 * changes / count).sqrt())
+        (
+            (dot(&rests, &rests) / count).sqrt(),
+            (0.5 * changes / count).sqrt(),
+        )
     }
 }
 
@@ -137,26 +165,34 @@ impl Slopes {
 pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
     let basis = right_angled(columns);
     let mut rests = values.to_vec();
-    let along: Vec<f64> = basis.iter().map(|column| take_off(&mut rests, column)).collect();
+    let along: Vec<f64> = basis
+        .iter()
+        .map(|column| take_off(&mut rests, column))
+        .collect();
     let count = (values.len().max(columns.len() + 1) - columns.len()) as f64;
     let noise = (correlated(&rests) * dot(&rests, &rests) / count).sqrt();
     // Back from the columns at right angles: each coefficient, and its share of each error.
     let mut found = vec![(0.0, 0.0); columns.len()];
-    let triangle: Vec<Vec<f64>> =
-        basis.iter().map(|one| columns.iter().map(|column| dot(one, column)).collect()).collect();
+    let triangle: Vec<Vec<f64>> = basis
+        .iter()
+        .map(|one| columns.iter().map(|column| dot(one, column)).collect())
+        .collect();
     for index in (0..columns.len()).rev() {
         let own = triangle[index][index];
         if own.abs() <= 1e-6 * dot(&columns[index], &columns[index]).sqrt() {
             return None;
         }
-        let others: f64 =
-            (index + 1..columns.len()).map(|other| triangle[index][other] * found[other].0).sum();
+        let others: f64 = (index + 1..columns.len())
+            .map(|other| triangle[index][other] * found[other].0)
+            .sum();
         let value = (along[index] - others) / own;
         // Squares of a row of the inverse of the triangle.
         let mut row = vec![0.0; columns.len()];
         row[index] = 1.0 / own;
         for other in index + 1..columns.len() {
-            let sum: f64 = (index..other).map(|between| row[between] * triangle[between][other]).sum();
+            let sum: f64 = (index..other)
+                .map(|between| row[between] * triangle[between][other])
+                .sum();
             row[other] = -sum / triangle[other][other];
         }
         found[index] = (value, noise * dot(&row, &row).sqrt());
@@ -179,7 +215,8 @@ mod tests {
 
     /// The force of a sphere without adhesion, 1 at the end, which touches after this share of the points.
     fn hertz(count: usize, touch: f64) -> impl Iterator<Item = f64> {
-        let share = move |index: usize| (index as f64 / count as f64 - touch).max(0.0) / (1.0 - touch);
+        let share =
+            move |index: usize| (index as f64 / count as f64 - touch).max(0.0) / (1.0 - touch);
         (0..count).map(move |index| share(index).powf(1.5))
     }
 
@@ -193,22 +230,38 @@ mod tests {
                     let values = noisy(hertz(count, touch), noise, seed);
                     let free = free_count(&values, 0.0).unwrap() as f64 / count as f64;
                     let late = touch + (1.0 - touch) * (1.5 * noise).powf(2.0 / 3.0) + 0.02;
-                    assert!((touch - 0.15..late).contains(&free), "{count} {noise} {touch}: {free}");
+                    assert!(
+                        (touch - 0.15..late).contains(&free),
+                        "{count} {noise} {touch}: {free}"
+                    );
                 }
-                let snap = (0..count)
-                    .map(|index| if 2 * index < count { 0.0 } else { index as f64 / count as f64 - 0.95 });
+                let snap = (0..count).map(|index| {
+                    if 2 * index < count {
+                        0.0
+                    } else {
+                        index as f64 / count as f64 - 0.95
+                    }
+                });
                 let free = free_count(&noisy(snap, noise, seed), 0.0).unwrap();
-                assert!(free.abs_diff(count / 2) <= count / 20, "{count} {noise}: {free}");
+                assert!(
+                    free.abs_diff(count / 2) <= count / 20,
+                    "{count} {noise}: {free}"
+                );
             }
             let flat = noisy((0..count).map(|index| 0.01 * index as f64), 1.0, seed);
-            assert!(matches!(free_count(&flat, 0.0), Err(NoBaseline::Straight(..))), "{count}");
+            assert!(
+                matches!(free_count(&flat, 0.0), Err(NoBaseline::Straight(..))),
+                "{count}"
+            );
         }
     }
 
     /// In a force without noise, as of a computed curve, the contact begins exactly where the force does.
     #[test]
     fn a_contact_without_noise_begins_where_the_force_does() {
-        let parabola: Vec<f64> = (0..100).map(|index| (f64::from(index) - 59.0).max(0.0).powi(2)).collect();
+        let parabola: Vec<f64> = (0..100)
+            .map(|index| (f64::from(index) - 59.0).max(0.0).powi(2))
+            .collect();
         let free = free_count(&parabola, 0.0).unwrap();
         assert!((59..=62).contains(&free), "{free}");
     }
@@ -231,13 +284,23 @@ mod tests {
     #[test]
     fn coefficients_are_found_with_their_errors() {
         let columns: Vec<Vec<f64>> = (0..3)
-            .map(|power| (0..400).map(|index| (f64::from(index) / 400.0).powi(power)).collect())
+            .map(|power| {
+                (0..400)
+                    .map(|index| (f64::from(index) / 400.0).powi(power))
+                    .collect()
+            })
             .collect();
         let value = |index: usize| 1.0 - 2.0 * columns[1][index] + 3.0 * columns[2][index];
         let found = least_squares(&columns, &noisy((0..400).map(value), 0.1, 7)).unwrap();
         for ((value, error), expected) in found.into_iter().zip([1.0, -2.0, 3.0]) {
-            assert!((value - expected).abs() < 3.0 * error && error < 0.1, "{value} ± {error}");
+            assert!(
+                (value - expected).abs() < 3.0 * error && error < 0.1,
+                "{value} ± {error}"
+            );
         }
-        assert_eq!(least_squares(&[columns[0].clone(), columns[0].clone()], &columns[1]), None);
+        assert_eq!(
+            least_squares(&[columns[0].clone(), columns[0].clone()], &columns[1]),
+            None
+        );
     }
 }

@@ -49,7 +49,8 @@ pub use curve::MeasuredCurve;
 pub use ensemble::find::fit_ensemble;
 pub use ensemble::posterior::IntervalEstimate;
 pub use ensemble::result::{
-    CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares, SummaryDeviation,
+    CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares,
+    SummaryDeviation,
 };
 pub use error::ExperimentError;
 pub use fit::Fit;

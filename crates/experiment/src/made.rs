@@ -32,25 +32,43 @@ pub(crate) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
     let mut fine = scene.clone();
     fine.numerics.samples = 1 << 18;
     let fine = fine.checked().unwrap();
-    let outcome = Simulation::default().run(&fine, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let outcome = Simulation::default()
+        .run(&fine, &|| false, &mut |_, _, _| Ok(()))
+        .unwrap();
     let legs = &outcome.history.legs;
     let base = |point: &CurvePoint| point.indentation + point.force / stiffness(scene);
     let top = legs[0].curve.iter().map(base).fold(f64::MIN, f64::max);
-    let low = -0.5 * top - legs[1].curve.iter().map(|point| base(point).abs()).fold(0.0, f64::max);
+    let low = -0.5 * top
+        - legs[1]
+            .curve
+            .iter()
+            .map(|point| base(point).abs())
+            .fold(0.0, f64::max);
     let mut points = Vec::new();
     for (leg, sign) in legs.iter().zip([1.0, -1.0]) {
         let mut at = 0;
         for index in 0..500 {
             let share = index as f64 / 499.0;
-            let wanted = if sign > 0.0 { low + share * (top - low) } else { top + share * (low - top) };
+            let wanted = if sign > 0.0 {
+                low + share * (top - low)
+            } else {
+                top + share * (low - top)
+            };
             while at < leg.curve.len() && sign * base(&leg.curve[at]) < sign * wanted {
                 at += 1;
             }
             let last = if sign > 0.0 { leg.curve.last() } else { None };
-            points.push(match leg.curve.get(at).or(last).filter(|_| sign < 0.0 || wanted > 0.0) {
-                Some(point) => (base(point), point.force),
-                None => (wanted, 0.0),
-            });
+            points.push(
+                match leg
+                    .curve
+                    .get(at)
+                    .or(last)
+                    .filter(|_| sign < 0.0 || wanted > 0.0)
+                {
+                    Some(point) => (base(point), point.force),
+                    None => (wanted, 0.0),
+                },
+            );
         }
     }
     points
@@ -72,9 +90,15 @@ pub(crate) fn noise(made: &Made, seed: u64) -> Vec<f64> {
 
 /// Returns the curve with noise, drift, an offset and a zero, read from a text in nm and µN.
 pub(crate) fn measured(made: &Made, seed: u64) -> MeasuredCurve {
-    let points = force_curve(&made.scene).into_iter().zip(noise(made, seed)).enumerate();
+    let points = force_curve(&made.scene)
+        .into_iter()
+        .zip(noise(made, seed))
+        .enumerate();
     let disturbed = points.map(|(index, ((displacement, force), noise))| {
-        (displacement + made.offset, force + noise + made.drift * index as f64 / 1000.0 + 3e-7)
+        (
+            displacement + made.offset,
+            force + noise + made.drift * index as f64 / 1000.0 + 3e-7,
+        )
     });
     read(disturbed, Drift::Remove)
 }
@@ -85,7 +109,14 @@ pub(crate) fn read(points: impl Iterator<Item = (f64, f64)>, drift: Drift) -> Me
         text + &format!("{},{}\n", displacement * 1e9, force * 1e6)
     };
     let text = points.fold("displacement [nm],force [uN]\n".to_owned(), line);
-    from_text(&text, &CurveOptions { drift, ..CurveOptions::default() }).unwrap()
+    from_text(
+        &text,
+        &CurveOptions {
+            drift,
+            ..CurveOptions::default()
+        },
+    )
+    .unwrap()
 }
 
 pub(crate) fn from_bytes(content: &[u8], options: &CurveOptions) -> Result<MeasuredCurve, String> {
@@ -101,7 +132,11 @@ pub(crate) fn from_text(text: &str, options: &CurveOptions) -> Result<MeasuredCu
 pub(crate) fn of_spring(count: usize) -> Vec<(f64, f64)> {
     let point = |index: usize| {
         let way = 300.0 * index as f64 / (count - 1) as f64;
-        let displacement = if way < 150.0 { way - 100.0 } else { 200.0 - way };
+        let displacement = if way < 150.0 {
+            way - 100.0
+        } else {
+            200.0 - way
+        };
         let noise = if index.is_multiple_of(2) { 0.1 } else { -0.1 };
         (displacement, 1.0 + noise + 2.0 * displacement.max(0.0))
     };
@@ -109,28 +144,51 @@ pub(crate) fn of_spring(count: usize) -> Vec<(f64, f64)> {
 }
 
 /// A file of points of the spring, each written by `form`, after a header.
-pub(crate) fn text_of_spring(header: &str, count: usize, form: impl Fn(f64, f64) -> String) -> String {
-    of_spring(count).into_iter().fold(header.to_owned(), |text, (d, f)| text + &form(d, f) + "\n")
+pub(crate) fn text_of_spring(
+    header: &str,
+    count: usize,
+    form: impl Fn(f64, f64) -> String,
+) -> String {
+    of_spring(count)
+        .into_iter()
+        .fold(header.to_owned(), |text, (d, f)| text + &form(d, f) + "\n")
 }
 
 /// Asserts that two curves have the same points, segments and part before contact.
 pub(crate) fn assert_same(found: &MeasuredCurve, expected: &MeasuredCurve, name: &str) {
-    let both =
-        found.force.iter().zip(&expected.force).chain(found.displacement.iter().zip(&expected.displacement));
-    assert!(both.into_iter().all(|(one, other)| (one - other).abs() < 1e-20), "{name}");
-    assert_eq!((found.free, &found.segment), (expected.free, &expected.segment), "{name}");
+    let both = found
+        .force
+        .iter()
+        .zip(&expected.force)
+        .chain(found.displacement.iter().zip(&expected.displacement));
+    assert!(
+        both.into_iter()
+            .all(|(one, other)| (one - other).abs() < 1e-20),
+        "{name}"
+    );
+    assert_eq!(
+        (found.free, &found.segment),
+        (expected.free, &expected.segment),
+        "{name}"
+    );
 }
 
 /// Text of points with displacements in nm and forces in nN.
 pub(crate) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
     let line = |text: String, (d, f): (f64, f64)| text + &format!("{d},{f}\n");
-    points.into_iter().fold("displacement [nm],force [nN]\n".to_owned(), line)
+    points
+        .into_iter()
+        .fold("displacement [nm],force [nN]\n".to_owned(), line)
 }
 
 /// Returns the curve of a sphere without adhesion on rubber (Hertz), with R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm, and
 /// 100 points in each direction. The force is `times` the force of Hertz. `times` is a function of the indentation in m and
 /// of the direction, 1 or −1.
-pub(crate) fn rubber(deviation: f64, seed: u64, times: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+pub(crate) fn rubber(
+    deviation: f64,
+    seed: u64,
+    times: impl Fn(f64, f64) -> f64,
+) -> Vec<(f64, f64)> {
     rubber_of(100, deviation, seed, times)
 }
 
@@ -143,12 +201,21 @@ pub(crate) fn rubber_of(
 ) -> Vec<(f64, f64)> {
     let force = |indentation: f64| 4.0 / 3.0 * 2e6 * (7.5e-6 * indentation.max(0.0).powi(3)).sqrt();
     let point = |(index, noise): (usize, f64)| {
-        let (way, direction) = if index < half { (index, 1.0) } else { (2 * half - 1 - index, -1.0) };
+        let (way, direction) = if index < half {
+            (index, 1.0)
+        } else {
+            (2 * half - 1 - index, -1.0)
+        };
         let indentation = (way as f64 / (half - 1) as f64 - 0.5) * 2e-6;
         let force = force(indentation) * times(indentation, direction);
         (2e-6 + indentation + force / 3.0, force + noise)
     };
-    gauss(deviation, seed).into_iter().take(2 * half).enumerate().map(point).collect()
+    gauss(deviation, seed)
+        .into_iter()
+        .take(2 * half)
+        .enumerate()
+        .map(point)
+        .collect()
 }
 
 /// The scene of [`rubber`] with this work of adhesion, J/m², and modulus, Pa.
@@ -171,21 +238,36 @@ pub(crate) fn on_rubber(work: f64, modulus: f64) -> Document {
 pub(crate) fn random(seed: u64, points: u64) -> Made {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     let mut between = |low: f64, high: f64| low * (high / low).powf(generator.random::<f64>());
-    let name = if seed.is_multiple_of(2) { "jkr-sphere" } else { "rough-sphere" };
+    let name = if seed.is_multiple_of(2) {
+        "jkr-sphere"
+    } else {
+        "rough-sphere"
+    };
     let mut scene = Scene::clone(open(name).unwrap().scene());
     scene.numerics.points = points;
     scene.set_seed(seed);
     let (modulus, work) = (2.7e6 * between(0.5, 2.0), 0.05 * between(0.5, 2.0));
-    (scene.material, scene.adhesion) = (Material::effective(modulus), Some(Adhesion::by_work(work)));
+    (scene.material, scene.adhesion) =
+        (Material::effective(modulus), Some(Adhesion::by_work(work)));
     let radius = radius_of(&scene).unwrap();
-    scene.loading = vec![Move::ToForce(1.5 * PI * work * radius * between(1.0, 4.0)), Move::ToSeparation];
+    scene.loading = vec![
+        Move::ToForce(1.5 * PI * work * radius * between(1.0, 4.0)),
+        Move::ToSeparation,
+    ];
     // Contact radius at pull-off of a sphere.
     let contact = (radius * radius * 9.0 * PI * work / (8.0 * modulus)).cbrt();
     scene.loading_stiffness = Some(2.0 * modulus * contact * between(0.5, 10.0));
     let checked = scene.clone().checked().unwrap();
-    let outcome = Simulation::default().run(&checked, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let outcome = Simulation::default()
+        .run(&checked, &|| false, &mut |_, _, _| Ok(()))
+        .unwrap();
     let force = outcome.figures.adhesion_force.unwrap();
-    Made { scene, offset: 1e-6 * between(0.1, 1.0), noise: 0.01 * force, drift: 0.1 * force }
+    Made {
+        scene,
+        offset: 1e-6 * between(0.1, 1.0),
+        noise: 0.01 * force,
+        drift: 0.1 * force,
+    }
 }
 
 pub(crate) fn truth(made: &Made, parameter: Parameter) -> f64 {
@@ -218,7 +300,11 @@ pub(crate) fn fitted(curve: &MeasuredCurve, made: &Made, free: &str) -> FitResul
 }
 
 pub(crate) fn free(seed: u64) -> &'static str {
-    let free =
-        ["work,modulus,offset", "work,offset", "work,modulus,offset,zero", "work,modulus,offset,stiffness"];
+    let free = [
+        "work,modulus,offset",
+        "work,offset",
+        "work,modulus,offset,zero",
+        "work,modulus,offset,stiffness",
+    ];
     free[(seed / 2 % 4) as usize]
 }

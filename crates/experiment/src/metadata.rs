@@ -4,10 +4,21 @@ use asperity_data::parse_quantity;
 use asperity_data::text_table::{Decimal, Separator, TextCell};
 
 /// Names of the stiffness of the instrument, of the deflection for 1 V, and of the travel of the piezo, as letters.
-const STIFFNESS: [&str; 6] =
-    ["springconstant", "forceconstant", "cantileverstiffness", "cantileverspringconstant", "springk", "k"];
-const SENSITIVITY: [&str; 5] =
-    ["sensitivity", "deflectionsensitivity", "sensdeflsens", "sensdeflection", "lightlevergain"];
+const STIFFNESS: [&str; 6] = [
+    "springconstant",
+    "forceconstant",
+    "cantileverstiffness",
+    "cantileverspringconstant",
+    "springk",
+    "k",
+];
+const SENSITIVITY: [&str; 5] = [
+    "sensitivity",
+    "deflectionsensitivity",
+    "sensdeflsens",
+    "sensdeflection",
+    "lightlevergain",
+];
 const RAMP: [&str; 3] = ["rampsize", "ramplength", "zscansize"];
 
 /// Stiffness and sensitivity of the instrument, and the travel of its piezo.
@@ -25,24 +36,36 @@ impl Metadata {
     /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is behind the key or the value;
     /// without a unit the value is in SI units.
     pub fn take(&mut self, line: &str) {
-        let parts = line.rsplit_once(": ").or_else(|| line.split_once([':', '=', '\t']));
+        let parts = line
+            .rsplit_once(": ")
+            .or_else(|| line.split_once([':', '=', '\t']));
         let Some((key, value)) = parts else { return };
         let (name, of_key) = key.split_once(['(', '[', ',']).unwrap_or((key, ""));
         let name = name.trim_matches(|c: char| !c.is_alphanumeric());
-        let letters: String =
-            name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
+        let letters: String = name
+            .chars()
+            .filter(|c| c.is_alphanumeric())
+            .flat_map(char::to_lowercase)
+            .collect();
         let value = value.trim_matches(|c: char| !(c.is_alphanumeric() || "+-./".contains(c)));
         // Instruments write `V 65.3 nm/V` for a value that depends on a voltage.
         let value = value.strip_prefix("V ").unwrap_or(value).trim();
-        let end = value.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c))).unwrap_or(value.len());
+        let end = value
+            .find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))
+            .unwrap_or(value.len());
         let (number, of_value) = value.split_at(end);
-        let TextCell::Number(number) = Decimal::default().read(number, Separator::SPACE) else { return };
+        let TextCell::Number(number) = Decimal::default().read(number, Separator::SPACE) else {
+            return;
+        };
         if number <= 0.0 {
             return;
         }
-        let unit =
-            [of_value, of_key].map(|unit| unit.trim_matches(|c: char| !(c.is_alphabetic() || c == '/')));
-        let unit = unit.into_iter().find(|unit| !unit.is_empty()).unwrap_or_default();
+        let unit = [of_value, of_key]
+            .map(|unit| unit.trim_matches(|c: char| !(c.is_alphabetic() || c == '/')));
+        let unit = unit
+            .into_iter()
+            .find(|unit| !unit.is_empty())
+            .unwrap_or_default();
         let is = |names: &[&str]| names.contains(&&*letters);
         if is(&STIFFNESS) {
             if let Some(of_one) = ratio(unit, "N", "m") {
@@ -52,10 +75,13 @@ impl Metadata {
             let inverse = ratio(unit, "V", "m").map(|of_one| 1.0 / (number * of_one));
             // A gain of 1 mV/nm is that of an instrument without calibration.
             let inverse = inverse.filter(|_| !unit.is_empty() && number != 1.0);
-            self.sensitivity =
-                inverse.or(ratio(unit, "m", "V").map(|of_one| number * of_one)).or(self.sensitivity);
+            self.sensitivity = inverse
+                .or(ratio(unit, "m", "V").map(|of_one| number * of_one))
+                .or(self.sensitivity);
         } else if is(&RAMP) {
-            self.ramp = parse_quantity(&format!("{number:e} {unit}"), "m").ok().or(self.ramp);
+            self.ramp = parse_quantity(&format!("{number:e} {unit}"), "m")
+                .ok()
+                .or(self.ramp);
         }
     }
 }
@@ -67,7 +93,9 @@ fn ratio(unit: &str, over: &str, under: &str) -> Option<f64> {
     }
     let (above, below) = unit.split_once('/')?;
     let of_one = |text: &str, unit: &str| {
-        parse_quantity(&format!("1 {text}"), unit).ok().filter(|_| text.ends_with(unit))
+        parse_quantity(&format!("1 {text}"), unit)
+            .ok()
+            .filter(|_| text.ends_with(unit))
     };
     Some(of_one(above, over)? / of_one(below, under)?)
 }
@@ -81,7 +109,11 @@ mod tests {
         let read = |line: &str| {
             let mut metadata = Metadata::default();
             metadata.take(line);
-            (metadata.stiffness.map(|(_, value)| value), metadata.sensitivity, metadata.ramp)
+            (
+                metadata.stiffness.map(|(_, value)| value),
+                metadata.sensitivity,
+                metadata.ramp,
+            )
         };
         let close = |one: Option<f64>, other: Option<f64>| match (one, other) {
             (Some(one), Some(other)) => (one / other - 1.0).abs() < 1e-12,
@@ -97,14 +129,19 @@ mod tests {
             ("# sensitivity: 7.363E-8", (None, Some(7.363e-8), None)),
             ("Light Lever Gain, mV/nm: 20", (None, Some(5e-8), None)),
             ("Light Lever Gain, mV/nm: 1", (None, None, None)),
-            ("\"\\@Sens. DeflSens: V 65.3 nm/V\"", (None, Some(65.3e-9), None)),
+            (
+                "\"\\@Sens. DeflSens: V 65.3 nm/V\"",
+                (None, Some(65.3e-9), None),
+            ),
             ("Ramp size: 500 nm", (None, None, Some(5e-7))),
             ("# springConstant: unknown", (None, None, None)),
             ("# springConstant: 3 furlong", (None, None, None)),
             ("k-value 3", (None, None, None)),
         ] {
             let found = read(line);
-            let all = close(found.0, expected.0) && close(found.1, expected.1) && close(found.2, expected.2);
+            let all = close(found.0, expected.0)
+                && close(found.1, expected.1)
+                && close(found.2, expected.2);
             assert!(all, "{line}: {found:?}");
         }
     }

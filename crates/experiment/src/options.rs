@@ -52,7 +52,9 @@ impl FromStr for Drift {
         match text {
             "keep" => Ok(Drift::Keep),
             "remove" => Ok(Drift::Remove),
-            _ => force(text).map(Drift::Known).map_err(|error| format!("{error}; {allowed}")),
+            _ => force(text)
+                .map(Drift::Known)
+                .map_err(|error| format!("{error}; {allowed}")),
         }
     }
 }
@@ -64,13 +66,21 @@ fn force(text: &str) -> Result<f64, String> {
 #[cfg(feature = "clap")]
 fn positive_force(text: &str) -> Result<f64, String> {
     let found = force(text)?;
-    if found > 0.0 { Ok(found) } else { Err("allowed: a standard deviation above 0, such as 2nN".to_owned()) }
+    if found > 0.0 {
+        Ok(found)
+    } else {
+        Err("allowed: a standard deviation above 0, such as 2nN".to_owned())
+    }
 }
 
 #[cfg(feature = "clap")]
 fn positive_length(text: &str) -> Result<f64, String> {
     let found = parse_quantity(text, "m").map_err(|error| error.to_string())?;
-    if found > 0.0 { Ok(found) } else { Err("allowed: a length above 0, such as 500nm".to_owned()) }
+    if found > 0.0 {
+        Ok(found)
+    } else {
+        Err("allowed: a length above 0, such as 500nm".to_owned())
+    }
 }
 
 /// Options for reading a [`MeasuredCurve`](crate::MeasuredCurve). By default columns, units, signs, zero and noise are
@@ -86,13 +96,21 @@ pub struct CurveOptions {
     /// displacement turns.
     #[cfg_attr(
         feature = "clap",
-        arg(long, value_name = "D,F[,SEGMENT]", value_delimiter = ',', verbatim_doc_comment)
+        arg(
+            long,
+            value_name = "D,F[,SEGMENT]",
+            value_delimiter = ',',
+            verbatim_doc_comment
+        )
     )]
     pub columns: Vec<String>,
     /// Units of displacement and force: nm,nN; default: units of the file
     ///
     /// A number is the value of 1 in the column: 3.01nN for a deflection in nm with 3.01 N/m.
-    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "UNIT,UNIT", value_delimiter = ',')
+    )]
     pub units: Vec<String>,
     /// Travel of the piezo for a file with one column of forces: 500nm
     ///
@@ -113,7 +131,10 @@ pub struct CurveOptions {
     )]
     pub segments: Vec<usize>,
     /// Reverse none, displacement, force or both; default: automatic
-    #[cfg_attr(feature = "clap", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "QUANTITY", hide_possible_values = true)
+    )]
     pub negate: Option<Negate>,
     /// Measured force taken as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
@@ -121,13 +142,23 @@ pub struct CurveOptions {
     /// Drift over time: keep (default), remove, or rise over the curve
     #[cfg_attr(
         feature = "clap",
-        arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
+        arg(
+            long,
+            default_value = "keep",
+            hide_default_value = true,
+            allow_hyphen_values = true
+        )
     )]
     pub drift: Drift,
     /// Slope of the force over the displacement: keep (default) or remove
     #[cfg_attr(
         feature = "clap",
-        arg(long, default_value = "keep", hide_default_value = true, hide_possible_values = true)
+        arg(
+            long,
+            default_value = "keep",
+            hide_default_value = true,
+            hide_possible_values = true
+        )
     )]
     pub tilt: Tilt,
     /// Standard deviation of the noise; default: the one before contact
@@ -155,7 +186,11 @@ impl fmt::Display for CurveOptions {
     /// Writes the options as arguments of the command line, each with a blank before it.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let segments: Vec<String> = self.segments.iter().map(ToString::to_string).collect();
-        for (name, values) in [("columns", &self.columns), ("units", &self.units), ("segments", &segments)] {
+        for (name, values) in [
+            ("columns", &self.columns),
+            ("units", &self.units),
+            ("segments", &segments),
+        ] {
             if !values.is_empty() {
                 write!(out, " --{name}={}", quoted(values.join(",")))?;
             }
@@ -171,11 +206,21 @@ impl fmt::Display for CurveOptions {
             ("negate", self.negate.map(|one| one.to_string())),
             ("zero", newtons(self.zero)),
             ("drift", drift),
-            ("tilt", (self.tilt == Tilt::Remove).then(|| "remove".to_owned())),
+            (
+                "tilt",
+                (self.tilt == Tilt::Remove).then(|| "remove".to_owned()),
+            ),
             ("noise", newtons(self.noise)),
-            ("free-points", self.free_points.map(|count| count.to_string())),
+            (
+                "free-points",
+                self.free_points.map(|count| count.to_string()),
+            ),
         ];
-        let given = values.into_iter().filter_map(|(name, value)| Some((name, value?)));
-        given.into_iter().try_for_each(|(name, value)| write!(out, " --{name}={value}"))
+        let given = values
+            .into_iter()
+            .filter_map(|(name, value)| Some((name, value?)));
+        given
+            .into_iter()
+            .try_for_each(|(name, value)| write!(out, " --{name}={value}"))
     }
 }

@@ -64,10 +64,17 @@ impl Parameter {
     /// assert_eq!((row.symbol, row.unit, row.term), ("γ", "J/m²", "work of adhesion"));
     /// ```
     pub fn row(self) -> ParameterRow {
-        let row = |name, term, symbol, unit| ParameterRow { name, term, symbol, unit };
+        let row = |name, term, symbol, unit| ParameterRow {
+            name,
+            term,
+            symbol,
+            unit,
+        };
         match self {
             Parameter::Work => row("work", "work of adhesion", "γ", "J/m²"),
-            Parameter::ClosingWork => row("closing_work", "work of adhesion on closing", "γ₁", "J/m²"),
+            Parameter::ClosingWork => {
+                row("closing_work", "work of adhesion on closing", "γ₁", "J/m²")
+            }
             Parameter::Modulus => row("modulus", "effective modulus", "E*", "Pa"),
             Parameter::Offset => row("offset", "displacement at first touch", "D₀", "m"),
             Parameter::Zero => row("zero", "force before contact", "F₀", "N"),
@@ -119,16 +126,46 @@ impl Parameter {
     pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
         let rows = [
-            (Modulus, Stiffness, "the stiffness of the instrument from a curve on a hard specimen"),
+            (
+                Modulus,
+                Stiffness,
+                "the stiffness of the instrument from a curve on a hard specimen",
+            ),
             (Modulus, Radius, "the radius from an image of the form"),
-            (Work, Radius, "the radius from an image of the form, since the pull-off force has γR alone"),
-            (Work, ClosingWork, "turning points at several preloads, since γ₁ acts where the contact grows"),
-            (Offset, Zero, "a longer part before contact for the zero of the force"),
-            (Modulus, Offset, "a larger preload, or more points near first touch"),
-            (Offset, Stiffness, "a larger preload, or more points near first touch"),
-            (Work, Modulus, "a larger preload, where the elastic force exceeds the adhesion"),
+            (
+                Work,
+                Radius,
+                "the radius from an image of the form, since the pull-off force has γR alone",
+            ),
+            (
+                Work,
+                ClosingWork,
+                "turning points at several preloads, since γ₁ acts where the contact grows",
+            ),
+            (
+                Offset,
+                Zero,
+                "a longer part before contact for the zero of the force",
+            ),
+            (
+                Modulus,
+                Offset,
+                "a larger preload, or more points near first touch",
+            ),
+            (
+                Offset,
+                Stiffness,
+                "a larger preload, or more points near first touch",
+            ),
+            (
+                Work,
+                Modulus,
+                "a larger preload, where the elastic force exceeds the adhesion",
+            ),
         ];
-        let is = |row: &&(Parameter, Parameter, &str)| [(one, other), (other, one)].contains(&(row.0, row.1));
+        let is = |row: &&(Parameter, Parameter, &str)| {
+            [(one, other), (other, one)].contains(&(row.0, row.1))
+        };
         let usual = if one == other {
             "less noise, a larger preload, or its value from another measurement"
         } else {
@@ -166,10 +203,16 @@ impl Free {
     /// can be 0.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range) {
-            return Ok(Free { parameter, range: Some(range) });
+            return Ok(Free {
+                parameter,
+                range: Some(range),
+            });
         }
         let ParameterRow { name, unit, .. } = parameter.row();
-        refused(format!("{name}: {:?}..{:?} {unit}", range.0, range.1), parameter.ranges())
+        refused(
+            format!("{name}: {:?}..{:?} {unit}", range.0, range.1),
+            parameter.ranges(),
+        )
     }
 
     /// Returns both ends of the range in the SI unit of the parameter; `None` if the fit chooses the range.
@@ -180,7 +223,10 @@ impl Free {
 
 impl From<Parameter> for Free {
     fn from(parameter: Parameter) -> Self {
-        Free { parameter, range: None }
+        Free {
+            parameter,
+            range: None,
+        }
     }
 }
 
@@ -189,22 +235,38 @@ impl FromStr for Free {
 
     /// Parses `work`, or `work=10mJ/m^2..1J/m^2` with a range.
     fn from_str(text: &str) -> Result<Self, String> {
-        let (name, range) = text.split_once('=').map_or((text, None), |(name, range)| (name, Some(range)));
+        let (name, range) = text
+            .split_once('=')
+            .map_or((text, None), |(name, range)| (name, Some(range)));
         let names = Parameter::ALL.map(Parameter::name);
-        let parameter = Parameter::ALL.into_iter().find(|one| one.name() == name).ok_or_else(|| {
-            let near = did_you_mean(name, names);
-            format!("{name:?} is not a parameter{near}; allowed: {}", names.join(", "))
-        })?;
+        let parameter = Parameter::ALL
+            .into_iter()
+            .find(|one| one.name() == name)
+            .ok_or_else(|| {
+                let near = did_you_mean(name, names);
+                format!(
+                    "{name:?} is not a parameter{near}; allowed: {}",
+                    names.join(", ")
+                )
+            })?;
         let allowed = || format!("allowed: {}, such as {name}=1..2", parameter.ranges());
         let end = |text: &str| {
-            parse_quantity(text, parameter.row().unit).map_err(|error| format!("{error}; {}", allowed()))
+            parse_quantity(text, parameter.row().unit)
+                .map_err(|error| format!("{error}; {}", allowed()))
         };
         let ends = |range: &str| {
             let (low, high) = range.split_once("..").ok_or_else(allowed)?;
             let (low, high) = (end(low)?, end(high)?);
-            if parameter.allows((low, high)) { Ok((low, high)) } else { Err(allowed()) }
+            if parameter.allows((low, high)) {
+                Ok((low, high))
+            } else {
+                Err(allowed())
+            }
         };
-        Ok(Free { parameter, range: range.map(ends).transpose()? })
+        Ok(Free {
+            parameter,
+            range: range.map(ends).transpose()?,
+        })
     }
 }
 
@@ -225,7 +287,11 @@ impl Coordinate {
             Parameter::Work => (value / self.unit).asinh(),
             Parameter::ClosingWork => {
                 let (low, high) = self.on_closing(values);
-                if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 1.0 }
+                if high > low {
+                    ((value - low) / (high - low)).clamp(0.0, 1.0)
+                } else {
+                    1.0
+                }
             }
             parameter if parameter.is_signed() => value / self.unit,
             _ => value.ln(),
@@ -255,7 +321,10 @@ impl Coordinate {
     pub fn ends(&self) -> (f64, f64) {
         match self.parameter {
             Parameter::ClosingWork => (0.0, 1.0),
-            _ => (self.of(self.range.0, &[1.0; 7]), self.of(self.range.1, &[1.0; 7])),
+            _ => (
+                self.of(self.range.0, &[1.0; 7]),
+                self.of(self.range.1, &[1.0; 7]),
+            ),
         }
     }
 }
@@ -265,7 +334,12 @@ mod tests {
     use super::*;
 
     fn coordinate(parameter: Parameter, range: (f64, f64)) -> Coordinate {
-        Coordinate { parameter, start: range.0, range, unit: 0.5 }
+        Coordinate {
+            parameter,
+            start: range.0,
+            range,
+            unit: 0.5,
+        }
     }
 
     #[test]
@@ -290,18 +364,36 @@ mod tests {
         }
         // A work on closing is at most that on opening, also where there is none.
         let closing = coordinate(Parameter::ClosingWork, (0.0, 10.0));
-        assert_eq!((closing.of(9.0, &values), closing.value(1.5, &values)), (1.0, 4.0));
-        assert_eq!((closing.of(0.0, &[0.0; 7]), closing.value(0.5, &[0.0; 7])), (1.0, 0.0));
+        assert_eq!(
+            (closing.of(9.0, &values), closing.value(1.5, &values)),
+            (1.0, 4.0)
+        );
+        assert_eq!(
+            (closing.of(0.0, &[0.0; 7]), closing.value(0.5, &[0.0; 7])),
+            (1.0, 0.0)
+        );
         assert_eq!(closing.ends(), (0.0, 1.0));
-        assert_eq!(coordinate(Parameter::Offset, (-3.0, 3.0)).ends(), (-6.0, 6.0));
-        assert_eq!(coordinate(Parameter::Work, (0.0, 1.0)).ends(), (0.0, 2.0_f64.asinh()));
+        assert_eq!(
+            coordinate(Parameter::Offset, (-3.0, 3.0)).ends(),
+            (-6.0, 6.0)
+        );
+        assert_eq!(
+            coordinate(Parameter::Work, (0.0, 1.0)).ends(),
+            (0.0, 2.0_f64.asinh())
+        );
     }
 
     #[test]
     fn free_parameters_are_parsed_with_their_ranges() {
         let free = |text: &str| text.parse::<Free>();
         let range = |text: &str| free(text).unwrap().range;
-        assert_eq!(free("offset"), Ok(Free { parameter: Parameter::Offset, range: None }));
+        assert_eq!(
+            free("offset"),
+            Ok(Free {
+                parameter: Parameter::Offset,
+                range: None
+            })
+        );
         assert_eq!(range("work=0..1"), Some((0.0, 1.0)));
         assert_eq!(range("closing_work=0..20mJ/m^2"), Some((0.0, 0.02)));
         assert_eq!(range("offset=-1um..0"), Some((-1e-6, 0.0)));
@@ -310,14 +402,23 @@ mod tests {
                 "work=-1..1",
                 "allowed: two values of at least 0, the first below the second, such as work=1..2",
             ),
-            ("modulus=0..1", "allowed: two values above 0, the first below the second, such as modulus=1..2"),
-            ("zero=2..1", "allowed: two values, the first below the second, such as zero=1..2"),
+            (
+                "modulus=0..1",
+                "allowed: two values above 0, the first below the second, such as modulus=1..2",
+            ),
+            (
+                "zero=2..1",
+                "allowed: two values, the first below the second, such as zero=1..2",
+            ),
             ("radius=1", "allowed: two values above 0"),
             ("work=1..x", "\"x\""),
             ("wrok", "\"wrok\" is not a parameter"),
         ] {
             let error = free(text).unwrap_err();
-            assert!(error.starts_with(said) || error.contains(said), "{text}: {error}");
+            assert!(
+                error.starts_with(said) || error.contains(said),
+                "{text}: {error}"
+            );
         }
     }
 }

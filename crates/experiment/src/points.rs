@@ -19,26 +19,46 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    pub fn averaged(displacement: &[f64], force: &[f64], segments: &Segments, count: usize) -> Points {
+    pub fn averaged(
+        displacement: &[f64],
+        force: &[f64],
+        segments: &Segments,
+        count: usize,
+    ) -> Points {
         let (mut ranges, mut start): (Vec<Range<usize>>, _) = (Vec::new(), 0);
         let kinds: Vec<_> = segments.numbers.iter().zip(&segments.is_still).collect();
-        for chunk in kinds.chunk_by(|one, next| one == next).flat_map(|part| part.chunks(count)) {
+        for chunk in kinds
+            .chunk_by(|one, next| one == next)
+            .flat_map(|part| part.chunks(count))
+        {
             ranges.push(start..start + chunk.len());
             start += chunk.len();
         }
-        let means = |values: &[f64]| ranges.iter().map(|range| mean(&values[range.clone()])).collect();
+        let means = |values: &[f64]| {
+            ranges
+                .iter()
+                .map(|range| mean(&values[range.clone()]))
+                .collect()
+        };
         Points {
             displacement: means(displacement),
             force: means(force),
-            segment: ranges.iter().map(|range| segments.numbers[range.start]).collect(),
-            is_still: ranges.iter().map(|range| segments.is_still[range.start]).collect(),
+            segment: ranges
+                .iter()
+                .map(|range| segments.numbers[range.start])
+                .collect(),
+            is_still: ranges
+                .iter()
+                .map(|range| segments.is_still[range.start])
+                .collect(),
             counts: ranges.iter().map(Range::len).collect(),
         }
     }
 
     /// Returns the index range of the points of a segment.
     pub fn of(&self, number: usize) -> Range<usize> {
-        self.segment.partition_point(|one| *one < number)..self.segment.partition_point(|one| *one <= number)
+        self.segment.partition_point(|one| *one < number)
+            ..self.segment.partition_point(|one| *one <= number)
     }
 
     /// Returns the index range of the points of a segment without the pause at its turning point.
@@ -59,21 +79,37 @@ impl Points {
         let first = self.of(self.segment[0]);
         let is_wrong = |displacement: &[f64]| {
             let moved = displacement[first.end - 1] - displacement[0];
-            if self.segment[0] == 0 { moved < 0.0 } else { moved > 0.0 }
+            if self.segment[0] == 0 {
+                moved < 0.0
+            } else {
+                moved > 0.0
+            }
         };
-        let by_itself = if is_wrong(&self.displacement) { Negate::Displacement } else { Negate::None };
+        let by_itself = if is_wrong(&self.displacement) {
+            Negate::Displacement
+        } else {
+            Negate::None
+        };
         let negate = asked.unwrap_or(by_itself);
-        if matches!(negate, Negate::Displacement | Negate::Both) != (by_itself == Negate::Displacement) {
-            let away = if self.segment[0] == 0 { "away" } else { "closer" };
-            let found = format!("the body moves {away} in the first segment with --negate {negate}");
+        if matches!(negate, Negate::Displacement | Negate::Both)
+            != (by_itself == Negate::Displacement)
+        {
+            let away = if self.segment[0] == 0 {
+                "away"
+            } else {
+                "closer"
+            };
+            let found =
+                format!("the body moves {away} in the first segment with --negate {negate}");
             return refused(
                 found,
                 "an approach first; --negate displacement for a distance between the bodies",
             );
         }
-        for (values, one) in
-            [(&mut self.displacement, Negate::Displacement), (&mut self.force, Negate::Force)]
-        {
+        for (values, one) in [
+            (&mut self.displacement, Negate::Displacement),
+            (&mut self.force, Negate::Force),
+        ] {
             if negate == one || negate == Negate::Both {
                 values.iter_mut().for_each(|value| *value = -*value);
             }
@@ -84,7 +120,10 @@ impl Points {
     /// Adds the deflection of an instrument of this stiffness in N/m to the displacement of the body, which the column
     /// `name` contains. Returns a sentence that says so.
     pub fn put_on_spring(&mut self, name: &str, stiffness: f64) -> String {
-        self.displacement.iter_mut().zip(&self.force).for_each(|(at, force)| *at += force / stiffness);
+        self.displacement
+            .iter_mut()
+            .zip(&self.force)
+            .for_each(|(at, force)| *at += force / stiffness);
         let stiffness = format_quantity(stiffness, "N/m");
         format!(
             "{name} is a displacement of the body: the deflection of an instrument of {stiffness} was added."
@@ -104,7 +143,11 @@ impl Points {
         let all = ends(self.displacement.iter().copied());
         let end = |number: usize| {
             let of = self.of(number);
-            let (low, high) = if of.is_empty() { all } else { ends(self.displacement[of].iter().copied()) };
+            let (low, high) = if of.is_empty() {
+                all
+            } else {
+                ends(self.displacement[of].iter().copied())
+            };
             if number.is_multiple_of(2) { high } else { low }
         };
         (0..=last).map(end).collect()
@@ -125,16 +168,30 @@ pub(crate) fn ends_free(force: &[f64], least: f64) -> bool {
 pub(crate) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
     let all = 0..points.force.len();
     let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;
-    if let Some(wrong) = options.segments.iter().find(|number| !numbers.contains(*number)) {
-        let allowed = numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(", ");
-        return refused(format!("--segments {wrong}: the curve has no such segment"), allowed);
+    if let Some(wrong) = options
+        .segments
+        .iter()
+        .find(|number| !numbers.contains(*number))
+    {
+        let allowed = numbers
+            .map(|number| number.to_string())
+            .collect::<Vec<_>>()
+            .join(", ");
+        return refused(
+            format!("--segments {wrong}: the curve has no such segment"),
+            allowed,
+        );
     }
-    let is_chosen =
-        |index: usize| options.segments.is_empty() || options.segments.contains(&(points.segment[index] + 1));
+    let is_chosen = |index: usize| {
+        options.segments.is_empty() || options.segments.contains(&(points.segment[index] + 1))
+    };
     let is_kept = |index: &usize| is_chosen(*index) && !points.is_still[*index];
     let kept: Vec<usize> = all.filter(is_kept).collect();
     if kept.len() < 2 * FEWEST {
-        let fault = format!("{} points in the segments that are used, without pauses", kept.len());
+        let fault = format!(
+            "{} points in the segments that are used, without pauses",
+            kept.len()
+        );
         return refused(fault, format!("at least {}", 2 * FEWEST));
     }
     Ok(kept)

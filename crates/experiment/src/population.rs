@@ -33,8 +33,14 @@ impl Population {
 
     /// Returns the number of different members.
     pub fn distinct(&self) -> usize {
-        let is_copy = |index: usize| self.members[..index].iter().any(|one| one.at == self.members[index].at);
-        (0..self.members.len()).filter(|&index| !is_copy(index)).count()
+        let is_copy = |index: usize| {
+            self.members[..index]
+                .iter()
+                .any(|one| one.at == self.members[index].at)
+        };
+        (0..self.members.len())
+            .filter(|&index| !is_copy(index))
+            .count()
     }
 
     /// Returns true if most members differ, so that the next step can be taken.
@@ -74,5 +80,9 @@ pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f6
 
 /// Returns point `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
 pub(crate) fn share_of(number: usize, base: usize) -> f64 {
-    if number == 0 { 0.0 } else { ((number % base) as f64 + share_of(number / base, base)) / base as f64 }
+    if number == 0 {
+        0.0
+    } else {
+        ((number % base) as f64 + share_of(number / base, base)) / base as f64
+    }
 }

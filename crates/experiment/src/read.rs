@@ -49,13 +49,21 @@ pub(crate) struct Columns {
 
 impl Columns {
     /// Reads the content of a file, which may be compressed by gzip. The name identifies binary formats, which are refused.
-    pub fn parse(name: &Path, bytes: &[u8], options: &CurveOptions) -> Result<Self, ExperimentError> {
+    pub fn parse(
+        name: &Path,
+        bytes: &[u8],
+        options: &CurveOptions,
+    ) -> Result<Self, ExperimentError> {
         let bytes = unpacked(bytes)?;
         let is_array = bytes.starts_with(npy::SIGNATURE);
         if !is_array {
             check_is_text(name, &bytes)?;
         }
-        let parts = if is_array { of_array(&bytes, options)? } else { of_text(&bytes, options)? };
+        let parts = if is_array {
+            of_array(&bytes, options)?
+        } else {
+            of_text(&bytes, options)?
+        };
         let columns = Columns::joined(parts);
         let place = if is_array { Place::Point } else { Place::Line };
         columns.check_displacements(place)?;
@@ -65,12 +73,21 @@ impl Columns {
     /// Takes displacements in m and forces in N. A point with a value that is not finite is left out.
     pub fn of_arrays(displacement: &[f64], force: &[f64]) -> Result<Self, ExperimentError> {
         if displacement.len() != force.len() {
-            let found = format!("{} displacements and {} forces", displacement.len(), force.len());
+            let found = format!(
+                "{} displacements and {} forces",
+                displacement.len(),
+                force.len()
+            );
             return crate::error::refused(found, "one force for each displacement");
         }
-        let mut columns =
-            Columns { assumed: "displacements in m, forces in N".to_owned(), ..Columns::default() };
-        let pair = Pair { places: [0, 1], units: [1.0; 2] };
+        let mut columns = Columns {
+            assumed: "displacements in m, forces in N".to_owned(),
+            ..Columns::default()
+        };
+        let pair = Pair {
+            places: [0, 1],
+            units: [1.0; 2],
+        };
         for (index, (displacement, force)) in displacement.iter().zip(force).enumerate() {
             columns.push([*displacement, *force], &pair, Place::Point(index + 1))?;
         }
@@ -83,7 +100,10 @@ impl Columns {
         let count = |count: usize| grouped(count as u64);
         let mut words = Vec::new();
         if self.missing > 0 {
-            words.push(format!("{} left out since a value is missing", count(self.missing)));
+            words.push(format!(
+                "{} left out since a value is missing",
+                count(self.missing)
+            ));
         }
         if let Some(place) = &self.first_repeated {
             let place = place.to_string();
@@ -103,7 +123,11 @@ impl Columns {
         let mut joined = parts.next().unwrap_or_default();
         for mut part in parts {
             let turn = joined.displacement.last().copied();
-            let ends = part.displacement.first().copied().zip(part.displacement.last().copied());
+            let ends = part
+                .displacement
+                .first()
+                .copied()
+                .zip(part.displacement.last().copied());
             if let Some((turn, (first, last))) = turn.zip(ends)
                 && (last - turn).abs() < (first - turn).abs()
             {
@@ -112,7 +136,9 @@ impl Columns {
                 part.places.reverse();
             }
             joined.labels = vec![Label::of_part(0); joined.displacement.len()];
-            joined.labels.extend(vec![Label::of_part(1); part.displacement.len()]);
+            joined
+                .labels
+                .extend(vec![Label::of_part(1); part.displacement.len()]);
             joined.displacement.extend(part.displacement);
             joined.force.extend(part.force);
             joined.places.extend(part.places);
@@ -135,20 +161,33 @@ impl Columns {
             // A division by a whole number rounds once.
             let (value, unit) = (values[of], pair.units[of]);
             let divisor = (1.0 / unit).round();
-            if (divisor * unit - 1.0).abs() < 1e-12 { value / divisor } else { value * unit }
+            if (divisor * unit - 1.0).abs() < 1e-12 {
+                value / divisor
+            } else {
+                value * unit
+            }
         });
         if (self.displacement.last(), self.force.last()) == (Some(&displacement), Some(&force)) {
             self.repeated += 1;
             self.first_repeated.get_or_insert(place);
             return Ok(false);
         }
-        let number = if let Place::Line(number) | Place::Point(number) = place { number } else { 0 };
-        for (value, largest, (term, unit)) in
-            [(displacement, LARGEST[0], ("displacement", "m")), (force, LARGEST[1], ("force", "N"))]
-        {
+        let number = if let Place::Line(number) | Place::Point(number) = place {
+            number
+        } else {
+            0
+        };
+        for (value, largest, (term, unit)) in [
+            (displacement, LARGEST[0], ("displacement", "m")),
+            (force, LARGEST[1], ("force", "N")),
+        ] {
             if !(-largest..=largest).contains(&value) {
                 let fault = format!("a {term} of {value:e} {unit}");
-                return Err(refused(place, fault, format!("at most {largest:e} {unit} either way")));
+                return Err(refused(
+                    place,
+                    fault,
+                    format!("at most {largest:e} {unit} either way"),
+                ));
             }
         }
         self.displacement.push(displacement);
@@ -162,8 +201,10 @@ impl Columns {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
         let count = sorted.len();
-        let [Some(&low), Some(&high)] = [sorted.get(count / 20), sorted.get((count - count / 20).max(1) - 1)]
-        else {
+        let [Some(&low), Some(&high)] = [
+            sorted.get(count / 20),
+            sorted.get((count - count / 20).max(1) - 1),
+        ] else {
             return Ok(());
         };
         let room = WILD * (high - low);
@@ -176,7 +217,10 @@ impl Columns {
             let (low, high) = ends(sorted.into_iter().filter(|at| !is_wild(at)));
             return Err(refused(
                 place(self.places[first]),
-                format!("a displacement of {:e} m far from all others", self.displacement[first]),
+                format!(
+                    "a displacement of {:e} m far from all others",
+                    self.displacement[first]
+                ),
                 format!("near those from {low:e} m to {high:e} m; NaN leaves a point out"),
             ));
         }
@@ -197,20 +241,33 @@ struct Points {
 }
 
 impl Points {
-    fn new(columns: &[TextColumn], stated: Stated<'_>, options: &CurveOptions) -> Result<Self, SurfaceError> {
+    fn new(
+        columns: &[TextColumn],
+        stated: Stated<'_>,
+        options: &CurveOptions,
+    ) -> Result<Self, SurfaceError> {
         let mut choice = Choice::new(columns, stated, options)?;
         let mut parts: Vec<_> = choice.pairs.iter().map(|_| Columns::default()).collect();
         parts[0].statements = std::mem::take(&mut choice.statements);
         parts[0].assumed = std::mem::take(&mut choice.assumed);
         parts[0].of_body = choice.of_body.take();
         parts[0].stiffness.clone_from(&stated.metadata.stiffness);
-        Ok(Points { choice, parts, label: Label::default(), name: String::new(), rows: 0 })
+        Ok(Points {
+            choice,
+            parts,
+            label: Label::default(),
+            name: String::new(),
+            rows: 0,
+        })
     }
 
     /// Begins another segment if the name differs from the present one.
     fn begin_segment(&mut self, name: &str) {
         if self.name != name {
-            self.label = Label { part: self.label.part + 1, is_pause: is_pause(name) };
+            self.label = Label {
+                part: self.label.part + 1,
+                is_pause: is_pause(name),
+            };
             name.clone_into(&mut self.name);
         }
     }
@@ -254,11 +311,19 @@ impl Points {
             let half = 0.5 * self.rows as f64;
             let unit = self.choice.pairs[0].units[0];
             let row = |at: &f64| (at / unit).round();
-            all.labels =
-                all.displacement.iter().map(|at| Label::of_part(usize::from(row(at) >= half))).collect();
+            all.labels = all
+                .displacement
+                .iter()
+                .map(|at| Label::of_part(usize::from(row(at) >= half)))
+                .collect();
             all.displacement.iter_mut().for_each(|at| {
                 let row = row(at);
-                *at = ramp * if row < half { row } else { 2.0 * half - 1.0 - row } / (half - 1.0);
+                *at =
+                    ramp * if row < half {
+                        row
+                    } else {
+                        2.0 * half - 1.0 - row
+                    } / (half - 1.0);
             });
             all.is_beside = true;
         }
@@ -269,10 +334,22 @@ impl Points {
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let (names, values) = npy_columns(bytes)?;
     // A force curve or a fit of this program, in SI units.
-    let is_si = names.iter().any(|name| ["contact_length", "residual"].contains(&name.as_str()));
+    let is_si = names
+        .iter()
+        .any(|name| ["contact_length", "residual"].contains(&name.as_str()));
     let mut columns = vec![TextColumn::default(); values.len()];
-    columns.iter_mut().zip(names).for_each(|(column, name)| column.name = name);
-    let mut points = Points::new(&columns, Stated { metadata: &Metadata::default(), is_si }, options)?;
+    columns
+        .iter_mut()
+        .zip(names)
+        .for_each(|(column, name)| column.name = name);
+    let mut points = Points::new(
+        &columns,
+        Stated {
+            metadata: &Metadata::default(),
+            is_si,
+        },
+        options,
+    )?;
     (0..values.first().map_or(0, Vec::len)).try_for_each(|point| {
         let value = |column: usize| values[column][point];
         let text = |column: usize| value(column).to_string().into();
@@ -282,8 +359,11 @@ fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Surfac
 }
 
 fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
-    let Some((first, shape)) = beginning(bytes)? else { return Ok(Vec::new()) };
-    let (mut above, mut points, mut decimal) = (Above::default(), None::<Points>, Decimal::default());
+    let Some((first, shape)) = beginning(bytes)? else {
+        return Ok(Vec::new());
+    };
+    let (mut above, mut points, mut decimal) =
+        (Above::default(), None::<Points>, Decimal::default());
     // Name of a segment above its points.
     let mut name = String::new();
     each_line(bytes, |number, line| {
@@ -301,13 +381,20 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Surface
             Some(points) => points,
             none => {
                 let is_si = bytes.starts_with(PROVENANCE.as_bytes()) || above.is_of_afmformats();
-                let stated = Stated { metadata: &above.metadata, is_si };
+                let stated = Stated {
+                    metadata: &above.metadata,
+                    is_si,
+                };
                 none.insert(Points::new(&above.columns(&shape), stated, options)?)
             }
         };
         let cells: Vec<&str> = shape.separator.split(line).collect();
-        let is_word =
-            |cell: &&str| matches!(Decimal::default().read(cell, shape.separator), TextCell::NoNumber);
+        let is_word = |cell: &&str| {
+            matches!(
+                Decimal::default().read(cell, shape.separator),
+                TextCell::NoNumber
+            )
+        };
         if cells.len() != shape.count || cells.iter().all(is_word) {
             if cells.iter().all(is_word) && names_segment(line) {
                 line.clone_into(&mut name);
@@ -342,15 +429,30 @@ fn number_in(
 ) -> Result<f64, SurfaceError> {
     let (fault, allowed) = match decimal.read(cell, shape.separator) {
         // A number of hundreds of digits is not the word for infinity, which marks a missing value.
-        TextCell::Number(value) if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) => {
-            ("beyond all numbers", "displacements and forces, NaN for a missing value")
+        TextCell::Number(value)
+            if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) =>
+        {
+            (
+                "beyond all numbers",
+                "displacements and forces, NaN for a missing value",
+            )
         }
         TextCell::Number(value) => return Ok(value),
         TextCell::Missing => return Ok(f64::NAN),
-        TextCell::OtherMark => ("a number with another decimal mark than the numbers before", ONE_MARK),
-        TextCell::NoNumber => ("not a number", "numbers of one decimal mark, NaN for a missing value"),
+        TextCell::OtherMark => (
+            "a number with another decimal mark than the numbers before",
+            ONE_MARK,
+        ),
+        TextCell::NoNumber => (
+            "not a number",
+            "numbers of one decimal mark, NaN for a missing value",
+        ),
     };
-    Err(refused(place.clone(), format!("column {}: {:?} is {fault}", column + 1, shown(cell)), allowed))
+    Err(refused(
+        place.clone(),
+        format!("column {}: {:?} is {fault}", column + 1, shown(cell)),
+        allowed,
+    ))
 }
 
 #[cfg(test)]
@@ -360,7 +462,10 @@ mod tests {
     use crate::made::{assert_same, from_bytes, from_text, lines, of_spring, text_of_spring};
 
     fn columns(names: &[&str]) -> CurveOptions {
-        CurveOptions { columns: names.iter().map(ToString::to_string).collect(), ..CurveOptions::default() }
+        CurveOptions {
+            columns: names.iter().map(ToString::to_string).collect(),
+            ..CurveOptions::default()
+        }
     }
 
     /// Lines of the spring with this header, each point in this form.
@@ -374,73 +479,173 @@ mod tests {
 
     #[test]
     fn a_curve_is_the_same_in_every_form() {
-        let units = |columns: CurveOptions| CurveOptions { units: vec!["nm".into(), "nN".into()], ..columns };
+        let units = |columns: CurveOptions| CurveOptions {
+            units: vec!["nm".into(), "nN".into()],
+            ..columns
+        };
         let plain = CurveOptions::default;
         let expected = spring();
         // Both points at the turn have one displacement.
-        assert_eq!((expected.segment[298], expected.segment[301], expected.segment[599]), (0, 1, 1));
+        assert_eq!(
+            (
+                expected.segment[298],
+                expected.segment[301],
+                expected.segment[599]
+            ),
+            (0, 1, 1)
+        );
         assert!((190..=200).contains(&expected.free), "{}", expected.free);
-        assert!((expected.noise / 1e-10 - 1.0).abs() < 0.02, "{:e}", expected.noise);
-        assert!((expected.force[300] / 1e-7 - 1.0).abs() < 0.01, "{:e}", expected.force[300]);
+        assert!(
+            (expected.noise / 1e-10 - 1.0).abs() < 0.02,
+            "{:e}",
+            expected.noise
+        );
+        assert!(
+            (expected.force[300] / 1e-7 - 1.0).abs() < 0.01,
+            "{:e}",
+            expected.force[300]
+        );
         assert_eq!(expected.turns.len(), 2);
         // Thousands of pN, separated by this mark.
         let thousands = |force: f64, mark: &str| {
             let text = format!("{:.9}", 1e3 * force);
             let at = text.find('.').unwrap_or(text.len()).saturating_sub(3);
-            if at == 0 { text } else { format!("{}{mark}{}", &text[..at], &text[at..]) }
+            if at == 0 {
+                text
+            } else {
+                format!("{}{mark}{}", &text[..at], &text[at..])
+            }
         };
         for (content, options) in [
-            (text("d [nm];f [pN]\n", |d, f| format!("{d};{}", thousands(f, ","))), plain()),
-            (text("d [nm]\tf [pN]\n", |d, f| format!("{d}\t{}", thousands(f, " "))), plain()),
-            (text("x/nm;F/nN\n", |d, f| format!("{d};{f}")), columns(&["x", "f"])),
-            (text("# columns: time height force\n# units: s nm nN\n", |d, f| format!("0 {d} {f}")), plain()),
+            (
+                text("d [nm];f [pN]\n", |d, f| {
+                    format!("{d};{}", thousands(f, ","))
+                }),
+                plain(),
+            ),
+            (
+                text("d [nm]\tf [pN]\n", |d, f| {
+                    format!("{d}\t{}", thousands(f, " "))
+                }),
+                plain(),
+            ),
+            (
+                text("x/nm;F/nN\n", |d, f| format!("{d};{f}")),
+                columns(&["x", "f"]),
+            ),
+            (
+                text(
+                    "# columns: time height force\n# units: s nm nN\n",
+                    |d, f| format!("0 {d} {f}"),
+                ),
+                plain(),
+            ),
             (text("", |d, f| format!("{d}\t{f}")), units(plain())),
             (text("nm,nN\n", |d, f| format!("{d},{f}")), plain()),
-            (text("a (nm)\tb (nN)\n", |d, f| format!("{d}\t{f}").replace('.', ",")), columns(&["1", "2"])),
             (
-                text("separation [um],force [N]\n", |d, f| format!("{},{}", -d / 1e3, f / 1e9)),
+                text("a (nm)\tb (nN)\n", |d, f| {
+                    format!("{d}\t{f}").replace('.', ",")
+                }),
                 columns(&["1", "2"]),
             ),
             (
-                text("z [nm],deflection [nm]\n", |d, f| format!("{d},{}", f / 4.0)),
-                CurveOptions { units: vec!["nm".into(), "4nN".into()], ..columns(&["1", "2"]) },
+                text("separation [um],force [N]\n", |d, f| {
+                    format!("{},{}", -d / 1e3, f / 1e9)
+                }),
+                columns(&["1", "2"]),
+            ),
+            (
+                text("z [nm],deflection [nm]\n", |d, f| {
+                    format!("{d},{}", f / 4.0)
+                }),
+                CurveOptions {
+                    units: vec!["nm".into(), "4nN".into()],
+                    ..columns(&["1", "2"])
+                },
             ),
         ] {
-            assert_same(&from_text(&content, &options).unwrap(), &expected, &content[..20]);
+            assert_same(
+                &from_text(&content, &options).unwrap(),
+                &expected,
+                &content[..20],
+            );
         }
         let all = of_spring(600);
-        let array =
-            |descr: &str, shape: &str, values: &mut dyn Iterator<Item = f64>, options: CurveOptions| {
-                let mut bytes = Vec::new();
-                npy::write_header(&mut bytes, descr, shape).unwrap();
-                bytes.extend(values.flat_map(f64::to_le_bytes));
-                assert_same(&from_bytes(&bytes, &units(options)).unwrap(), &expected, shape);
-            };
-        array("'<f8'", "600, 2", &mut all.iter().flat_map(|&(d, f)| [d, f]), columns(&["1", "2"]));
+        let array = |descr: &str,
+                     shape: &str,
+                     values: &mut dyn Iterator<Item = f64>,
+                     options: CurveOptions| {
+            let mut bytes = Vec::new();
+            npy::write_header(&mut bytes, descr, shape).unwrap();
+            bytes.extend(values.flat_map(f64::to_le_bytes));
+            assert_same(
+                &from_bytes(&bytes, &units(options)).unwrap(),
+                &expected,
+                shape,
+            );
+        };
+        array(
+            "'<f8'",
+            "600, 2",
+            &mut all.iter().flat_map(|&(d, f)| [d, f]),
+            columns(&["1", "2"]),
+        );
         // Any number that changes with the segment.
-        let labelled =
-            all.iter().zip(&expected.segment).flat_map(|(&(d, f), segment)| [d, f, 7.0 - *segment as f64]);
-        array("'<f8'", "600, 3", &mut labelled.into_iter(), columns(&["1", "2", "3"]));
-        let axes = all.iter().map(|point| point.0).chain(all.iter().map(|point| point.1));
-        array("'<f8'", "2, 600", &mut axes.into_iter(), columns(&["1", "2"]));
+        let labelled = all
+            .iter()
+            .zip(&expected.segment)
+            .flat_map(|(&(d, f), segment)| [d, f, 7.0 - *segment as f64]);
+        array(
+            "'<f8'",
+            "600, 3",
+            &mut labelled.into_iter(),
+            columns(&["1", "2", "3"]),
+        );
+        let axes = all
+            .iter()
+            .map(|point| point.0)
+            .chain(all.iter().map(|point| point.1));
+        array(
+            "'<f8'",
+            "2, 600",
+            &mut axes.into_iter(),
+            columns(&["1", "2"]),
+        );
         let fields = "[('load', '<f8'), ('height', '<f8')]";
-        array(fields, "600,", &mut all.iter().flat_map(|&(d, f)| [f, d]), plain());
+        array(
+            fields,
+            "600,",
+            &mut all.iter().flat_map(|&(d, f)| [f, d]),
+            plain(),
+        );
     }
 
     #[test]
     fn units_of_the_command_line_overrule_those_of_the_file() {
         // A divisor that is a whole number, and a factor.
         for unit in [4.0, 3.0] {
-            let text = text("Piezo [nm],Deflection [nm]\n", |d, f| format!("{},{}", d / 1e3, f / unit));
+            let text = text("Piezo [nm],Deflection [nm]\n", |d, f| {
+                format!("{},{}", d / 1e3, f / unit)
+            });
             let units = vec!["um".to_owned(), format!("{unit}nN")];
-            let curve = from_text(&text, &CurveOptions { units, ..CurveOptions::default() }).unwrap();
+            let curve = from_text(
+                &text,
+                &CurveOptions {
+                    units,
+                    ..CurveOptions::default()
+                },
+            )
+            .unwrap();
             let (turn, force) = (curve.turns[0], curve.force[300]);
             assert!(
                 (turn / 5e-8 - 1.0).abs() < 0.01 && (force / 1e-7 - 1.0).abs() < 0.01,
                 "{turn:e} {force:e}"
             );
             let of_force = format!("Unit of the force by --units: {unit}nN; the file states nm.");
-            assert_eq!(curve.statements[1], "Unit of the displacement by --units: um; the file states nm.");
+            assert_eq!(
+                curve.statements[1],
+                "Unit of the displacement by --units: um; the file states nm."
+            );
             assert_eq!(curve.statements[2], of_force);
         }
     }
@@ -450,13 +655,25 @@ mod tests {
         let comma = |d: f64, f: f64| format!("{d},{f}");
         let more = |line: &str| (lines(of_spring(600)) + line, columns(&[]));
         for ((text, options), said) in [
-            (more("1e11,0\n"), "line 602: a displacement of 1e2 m far from all others"),
+            (
+                more("1e11,0\n"),
+                "line 602: a displacement of 1e2 m far from all others",
+            ),
             (more("0,1e299\n"), "line 602: a force of 1e290 N"),
-            (more(&("9".repeat(400) + ",0\n")), "line 602: column 1: \"999"),
+            (
+                more(&("9".repeat(400) + ",0\n")),
+                "line 602: column 1: \"999",
+            ),
             (more("1,2,3\n"), "line 602: 3 columns; allowed: 2"),
             (more("1,2x\n"), "line 602: column 2: \"2x\" is not a number"),
-            ((text("d,f\n", comma), columns(&[])), "no unit of the displacement is stated"),
-            ((text("d [nm],f [V]\n", comma), columns(&[])), "the force is a deflection in V, and the file"),
+            (
+                (text("d,f\n", comma), columns(&[])),
+                "no unit of the displacement is stated",
+            ),
+            (
+                (text("d [nm],f [V]\n", comma), columns(&[])),
+                "the force is a deflection in V, and the file",
+            ),
             (
                 (text("a [nm],b [nN]\n", comma), columns(&[])),
                 "2 columns a, b: none is known as the displacement",
@@ -469,7 +686,10 @@ mod tests {
                 (text("d [nm],Deflection [nm]\n", comma), columns(&[])),
                 "the force is a deflection in nm, and the file",
             ),
-            ((lines(of_spring(600)), columns(&["1", "5"])), "2 columns displacement, force: none is \"5\""),
+            (
+                (lines(of_spring(600)), columns(&["1", "5"])),
+                "2 columns displacement, force: none is \"5\"",
+            ),
             (
                 (
                     text("d [nm];f [pN]\n", |d, f| format!("{d:.0};{:.0}", 1e3 * f)) + "5;1,234\n",
@@ -477,12 +697,21 @@ mod tests {
                 ),
                 "each comma in a number may be a decimal mark or separate thousands",
             ),
-            ((text("", |d, f| format!("{d}\t{f}\t{f}")), columns(&[])), "3 columns without names: none is"),
+            (
+                (text("", |d, f| format!("{d}\t{f}\t{f}")), columns(&[])),
+                "3 columns without names: none is",
+            ),
         ] {
             let error = from_text(&text, &options).expect_err(said);
-            assert!(error.starts_with(said) && error.contains("allowed: "), "{said}: {error}");
+            assert!(
+                error.starts_with(said) && error.contains("allowed: "),
+                "{said}: {error}"
+            );
             // A file without names and units needs both options.
-            assert!(error.contains("; with it --units") == error.contains("without names"), "{error}");
+            assert!(
+                error.contains("; with it --units") == error.contains("without names"),
+                "{error}"
+            );
         }
     }
 }

@@ -49,7 +49,9 @@ pub enum Reason {
     #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
     Drift,
     /// The measured force without contact changes along a straight line over the displacement.
-    #[error("The force has a slope over the displacement where nothing touches: --tilt remove takes it off.")]
+    #[error(
+        "The force has a slope over the displacement where nothing touches: --tilt remove takes it off."
+    )]
     Tilt,
     /// The measured force without contact changes over time and also over the displacement.
     #[error(
@@ -120,12 +122,21 @@ pub(crate) fn reason(
     }
     let is_rigid = scene.loading_stiffness.is_none() && !free.contains(&Parameter::Stiffness);
     let jump = largest_jump(curve);
-    if is_rigid && curve.pull_off_force().is_some_and(|force| jump > RIGID * force) {
+    if is_rigid
+        && curve
+            .pull_off_force()
+            .is_some_and(|force| jump > RIGID * force)
+    {
         return Ok(Reason::Rigid(jump));
     }
     let mut model = Model::new(curve, scene, simulation);
     let forces = model.forces(values)?;
-    let mut rests: Vec<f64> = curve.force.iter().zip(&forces).map(|(force, model)| force - model).collect();
+    let mut rests: Vec<f64> = curve
+        .force
+        .iter()
+        .zip(&forces)
+        .map(|(force, model)| force - model)
+        .collect();
     let lines = curve.lines(free.contains(&Parameter::Zero));
     lines.iter().for_each(|line| {
         take_off(&mut rests, line);
@@ -160,7 +171,11 @@ pub(crate) fn reason(
     {
         return Ok(Reason::Branches);
     }
-    let other = if is_stated { Reason::StiffnessOrForm } else { Reason::Form };
+    let other = if is_stated {
+        Reason::StiffnessOrForm
+    } else {
+        Reason::Form
+    };
     Ok(low.map_or(other, Reason::TaborNumber))
 }
 
@@ -179,21 +194,33 @@ pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> O
 fn largest_jump(curve: &MeasuredCurve) -> f64 {
     let pairs = curve.segment.windows(2).zip(curve.force.windows(2));
     let retracting = pairs.filter(|(segment, _)| segment[0] == segment[1] && segment[0] % 2 == 1);
-    retracting.map(|(_, force)| force[1] - force[0]).fold(0.0, f64::max)
+    retracting
+        .map(|(_, force)| force[1] - force[0])
+        .fold(0.0, f64::max)
 }
 
 /// Returns the slope of the force over the displacement in N/m, in the last fifth of the first approach or in the first
 /// fifth of a retraction.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     let (touch, turn) = (curve.touch, curve.turns[0]);
-    let first = curve.segment.iter().zip(curve.displacement.iter().zip(&curve.force));
+    let first = curve
+        .segment
+        .iter()
+        .zip(curve.displacement.iter().zip(&curve.force));
     let pressed = first.filter(|(segment, (at, _))| {
         Some(*segment) == curve.segment.first() && **at > turn - PRESSED * (turn - touch)
     });
-    let points: Vec<(f64, f64)> = pressed.map(|(_, (at, force))| (at - turn, *force)).collect();
-    let columns = [vec![1.0; points.len()], points.iter().map(|point| point.0).collect()];
+    let points: Vec<(f64, f64)> = pressed
+        .map(|(_, (at, force))| (at - turn, *force))
+        .collect();
+    let columns = [
+        vec![1.0; points.len()],
+        points.iter().map(|point| point.0).collect(),
+    ];
     let forces: Vec<f64> = points.iter().map(|point| point.1).collect();
-    let slope = (points.len() >= FEWEST).then(|| least_squares(&columns, &forces)).flatten();
+    let slope = (points.len() >= FEWEST)
+        .then(|| least_squares(&columns, &forces))
+        .flatten();
     // Less what the noise may add.
     slope.map_or(0.0, |found| found[1].0 - 3.0 * found[1].1)
 }
@@ -220,7 +247,9 @@ fn branches_differ(
         let changed = model.forces(&moved)?;
         let is_leap = |change: f64| change.is_nan() || change.abs() > LEAPS * (high - low);
         let changes = changed.iter().zip(forces).map(|(one, other)| one - other);
-        Ok(changes.map(|change| if is_leap(change) { 0.0 } else { change }).collect())
+        Ok(changes
+            .map(|change| if is_leap(change) { 0.0 } else { change })
+            .collect())
     };
     for parameter in free {
         columns.push(change(*parameter)?);
@@ -232,7 +261,9 @@ fn branches_differ(
     // A point on the wrong side of a jump counts no more than others.
     let mut sizes: Vec<f64> = rests[curve.free..].iter().map(|rest| rest.abs()).collect();
     let most = CUT * median(&mut sizes).unwrap_or(0.0);
-    rests.iter_mut().for_each(|rest| *rest = rest.clamp(-most, most));
+    rests
+        .iter_mut()
+        .for_each(|rest| *rest = rest.clamp(-most, most));
     let basis = right_angled(&columns);
     let rest_of = |column: &mut Vec<f64>| {
         basis.iter().for_each(|one| {
@@ -242,7 +273,10 @@ fn branches_differ(
     rest_of(&mut rests);
     let whole = dot(&rests, &rests);
     let explains = |mut column: Vec<f64>| {
-        let of_approach = column.iter_mut().zip(&curve.segment).filter(|(_, segment)| **segment % 2 == 0);
+        let of_approach = column
+            .iter_mut()
+            .zip(&curve.segment)
+            .filter(|(_, segment)| **segment % 2 == 0);
         of_approach.for_each(|(one, _)| *one = 0.0);
         rest_of(&mut column);
         dot(&rests, &column).powi(2) > EXPLAINS * dot(&column, &column) * whole
@@ -269,8 +303,13 @@ mod tests {
     ];
 
     fn scene(changes: &[(&str, &str)]) -> Document {
-        let changes = changes.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned()));
-        open("jkr-sphere").unwrap().set_all(&changes.collect::<Vec<_>>()).unwrap()
+        let changes = changes
+            .iter()
+            .map(|(path, value)| ((*path).to_owned(), (*value).to_owned()));
+        open("jkr-sphere")
+            .unwrap()
+            .set_all(&changes.collect::<Vec<_>>())
+            .unwrap()
     }
 
     /// Force, N, of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3 N/m, by bisection of d
@@ -280,7 +319,11 @@ mod tests {
         let (mut low, mut high) = (0.0, at.max(0.0));
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            *if middle + force(middle) / 3.0 < at { &mut low } else { &mut high } = middle;
+            *if middle + force(middle) / 3.0 < at {
+                &mut low
+            } else {
+                &mut high
+            } = middle;
         }
         force(low)
     }
@@ -290,26 +333,53 @@ mod tests {
     fn found(points: impl Iterator<Item = (f64, f64)>, changes: &[(&str, &str)]) -> Reason {
         let mut text = "displacement [um],force [uN]\n".to_owned();
         for (index, (at, force)) in points.enumerate() {
-            writeln!(text, "{at},{}", force + if index % 2 == 0 { 1e-3 } else { -1e-3 }).unwrap();
+            writeln!(
+                text,
+                "{at},{}",
+                force + if index % 2 == 0 { 1e-3 } else { -1e-3 }
+            )
+            .unwrap();
         }
         let curve = from_text(&text, &CurveOptions::default()).unwrap();
-        let document = curve.load(&scene(&[&HERTZ, changes].concat()), 0.0).unwrap();
+        let document = curve
+            .load(&scene(&[&HERTZ, changes].concat()), 0.0)
+            .unwrap();
         let mut simulation = Simulation::default();
         let (_, governing) = simulation.contact(document.scene()).unwrap();
         let values = values_of(document.scene(), &governing);
         let tabor = governing.tabor_number(document.scene());
         let free = [Parameter::Modulus, Parameter::Offset];
-        reason(&curve, document.scene(), &mut simulation, (&values, &free), tabor).unwrap()
+        reason(
+            &curve,
+            document.scene(),
+            &mut simulation,
+            (&values, &free),
+            tabor,
+        )
+        .unwrap()
     }
 
     /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, as functions of displacement, m,
     /// and time from 0 to 1.
-    fn curve(approach: impl Fn(f64, f64) -> f64, retraction: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+    fn curve(
+        approach: impl Fn(f64, f64) -> f64,
+        retraction: impl Fn(f64, f64) -> f64,
+    ) -> Vec<(f64, f64)> {
         let point = |index: i32| {
             let time = f64::from(index) / 399.0;
-            let at =
-                if index < 200 { f64::from(index) / 99.5 - 1.0 } else { 1.0 - f64::from(index - 199) / 99.5 };
-            (at, 1e6 * if index < 200 { approach(1e-6 * at, time) } else { retraction(1e-6 * at, time) })
+            let at = if index < 200 {
+                f64::from(index) / 99.5 - 1.0
+            } else {
+                1.0 - f64::from(index - 199) / 99.5
+            };
+            (
+                at,
+                1e6 * if index < 200 {
+                    approach(1e-6 * at, time)
+                } else {
+                    retraction(1e-6 * at, time)
+                },
+            )
         };
         (0..400).map(point).collect()
     }
@@ -322,8 +392,14 @@ mod tests {
     fn each_pattern_has_its_reason() {
         let both = || curve(elastic, elastic).into_iter();
         // A sphere of another modulus is a change by a free parameter.
-        assert_eq!(found(both(), &[("material", "(effective_modulus: 1.9e6)")]), Reason::StiffnessOrForm);
-        assert_eq!(found(both(), &[("loading_stiffness", "None")]), Reason::Form);
+        assert_eq!(
+            found(both(), &[("material", "(effective_modulus: 1.9e6)")]),
+            Reason::StiffnessOrForm
+        );
+        assert_eq!(
+            found(both(), &[("loading_stiffness", "None")]),
+            Reason::Form
+        );
         assert!(
             matches!(found(both(), &[("loading_stiffness", "0.5")]), Reason::Stiffness(slope) if slope > 0.5)
         );
@@ -334,13 +410,27 @@ mod tests {
         let drifts = |at: f64, time: f64| elastic(at, time) - 1e-7 * time;
         assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Drift);
         let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
-        assert!(matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9));
+        assert!(
+            matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9)
+        );
         assert!(
             matches!(found(both(), &[("length", "2e-6")]), Reason::ShortProfile(length) if (length - 2e-6).abs() < 1e-9)
         );
-        assert!(matches!(found(both(), &[("length", "1e-3")]), Reason::CoarseProfile(..)));
-        let jumps = curve(elastic, |at, time| if at < 0.0 { 0.0 } else { elastic(at, time) - 5e-7 });
-        assert!(matches!(found(jumps.into_iter(), &[("loading_stiffness", "None")]), Reason::Rigid(_)));
+        assert!(matches!(
+            found(both(), &[("length", "1e-3")]),
+            Reason::CoarseProfile(..)
+        ));
+        let jumps = curve(elastic, |at, time| {
+            if at < 0.0 {
+                0.0
+            } else {
+                elastic(at, time) - 5e-7
+            }
+        });
+        assert!(matches!(
+            found(jumps.into_iter(), &[("loading_stiffness", "None")]),
+            Reason::Rigid(_)
+        ));
         let weak = [("adhesion", "(work: 1e-6)")];
         assert!(matches!(found(both(), &weak), Reason::TaborNumber(number) if number < 1.0));
     }

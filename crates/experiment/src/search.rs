@@ -101,7 +101,10 @@ impl Search<'_> {
         let forces = self.model.forces(&self.space.values(&at))?;
         let measured = self.space.curve.force.iter().zip(&forces);
         let rest = |(measured, model): (&f64, &f64)| (measured - model) / self.space.curve.noise;
-        let rests = measured.map(rest).map(|rest| if rest.is_finite() { rest } else { FAR }).collect();
+        let rests = measured
+            .map(rest)
+            .map(|rest| if rest.is_finite() { rest } else { FAR })
+            .collect();
         Ok(Member { at, rests })
     }
 
@@ -112,7 +115,10 @@ impl Search<'_> {
         let mut refined = rests.to_vec();
         for line in &self.lines {
             let along = dot(&clamped, line);
-            refined.iter_mut().zip(line).for_each(|(rest, line)| *rest -= along * line);
+            refined
+                .iter_mut()
+                .zip(line)
+                .for_each(|(rest, line)| *rest -= along * line);
         }
         refined
     }
@@ -129,9 +135,13 @@ impl Search<'_> {
     pub fn eased(&mut self, at: &[f64], rests: &[f64]) -> Result<Vec<f64>, ExperimentError> {
         let noise = self.space.curve.noise;
         self.model.noise = 1.0;
-        let jumps = self.model.jumps(&self.space.values(at), WRONG_SIDE * noise)?;
+        let jumps = self
+            .model
+            .jumps(&self.space.values(at), WRONG_SIDE * noise)?;
         let ease = |(rest, jump): (&f64, Option<[f64; 2]>)| match jump {
-            Some([low, high]) if rest.abs() > WRONG_SIDE => rest - rest.clamp(low / noise, high / noise),
+            Some([low, high]) if rest.abs() > WRONG_SIDE => {
+                rest - rest.clamp(low / noise, high / noise)
+            }
             _ => *rest,
         };
         Ok(rests.iter().zip(jumps).map(ease).collect())
@@ -140,13 +150,17 @@ impl Search<'_> {
     /// Returns the residual in contact, in units of the noise of the curve, after a fit of the lines at this noise; see
     /// [`Space::misfit`].
     fn misfit(&self, member: &Member, noise: f64) -> f64 {
-        self.space.misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
+        self.space
+            .misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
     }
 
     /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of the [`loss`] of all
     /// points.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
-        self.refined(&member.rests, WRONG_SIDE * noise).iter().map(|rest| loss(rest / noise)).sum()
+        self.refined(&member.rests, WRONG_SIDE * noise)
+            .iter()
+            .map(|rest| loss(rest / noise))
+            .sum()
     }
 
     /// Returns the costs of a member at this noise, for each block of the curve.
@@ -167,7 +181,9 @@ impl Search<'_> {
             let of = rows.map(|((one, prime), start)| {
                 match (one.parameter, one.ends(), share_of(number, prime)) {
                     // Rough bodies touch before the force exceeds the noise.
-                    (Parameter::Offset, (low, high), share) => (start + 8.0 * share - 6.5).clamp(low, high),
+                    (Parameter::Offset, (low, high), share) => {
+                        (start + 8.0 * share - 6.5).clamp(low, high)
+                    }
                     (Parameter::Zero, _, share) => start + 0.1 * (share - 0.5),
                     (_, (low, high), share) => low + share * (high - low),
                 }
@@ -218,8 +234,16 @@ impl Search<'_> {
             }
             // Where the residuals are no noise, another population that comes to the same ones ends there.
             let rival = self.misfit(&population.best, population.noise);
-            let rival = if has_spread && !has_missed && rival > SYSTEMATIC { BETTER * rival } else { 0.0 };
-            let other = self.anneal(attempt, (has_missed.then_some(&start), rival), &mut generator)?;
+            let rival = if has_spread && !has_missed && rival > SYSTEMATIC {
+                BETTER * rival
+            } else {
+                0.0
+            };
+            let other = self.anneal(
+                attempt,
+                (has_missed.then_some(&start), rival),
+                &mut generator,
+            )?;
             if self.misfit(&other.best, other.noise) > rival && rival > 0.0 {
                 break;
             }
@@ -239,11 +263,19 @@ impl Search<'_> {
             self.move_all(&mut population, &mut generator)?;
             samples.extend(population.members.iter().map(|member| member.at.clone()));
             if noise > MISFIT {
-                blocks.extend(population.members.iter().map(|member| self.block_costs(member, noise)));
+                blocks.extend(
+                    population
+                        .members
+                        .iter()
+                        .map(|member| self.block_costs(member, noise)),
+                );
             }
         }
         if !population.has_spread() {
-            let fault = format!("the search ends at {} values of the parameters", population.distinct());
+            let fault = format!(
+                "the search ends at {} values of the parameters",
+                population.distinct()
+            );
             return refused(
                 fault,
                 "more; other ranges of the parameters by --free NAME=A..B, or a larger --noise",
@@ -251,7 +283,14 @@ impl Search<'_> {
         }
         let without_adhesion = self.without_adhesion(&population, &samples)?;
         let rests = self.refined(&population.best.rests, WRONG_SIDE * noise);
-        Ok(Found { best: population.best, rests, noise, samples, blocks, without_adhesion })
+        Ok(Found {
+            best: population.best,
+            rests,
+            noise,
+            samples,
+            blocks,
+            without_adhesion,
+        })
     }
 
     /// Returns the smallest cost of a scene without adhesion minus the cost of the best member; infinite if no sample is
@@ -289,15 +328,26 @@ impl Search<'_> {
         let mut members = self.scattered(attempt)?;
         members.extend(start.cloned());
         let of_member = |member: &&Member| self.misfit(member, f64::INFINITY);
-        let best = members.iter().min_by(|one, other| of_member(one).total_cmp(&of_member(other)));
-        let best = best.cloned().ok_or(ContactError::Internal("no values have been drawn"))?;
+        let best = members
+            .iter()
+            .min_by(|one, other| of_member(one).total_cmp(&of_member(other)));
+        let best = best
+            .cloned()
+            .ok_or(ContactError::Internal("no values have been drawn"))?;
         let (costs, noise) = (vec![0.0; members.len()], f64::INFINITY);
-        let mut population = Population { members, costs, noise, best, cost: f64::INFINITY };
+        let mut population = Population {
+            members,
+            costs,
+            noise,
+            best,
+            cost: f64::INFINITY,
+        };
         let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
         loop {
             let misfit = self.misfit(&population.best, population.noise);
             let least = (misfit / DEEPER).max(1.0);
-            if population.noise <= least.max(rival) && (population.noise <= least || misfit > rival) {
+            if population.noise <= least.max(rival) && (population.noise <= least || misfit > rival)
+            {
                 self.refine(&mut population)?;
                 return Ok(population);
             }
@@ -331,7 +381,11 @@ impl Search<'_> {
 
     /// Sets the noise of a population and computes its costs.
     fn set_noise(&self, population: &mut Population, noise: f64) {
-        population.costs = population.members.iter().map(|member| self.cost(member, noise)).collect();
+        population.costs = population
+            .members
+            .iter()
+            .map(|member| self.cost(member, noise))
+            .collect();
         (population.noise, population.cost) = (noise, self.cost(&population.best, noise));
         let best = (0..population.costs.len())
             .min_by(|&one, &other| population.costs[one].total_cmp(&population.costs[other]));
@@ -344,9 +398,14 @@ impl Search<'_> {
     fn cooler(&self, population: &Population, least: f64) -> (f64, Vec<f64>) {
         let weights = |noise: f64| -> Vec<f64> {
             let pairs = population.members.iter().zip(&population.costs);
-            let changes: Vec<f64> = pairs.map(|(member, cost)| cost - self.cost(member, noise)).collect();
+            let changes: Vec<f64> = pairs
+                .map(|(member, cost)| cost - self.cost(member, noise))
+                .collect();
             let largest = ends(changes.iter().copied()).1;
-            changes.iter().map(|change| (change - largest).exp()).collect()
+            changes
+                .iter()
+                .map(|change| (change - largest).exp())
+                .collect()
         };
         let enough = EFFECTIVE * population.members.len() as f64;
         let is_enough =
@@ -358,10 +417,18 @@ impl Search<'_> {
         let (mut low, mut high) = (least, population.noise.min(LARGE));
         for _ in 0..HALVINGS {
             let middle = (low * high).sqrt();
-            *if is_enough(&weights(middle)) { &mut high } else { &mut low } = middle;
+            *if is_enough(&weights(middle)) {
+                &mut high
+            } else {
+                &mut low
+            } = middle;
         }
         // Never the same again.
-        let next = if high < population.noise { high } else { SLOWEST * high };
+        let next = if high < population.noise {
+            high
+        } else {
+            SLOWEST * high
+        };
         (next, weights(next))
     }
 
@@ -381,15 +448,20 @@ impl Search<'_> {
             if generator.random::<f64>() < RANDOM {
                 let moved = generator.random_range(0..at.len());
                 let (low, high) = self.space.coordinates[moved].ends();
-                at[moved] +=
-                    (high - low) * (2.0 * length - 1.0) * 10_f64.powf(-DECADES * generator.random::<f64>());
+                at[moved] += (high - low)
+                    * (2.0 * length - 1.0)
+                    * 10_f64.powf(-DECADES * generator.random::<f64>());
             } else {
-                let [one, other] = [(); 2].map(|()| &population.members[generator.random_range(0..count)].at);
+                let [one, other] =
+                    [(); 2].map(|()| &population.members[generator.random_range(0..count)].at);
                 let differences = one.iter().zip(other).map(|(one, other)| one - other);
-                at.iter_mut().zip(differences).for_each(|(at, by)| *at += usual * (0.5 + length) * by);
+                at.iter_mut()
+                    .zip(differences)
+                    .for_each(|(at, by)| *at += usual * (0.5 + length) * by);
             }
             let chance: f64 = generator.random();
-            let is_within = |(at, one): (&f64, &Coordinate)| (one.ends().0..=one.ends().1).contains(at);
+            let is_within =
+                |(at, one): (&f64, &Coordinate)| (one.ends().0..=one.ends().1).contains(at);
             if at == *here || !at.iter().zip(&self.space.coordinates).all(is_within) {
                 continue;
             }

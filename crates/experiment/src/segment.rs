@@ -26,7 +26,10 @@ pub(crate) struct Label {
 impl Label {
     /// Makes the label of an approach or a retraction.
     pub fn of_part(part: usize) -> Label {
-        Label { part, is_pause: false }
+        Label {
+            part,
+            is_pause: false,
+        }
     }
 }
 
@@ -84,7 +87,10 @@ impl Segments {
 /// Returns true if the displacement jumps to and fro from point to point, as it does for rows in a wrong order.
 pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     let (low, high) = ends(displacement.iter().copied());
-    let way: f64 = displacement.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+    let way: f64 = displacement
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .sum();
     way > SHUFFLED * (high - low) * displacement.len() as f64
 }
 
@@ -95,7 +101,10 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     let half = (0.5 * SMOOTHING * last as f64) as usize;
     let smooth = |index: usize| {
         let half = half.min(index).min(last - index);
-        displacement[index - half..=index + half].iter().sum::<f64>() / (2 * half + 1) as f64
+        displacement[index - half..=index + half]
+            .iter()
+            .sum::<f64>()
+            / (2 * half + 1) as f64
     };
     let smooth: Vec<f64> = (0..=last).map(smooth).collect();
     let (low, high) = ends(smooth.iter().copied());
@@ -131,7 +140,10 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
 /// are pauses. Returns `None` if the labels do not separate the directions.
 fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
     let (low, high) = ends(displacement.iter().copied());
-    let (mut numbers, mut is_still) = (Vec::with_capacity(labels.len()), Vec::with_capacity(labels.len()));
+    let (mut numbers, mut is_still) = (
+        Vec::with_capacity(labels.len()),
+        Vec::with_capacity(labels.len()),
+    );
     let (mut number, mut before) = (0, None);
     for part in labels.chunk_by(|one, next| one == next) {
         let of = &displacement[numbers.len()..numbers.len() + part.len()];
@@ -143,7 +155,11 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
         let stays = part[0].is_pause || moved.abs() < least;
         if !stays {
             let presses = moved > 0.0;
-            number += usize::from(before.replace(presses).is_some_and(|before| before != presses));
+            number += usize::from(
+                before
+                    .replace(presses)
+                    .is_some_and(|before| before != presses),
+            );
         }
         numbers.extend(std::iter::repeat_n(number, part.len()));
         is_still.extend(std::iter::repeat_n(stays, part.len()));

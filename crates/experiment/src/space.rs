@@ -35,8 +35,14 @@ fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
         return refused("no free parameter", format!("one or more of {names}"));
     }
     for (index, Free { parameter, .. }) in free.iter().enumerate() {
-        if free[..index].iter().any(|other| other.parameter == *parameter) {
-            return refused(format!("{} is free twice", parameter.name()), "each parameter once");
+        if free[..index]
+            .iter()
+            .any(|other| other.parameter == *parameter)
+        {
+            return refused(
+                format!("{} is free twice", parameter.name()),
+                "each parameter once",
+            );
         }
     }
     Ok(())
@@ -83,7 +89,10 @@ impl<'a> Space<'a> {
             radius,
             length: scene.length,
             modulus: unless_free(Parameter::Modulus, governing.effective_modulus),
-            stiffness: unless_free(Parameter::Stiffness, scene.loading_stiffness.unwrap_or(f64::INFINITY)),
+            stiffness: unless_free(
+                Parameter::Stiffness,
+                scene.loading_stiffness.unwrap_or(f64::INFINITY),
+            ),
         };
         let starts = Starts::of(curve, &contact, known)?;
         let work = is_free(Parameter::Work).then_some(starts.work);
@@ -91,7 +100,10 @@ impl<'a> Space<'a> {
         let (_, governing) = simulation.contact(document.scene())?;
         if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
             return refused(
-                format!("{}: the scene has no adhesion", Parameter::ClosingWork.name()),
+                format!(
+                    "{}: the scene has no adhesion",
+                    Parameter::ClosingWork.name()
+                ),
                 "adhesion.work above 0, or a free work of adhesion too",
             );
         }
@@ -113,9 +125,15 @@ impl<'a> Space<'a> {
             base[Parameter::ClosingWork as usize] = base[Parameter::Work as usize];
         }
         let mut coordinates = Vec::new();
-        for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
+        for parameter in Parameter::ALL
+            .into_iter()
+            .filter(|&parameter| is_free(parameter))
+        {
             let start = base[parameter as usize];
-            let given = free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
+            let given = free
+                .iter()
+                .filter(|free| free.parameter == parameter)
+                .find_map(|free| free.range);
             let range = given.unwrap_or_else(|| match parameter {
                 Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
                 Parameter::Zero => (-extent, extent),
@@ -127,7 +145,9 @@ impl<'a> Space<'a> {
                 _ => (start / FACTOR, start * FACTOR),
             });
             // The work on opening comes first among the coordinates.
-            let opening = coordinates.first().filter(|one: &&Coordinate| one.parameter == Parameter::Work);
+            let opening = coordinates
+                .first()
+                .filter(|one: &&Coordinate| one.parameter == Parameter::Work);
             let most = opening.map_or(base[Parameter::Work as usize], |one| one.range.1);
             if parameter == Parameter::ClosingWork && range.0 > most {
                 let [least, most] = [range.0, most].map(|work| format_quantity(work, "J/m²"));
@@ -144,10 +164,24 @@ impl<'a> Space<'a> {
                 Parameter::Zero => 0.1 * extent,
                 _ => 0.1 * (turn - touch),
             };
-            coordinates.push(Coordinate { parameter, start, range, unit });
+            coordinates.push(Coordinate {
+                parameter,
+                start,
+                range,
+                unit,
+            });
         }
         let most_on_closing = most_on_closing(document.scene());
-        Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
+        Ok((
+            document,
+            Space {
+                base,
+                coordinates,
+                most_on_closing,
+                curve,
+                stop,
+            },
+        ))
     }
 
     /// Returns the values of all parameters at these coordinates.
@@ -166,18 +200,26 @@ impl<'a> Space<'a> {
     /// Returns the free parameters with a larger range of the work of adhesion, if its range was not given and these
     /// coordinates lie at its end. Rough bodies may be pulled off by a small part of the force of smooth bodies.
     pub fn extended(&self, at: &[f64], free: &[Free]) -> Option<Vec<Free>> {
-        let place = self.coordinates.iter().position(|one| one.parameter == Parameter::Work)?;
+        let place = self
+            .coordinates
+            .iter()
+            .position(|one| one.parameter == Parameter::Work)?;
         let (Coordinate { range, .. }, (low, high)) =
             (self.coordinates[place], self.coordinates[place].ends());
         let mut free = free.to_vec();
-        let work = free.iter_mut().find(|one| one.parameter == Parameter::Work && one.range.is_none())?;
+        let work = free
+            .iter_mut()
+            .find(|one| one.parameter == Parameter::Work && one.range.is_none())?;
         work.range = Some((range.0, FACTOR * range.1));
         (at[place] > high - AT_END * (high - low)).then_some(free)
     }
 
     /// Returns the coordinates at which the search begins.
     pub fn start(&self) -> Vec<f64> {
-        self.coordinates.iter().map(|one| one.of(one.start, &self.base)).collect()
+        self.coordinates
+            .iter()
+            .map(|one| one.of(one.start, &self.base))
+            .collect()
     }
 
     /// Returns consecutive parts of each segment in contact. Parts depend on each other less than points do.
@@ -193,7 +235,10 @@ impl<'a> Space<'a> {
 
     /// Returns the straight lines of the curve that each model refines; see [`MeasuredCurve::lines`].
     pub fn lines(&self) -> Vec<Vec<f64>> {
-        let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
+        let has_zero = self
+            .coordinates
+            .iter()
+            .any(|one| one.parameter == Parameter::Zero);
         self.curve.lines(has_zero)
     }
 
@@ -216,17 +261,23 @@ mod tests {
     fn a_fit_begins_with_the_work_of_a_smooth_body() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
         let pull_off = curve.noise.max(-ends(curve.force.iter().copied()).0);
-        let (sphere, punch) =
-            (pull_off / (1.5 * PI * 7.5e-6), pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)));
+        let (sphere, punch) = (
+            pull_off / (1.5 * PI * 7.5e-6),
+            pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)),
+        );
         for (form, expected) in [("Paraboloid(radius: 7.5e-6)", sphere), ("None", punch)] {
             let changes = [("form", form), ("adhesion", "None")];
             let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
             let document = on_rubber(1e-3, 2e6).set_all(&changes).unwrap();
             let free = ["work".parse().unwrap()];
             let mut simulation = Simulation::default();
-            let (_, space) = Space::of(&curve, &document, &mut simulation, &free, &|| false).unwrap();
+            let (_, space) =
+                Space::of(&curve, &document, &mut simulation, &free, &|| false).unwrap();
             let Coordinate { start, range, .. } = space.coordinates[0];
-            assert!((start / expected - 1.0).abs() < 1e-12, "{form}: {start:e} {expected:e}");
+            assert!(
+                (start / expected - 1.0).abs() < 1e-12,
+                "{form}: {start:e} {expected:e}"
+            );
             assert!(
                 (range.1 / (FACTOR * expected) - 1.0).abs() < 1e-12 && range.0 == 0.0,
                 "{form}: {range:?}"

@@ -44,7 +44,11 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
-    pub fn of(curve: &MeasuredCurve, contact: &Contact, known: Known) -> Result<Starts, ExperimentError> {
+    pub fn of(
+        curve: &MeasuredCurve,
+        contact: &Contact,
+        known: Known,
+    ) -> Result<Starts, ExperimentError> {
         let (low, high) = ends(curve.force.iter().copied());
         let (pull_off, pressed) = (curve.noise.max(-low), high.max(curve.noise));
         let way = curve.turns[0] - curve.touch;
@@ -57,7 +61,10 @@ impl Starts {
             let of_sphere = known.radius.map(|radius| force / (1.5 * PI * radius));
             let of_flat = force.powi(2) / (PI * modulus * known.length.powi(3));
             let works = of_sphere.into_iter().chain([of_flat]);
-            works.into_iter().find(|work| work.is_finite() && *work > 0.0).unwrap_or(0.05)
+            works
+                .into_iter()
+                .find(|work| work.is_finite() && *work > 0.0)
+                .unwrap_or(0.05)
         };
         Ok(Starts {
             work: smooth(pull_off),

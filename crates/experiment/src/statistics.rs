@@ -15,9 +15,13 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();
     squares.sort_by(f64::total_cmp);
     let (mut sum, mut count) = (squares.iter().sum::<f64>(), squares.len() as f64);
-    let is_beyond =
-        |largest: &f64, sum: f64, count: f64| count > cut * cut && largest * count > cut * cut * sum;
-    while squares.pop().is_some_and(|largest| is_beyond(&largest, sum, count)) {
+    let is_beyond = |largest: &f64, sum: f64, count: f64| {
+        count > cut * cut && largest * count > cut * cut * sum
+    };
+    while squares
+        .pop()
+        .is_some_and(|largest| is_beyond(&largest, sum, count))
+    {
         // With one residual less it is (sum + beyond · cut² · scale²)/count = scale².
         (sum, count) = (squares.iter().sum(), count - cut * cut);
     }
@@ -31,13 +35,26 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
 pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let (count, average) = (values.len() as f64, mean(values));
     let influence = |block: usize| {
-        values.iter().zip(blocks).map(|(value, costs)| (value - average) * costs[block]).sum::<f64>() / count
+        values
+            .iter()
+            .zip(blocks)
+            .map(|(value, costs)| (value - average) * costs[block])
+            .sum::<f64>()
+            / count
     };
-    let influences: Vec<f64> = (0..blocks.first().map_or(0, Vec::len)).map(influence).collect();
+    let influences: Vec<f64> = (0..blocks.first().map_or(0, Vec::len))
+        .map(influence)
+        .collect();
     let error = |joined: usize| {
-        let of: Vec<f64> = influences.chunks(joined).map(|part| part.iter().sum()).collect();
+        let of: Vec<f64> = influences
+            .chunks(joined)
+            .map(|part| part.iter().sum())
+            .collect();
         let average = mean(&of);
-        of.iter().map(|one| (one - average).powi(2)).sum::<f64>().sqrt()
+        of.iter()
+            .map(|one| (one - average).powi(2))
+            .sum::<f64>()
+            .sqrt()
     };
     [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
 }
@@ -47,8 +64,12 @@ pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
-    let correlations = (1..residuals.len() / RANGES).map(|lag| dot(residuals, &residuals[lag..]) / square);
-    1.0 + 2.0 * correlations.take_while(|correlation| *correlation > least).sum::<f64>()
+    let correlations =
+        (1..residuals.len() / RANGES).map(|lag| dot(residuals, &residuals[lag..]) / square);
+    1.0 + 2.0
+        * correlations
+            .take_while(|correlation| *correlation > least)
+            .sum::<f64>()
 }
 
 fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
@@ -59,7 +80,9 @@ fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
 pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     for index in 0..samples.first().map_or(0, Vec::len) {
         let mean = mean(&column(samples, index));
-        samples.iter_mut().for_each(|sample| sample[index] = mean + factor * (sample[index] - mean));
+        samples
+            .iter_mut()
+            .for_each(|sample| sample[index] = mean + factor * (sample[index] - mean));
     }
 }
 
@@ -74,7 +97,10 @@ pub(crate) struct Spread {
 impl Spread {
     /// The spread of a single value.
     pub(crate) fn at(value: f64) -> Self {
-        Spread { standard_deviation: 0.0, interval: (value, value) }
+        Spread {
+            standard_deviation: 0.0,
+            interval: (value, value),
+        }
     }
 }
 
@@ -85,7 +111,10 @@ pub(crate) fn spread(mut values: Vec<f64>) -> Option<Spread> {
     }
     values.sort_by(f64::total_cmp);
     let interval = quantile(&values, 0.025).zip(quantile(&values, 0.975))?;
-    Some(Spread { standard_deviation: standard_deviation(&values, mean(&values)), interval })
+    Some(Spread {
+        standard_deviation: standard_deviation(&values, mean(&values)),
+        interval,
+    })
 }
 
 /// Returns the correlation of two coordinates over samples; 0 if one of them does not vary.
@@ -97,7 +126,11 @@ pub(crate) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
         values
     });
     let squares = dot(&one, &one) * dot(&other, &other);
-    if squares > 0.0 { dot(&one, &other) / squares.sqrt() } else { 0.0 }
+    if squares > 0.0 {
+        dot(&one, &other) / squares.sqrt()
+    } else {
+        0.0
+    }
 }
 
 #[cfg(test)]
@@ -125,7 +158,10 @@ mod tests {
         // Values ±1 and costs of slope ±2 over them: influences of 2 and -2 that alternate over 8 blocks.
         let values: Vec<f64> = (0..64).map(|index| [-1.0, 1.0][index % 2]).collect();
         let costs = |slope: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
-            values.iter().map(|value| (0..8).map(|block| 7.0 + value * slope(block)).collect()).collect()
+            values
+                .iter()
+                .map(|value| (0..8).map(|block| 7.0 + value * slope(block)).collect())
+                .collect()
         };
         let alternating = block_error(&values, &costs(&|block| [2.0, -2.0][block % 2]));
         assert!(is_close(alternating, 32.0_f64.sqrt()), "{alternating}");
@@ -136,7 +172,10 @@ mod tests {
         let error = block_error(&values, &costs(&|_| 2.0));
         assert!(error.abs() < 1e-9, "{error}");
         assert_eq!(
-            (block_error(&values, &[]), block_error(&[1.0, 2.0], &[vec![1.0], vec![3.0]])),
+            (
+                block_error(&values, &[]),
+                block_error(&[1.0, 2.0], &[vec![1.0], vec![3.0]])
+            ),
             (0.0, 0.0)
         );
     }
@@ -148,9 +187,15 @@ mod tests {
         let smooth: Vec<f64> = (0..480).map(sine).collect();
         let factor = correlated(&smooth);
         // 1 + 2 Σ cos(2πn/16) up to the first that is close to 0.
-        let expected: f64 =
-            1.0 + 2.0 * (1..4).map(|lag| sine(4 + lag) * (480 - lag) as f64 / 480.0).sum::<f64>();
-        assert!((factor / expected - 1.0).abs() < 0.01, "{factor} {expected}");
+        let expected: f64 = 1.0
+            + 2.0
+                * (1..4)
+                    .map(|lag| sine(4 + lag) * (480 - lag) as f64 / 480.0)
+                    .sum::<f64>();
+        assert!(
+            (factor / expected - 1.0).abs() < 0.01,
+            "{factor} {expected}"
+        );
         let turned: Vec<f64> = (0..480).map(|index| sine(index * index * 7)).collect();
         assert!(correlated(&turned) < 2.0, "{}", correlated(&turned));
         let alternating: Vec<f64> = (0..480).map(|index| [1.0, -1.0][index % 2]).collect();
@@ -161,14 +206,22 @@ mod tests {
     fn samples_have_deviation_quantiles_and_correlation() {
         let values: Vec<f64> = (0..=200).rev().map(f64::from).collect();
         let found = spread(values.clone()).unwrap();
-        assert!(is_close(found.standard_deviation, (201.0_f64 * 202.0 / 12.0).sqrt()), "{found:?}");
+        assert!(
+            is_close(found.standard_deviation, (201.0_f64 * 202.0 / 12.0).sqrt()),
+            "{found:?}"
+        );
         assert_eq!(found.interval, (5.0, 195.0));
         assert_eq!((spread(Vec::new()), spread(vec![1.0])), (None, None));
-        let mut samples: Vec<Vec<f64>> =
-            values.iter().map(|value| vec![*value, 3.0 - 2.0 * value, 5.0]).collect();
+        let mut samples: Vec<Vec<f64>> = values
+            .iter()
+            .map(|value| vec![*value, 3.0 - 2.0 * value, 5.0])
+            .collect();
         assert!(is_close(correlation(&samples, [0, 1]), -1.0));
         assert_eq!(correlation(&samples, [0, 2]), 0.0);
         widen(&mut samples, 2.0);
-        assert_eq!((samples[0][0], samples[200][0], samples[9][2]), (300.0, -100.0, 5.0));
+        assert_eq!(
+            (samples[0][0], samples[200][0], samples[9][2]),
+            (300.0, -100.0, 5.0)
+        );
     }
 }

@@ -32,7 +32,11 @@ impl Shape {
             }
             count += 1;
         }
-        (numbers > 0 && count - words.len() >= least).then_some(Shape { separator, count, words })
+        (numbers > 0 && count - words.len() >= least).then_some(Shape {
+            separator,
+            count,
+            words,
+        })
     }
 }
 
@@ -75,7 +79,9 @@ pub(crate) fn is_comment(line: &str) -> bool {
 /// Returns the name of the segment that a comment states.
 pub(crate) fn segment_of(comment: &str) -> Option<&str> {
     let (key, name) = comment.trim_start_matches(COMMENT).split_once(':')?;
-    key.trim().eq_ignore_ascii_case("segment").then_some(name.trim())
+    key.trim()
+        .eq_ignore_ascii_case("segment")
+        .then_some(name.trim())
 }
 
 /// Lines above the points.
@@ -91,23 +97,35 @@ impl Above {
     pub fn take(&mut self, line: &str, shape: &Shape) {
         self.header.take(line);
         self.metadata.take(line);
-        let cells: Vec<&str> = shape.separator.split(line.trim_start_matches(COMMENT)).collect();
-        let is_number =
-            |cell: &&str| matches!(Decimal::default().read(cell, shape.separator), TextCell::Number(_));
+        let cells: Vec<&str> = shape
+            .separator
+            .split(line.trim_start_matches(COMMENT))
+            .collect();
+        let is_number = |cell: &&str| {
+            matches!(
+                Decimal::default().read(cell, shape.separator),
+                TextCell::Number(_)
+            )
+        };
         let is_merged = is_comment(line)
             && cells.len() == (2 * shape.count).saturating_sub(1)
             && !cells[..shape.count].iter().any(is_number)
             && cells[shape.count..].iter().any(is_number);
         self.merged = is_merged.then(|| {
             let last = cells[shape.count - 1];
-            let end = last.find(|c: char| c.is_ascii_digit() || c == '-').unwrap_or(last.len());
-            [&cells[..shape.count - 1], &[&last[..end]]].concat().join("\t")
+            let end = last
+                .find(|c: char| c.is_ascii_digit() || c == '-')
+                .unwrap_or(last.len());
+            [&cells[..shape.count - 1], &[&last[..end]]]
+                .concat()
+                .join("\t")
         });
     }
 
     /// Returns names and units of the columns.
     pub fn columns(&self, shape: &Shape) -> Vec<TextColumn> {
-        let of = |header: &HeadLines| header.columns(shape.count, shape.count, shape.separator, is_unit);
+        let of =
+            |header: &HeadLines| header.columns(shape.count, shape.count, shape.separator, is_unit);
         match &self.merged {
             None => of(&self.header),
             Some(names) => {
@@ -141,29 +159,42 @@ mod tests {
     }
 
     fn read(text: &str) -> MeasuredCurve {
-        from_text(text, &CurveOptions::default()).unwrap_or_else(|error| panic!("{error}: {}", &text[..80]))
+        from_text(text, &CurveOptions::default())
+            .unwrap_or_else(|error| panic!("{error}: {}", &text[..80]))
     }
 
     /// The spring in the form of each program, without options, with a part of its first statement.
     #[test]
     fn exports_of_other_programs_are_read_without_options() {
         let (all, expected) = (of_spring(600), read(&lines(of_spring(600))));
-        let (nano, retracted) =
-            (|index: usize| [all[index].0 * 1e-9, all[index].1 * 1e-9], |index: usize| 599 - index);
-        let metadata =
-            "# afmformats\n# BEGIN METADATA\n# {\n#   \"spring constant\": 2.0\n# }\n# END METADATA\n#\n";
+        let (nano, retracted) = (
+            |index: usize| [all[index].0 * 1e-9, all[index].1 * 1e-9],
+            |index: usize| 599 - index,
+        );
+        let metadata = "# afmformats\n# BEGIN METADATA\n# {\n#   \"spring constant\": 2.0\n# }\n# END METADATA\n#\n";
         let tab = |index: usize| {
             let [d, f] = nano(index);
-            format!("{f:e}\t{:e}\t0\t{}", -d, if index < 300 { "False" } else { "True" })
+            format!(
+                "{f:e}\t{:e}\t0\t{}",
+                -d,
+                if index < 300 { "False" } else { "True" }
+            )
         };
         let names = "# force\theight (measured)\theight (piezo)\tsegment\n";
         let pyjibe = joined(&format!("{metadata}{names}"), 600, &tab);
-        let merged = joined(&format!("{metadata}{}0\t0\t0\tFalse\n", names.trim_end()), 600, &tab);
+        let merged = joined(
+            &format!("{metadata}{}0\t0\t0\tFalse\n", names.trim_end()),
+            600,
+            &tab,
+        );
         let jpk_names = "# columns: time height vDeflection\n# fancyNames: \"a b\" \"c d\"\n# springConstant: 2\n# units: s m N\n";
         let jpk_head = format!("# segment: extend\n{jpk_names}");
         let jpk = joined(&jpk_head, 600, &|index| {
-            let again =
-                if index == 300 { format!("\n# segment: retract\n{jpk_names}\n") } else { String::new() };
+            let again = if index == 300 {
+                format!("\n# segment: retract\n{jpk_names}\n")
+            } else {
+                String::new()
+            };
             let [d, f] = nano(index);
             format!("{again}{index} {d:e} {f:e}")
         });
@@ -171,39 +202,77 @@ mod tests {
                       Time (s)\tLoad (uN)\tIndentation (nm)\tCantilever (nm)\tPiezo (nm)\tAuxiliary\n";
         let optics = joined(optics, 600, &|index| {
             let (d, f) = all[index];
-            format!("{index}\t{:e}\t{}\t{}\t{d}\t0", f / 1e3, d - f / 2.0, f / 2.0)
+            format!(
+                "{index}\t{:e}\t{}\t{}\t{d}\t0",
+                f / 1e3,
+                d - f / 2.0,
+                f / 2.0
+            )
         });
         let workshop = "Force-Distance Curve\nFile Format: 3\nDate: Wednesday, August 1, 2018\nX, um: 27.25\nForce Constant, \
                         nN/nm: 2\nLight Lever Gain, mV/nm: 20\n\n";
         let volts = joined(
-            &format!("{workshop}Extend Z-Sense(nm),Extend T-B(V),Retract Z-Sense(nm),Retract T-B(V)\n"),
+            &format!(
+                "{workshop}Extend Z-Sense(nm),Extend T-B(V),Retract Z-Sense(nm),Retract T-B(V)\n"
+            ),
             300,
             &|index| {
                 let (one, other) = (all[index], all[300 + index]);
-                format!("{},{:e},{},{:e}", one.0, one.1 / 100.0, other.0, other.1 / 100.0)
+                format!(
+                    "{},{:e},{},{:e}",
+                    one.0,
+                    one.1 / 100.0,
+                    other.0,
+                    other.1 / 100.0
+                )
             },
         );
         // The approach from its turn on, and the forces in three units.
-        let nanoscope = "Calc_Ramp_Ex_nm\tCalc_Ramp_Rt_nm\tDefl_V_Ex\tDefl_V_Rt\tDefl_pN_Ex\tDefl_pN_Rt\n";
+        let nanoscope =
+            "Calc_Ramp_Ex_nm\tCalc_Ramp_Rt_nm\tDefl_V_Ex\tDefl_V_Rt\tDefl_pN_Ex\tDefl_pN_Rt\n";
         let nanoscope = joined(nanoscope, 300, &|index| {
             let (one, other) = (all[299 - index], all[599 - index]);
             let volts = [one, other].map(|point| point.1 / 9.0);
             let [one_force, other_force] = [one, other].map(|point| point.1 * 1e3);
-            format!("{}\t{}\t{:e}\t{:e}\t{one_force}\t{other_force}", one.0, other.0, volts[0], volts[1])
+            format!(
+                "{}\t{}\t{:e}\t{:e}\t{one_force}\t{other_force}",
+                one.0, other.0, volts[0], volts[1]
+            )
         });
         // The retraction along the same direction as the approach, and with minus signs of a spreadsheet.
-        let side = joined("Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n", 300, &|index| {
-            let (one, other) = (all[index], all[retracted(index)]);
-            format!("{};{};{};{}", one.0, one.1, other.0, other.1).replace('-', "\u{2212}")
-        });
-        let one_height = joined("x [nm],approach force [nN],retract force [nN]\n", 300, &|index| {
-            format!("{},{},{}", all[index].0, all[index].1, all[retracted(index)].1)
-        });
-        let forward = joined(
-            "Height, nm\tForward [nN]\tBackward [nN]\n".replace(", nm", " [nm]").as_str(),
+        let side = joined(
+            "Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n",
             300,
             &|index| {
-                format!("{}\t{}\t{}", all[index].0, all[index].1, all[retracted(index)].1).replace('.', ",")
+                let (one, other) = (all[index], all[retracted(index)]);
+                format!("{};{};{};{}", one.0, one.1, other.0, other.1).replace('-', "\u{2212}")
+            },
+        );
+        let one_height = joined(
+            "x [nm],approach force [nN],retract force [nN]\n",
+            300,
+            &|index| {
+                format!(
+                    "{},{},{}",
+                    all[index].0,
+                    all[index].1,
+                    all[retracted(index)].1
+                )
+            },
+        );
+        let forward = joined(
+            "Height, nm\tForward [nN]\tBackward [nN]\n"
+                .replace(", nm", " [nm]")
+                .as_str(),
+            300,
+            &|index| {
+                format!(
+                    "{}\t{}\t{}",
+                    all[index].0,
+                    all[index].1,
+                    all[retracted(index)].1
+                )
+                .replace('.', ",")
             },
         );
         let mems = joined(
@@ -212,7 +281,12 @@ mod tests {
             &|index| format!("{}\t0\t{}", all[index].0 / 1e3, all[index].1).replace('.', ","),
         );
         let words = joined("Phase;z [nm];F [nN]\n", 600, &|index| {
-            format!("{};{};{}", ["approach", "retract"][index / 300], all[index].0, all[index].1)
+            format!(
+                "{};{};{}",
+                ["approach", "retract"][index / 300],
+                all[index].0,
+                all[index].1
+            )
         });
         let headings = joined("d [nm]\tf [nN]\n", 600, &|index| {
             let heading = if index == 300 { "Retraction\n" } else { "" };
@@ -228,7 +302,10 @@ mod tests {
                 "Columns: height (measured) (m), force (N); displacement reversed, so that pressing is positive; 600 points",
             ),
             (merged, "first, 1 left out since a value is missing"),
-            (jpk, "Columns: height (m), vDeflection (N); 600 points used in 2 segments, 200 before contact."),
+            (
+                jpk,
+                "Columns: height (m), vDeflection (N); 600 points used in 2 segments, 200 before contact.",
+            ),
             (optics, "Columns: Piezo (nm), Load (uN); 600"),
             (
                 volts,
@@ -238,18 +315,34 @@ mod tests {
                 nanoscope,
                 "Calc_Ramp_Ex (nm), Defl_pN_Ex (pN), the retraction in Calc_Ramp_Rt (nm), Defl_pN_Rt (pN); both parts begin",
             ),
-            (side, "Columns: Z ext (nm), F ext (nN), the retraction in Z ret (nm), F ret (nN); 600"),
-            (one_height, "x (nm), approach force (nN), the retraction in x (nm), retract force (nN)"),
-            (forward, "Height (nm), Forward (nN), the retraction in Height (nm), Backward (nN)"),
+            (
+                side,
+                "Columns: Z ext (nm), F ext (nN), the retraction in Z ret (nm), F ret (nN); 600",
+            ),
+            (
+                one_height,
+                "x (nm), approach force (nN), the retraction in x (nm), retract force (nN)",
+            ),
+            (
+                forward,
+                "Height (nm), Forward (nN), the retraction in Height (nm), Backward (nN)",
+            ),
             (mems, "Columns: Piezo position (\u{b5}m), Force (nN); 600"),
             (words, "Columns: z (nm), F (nN); 600"),
             (headings, "Columns: d (nm), f (nN); 600"),
-            (swapped, "the retraction comes first and was put behind the approach"),
+            (
+                swapped,
+                "the retraction comes first and was put behind the approach",
+            ),
         ] {
             let found = read(&text);
             let is_merged = said.starts_with("first, ");
             let said = said.trim_start_matches("first, ");
-            assert!(found.statements[0].contains(said), "{said}: {:?}", found.statements);
+            assert!(
+                found.statements[0].contains(said),
+                "{said}: {:?}",
+                found.statements
+            );
             if is_merged || found.force.len() == expected.force.len() {
                 assert_same(&found, &expected, said);
             } else {
@@ -262,7 +355,11 @@ mod tests {
     #[test]
     fn the_instrument_of_a_file_is_known() {
         let all = of_spring(600);
-        let text = |head: &str| joined(head, 600, &|index| format!("{},{}", all[index].0, all[index].1));
+        let text = |head: &str| {
+            joined(head, 600, &|index| {
+                format!("{},{}", all[index].0, all[index].1)
+            })
+        };
         let stated = |head: &str| {
             let curve = read(&text(head));
             (curve.stiffness, curve.of_body)
@@ -273,30 +370,55 @@ mod tests {
             stated("# springConstant: 2.5\nd [nm],f [nN]\n").0,
             Some(("springConstant".to_owned(), 2.5))
         );
-        assert_eq!(stated("indentation [nm],f [nN]\n"), (None, some("indentation")));
-        assert_eq!(stated("Tip Position (nm),Force (nN)\n"), (None, some("Tip Position")));
+        assert_eq!(
+            stated("indentation [nm],f [nN]\n"),
+            (None, some("indentation"))
+        );
+        assert_eq!(
+            stated("Tip Position (nm),Force (nN)\n"),
+            (None, some("Tip Position"))
+        );
         // A column by its number is what the scene says.
-        let options = CurveOptions { columns: vec!["1".into(), "2".into()], ..CurveOptions::default() };
-        assert_eq!(from_text(&text("indentation [nm],f [nN]\n"), &options).unwrap().of_body, None);
+        let options = CurveOptions {
+            columns: vec!["1".into(), "2".into()],
+            ..CurveOptions::default()
+        };
+        assert_eq!(
+            from_text(&text("indentation [nm],f [nN]\n"), &options)
+                .unwrap()
+                .of_body,
+            None
+        );
         // With the stiffness of the file or of the scene it becomes that of the instrument.
         let body = |head: &str| {
-            joined(head, 600, &|index| format!("{},{}", all[index].1 / 4.0 - all[index].0, all[index].1))
+            joined(head, 600, &|index| {
+                format!("{},{}", all[index].1 / 4.0 - all[index].0, all[index].1)
+            })
         };
         let plain = read(&text("d [nm],f [nN]\n"));
         let found = [
             read(&body("k (N/m)\t4\nTip Position [nm],f [nN]\n")),
             from_text(
                 &body("Tip Position [nm],f [nN]\n"),
-                &CurveOptions { instrument: Some(4.0), ..CurveOptions::default() },
+                &CurveOptions {
+                    instrument: Some(4.0),
+                    ..CurveOptions::default()
+                },
             )
             .unwrap(),
         ];
         for curve in found {
             let pairs = curve.displacement.iter().zip(&plain.displacement);
             assert!(
-                pairs.into_iter().all(|(one, other)| (one - other).abs() < 1e-18) && curve.of_body.is_none()
+                pairs
+                    .into_iter()
+                    .all(|(one, other)| (one - other).abs() < 1e-18)
+                    && curve.of_body.is_none()
             );
-            assert!(curve.statements[1].ends_with("the deflection of an instrument of 4 N/m was added."));
+            assert!(
+                curve.statements[1]
+                    .ends_with("the deflection of an instrument of 4 N/m was added.")
+            );
         }
         // A deflection becomes a force by the stiffness of the file.
         let half = joined("k (N/m)\t2\nPiezo [nm]\tDeflection [nm]\n", 600, &|index| {
@@ -311,11 +433,19 @@ mod tests {
         let all = of_spring(600);
         let head = "# segment: extend\n# columns: height vDeflection\n# units: m N\n";
         let paused = joined(head, 600, &|index| {
-            let pause: Vec<String> =
-                (0..200).map(|at| format!("5e-8 {:e}", 1e-9 * (101.0 - 0.02 * f64::from(at)))).collect();
-            let pause = format!("# segment: pause\n{}\n# segment: retract\n", pause.join("\n"));
+            let pause: Vec<String> = (0..200)
+                .map(|at| format!("5e-8 {:e}", 1e-9 * (101.0 - 0.02 * f64::from(at))))
+                .collect();
+            let pause = format!(
+                "# segment: pause\n{}\n# segment: retract\n",
+                pause.join("\n")
+            );
             let before = if index == 300 { pause } else { String::new() };
-            format!("{before}{:e} {:e}", all[index].0 * 1e-9, all[index].1 * 1e-9)
+            format!(
+                "{before}{:e} {:e}",
+                all[index].0 * 1e-9,
+                all[index].1 * 1e-9
+            )
         });
         let plain = read(&lines(all.iter().copied()));
         let found = read(&paused);
@@ -327,12 +457,20 @@ mod tests {
         );
         let repeated = joined("d [nm],f [nN]\n", 600, &|index| {
             let row = format!("{},{}", all[index].0, all[index].1);
-            if index == 100 { format!("{row}\n").repeat(500) + &row } else { row }
+            if index == 100 {
+                format!("{row}\n").repeat(500) + &row
+            } else {
+                row
+            }
         });
         let found = read(&repeated);
         assert_same(&found, &plain, "repeated");
         let said = "; 500 left out since they repeat the point before, first line 103.";
-        assert!(found.statements[0].ends_with(said), "{:?}", found.statements);
+        assert!(
+            found.statements[0].ends_with(said),
+            "{:?}",
+            found.statements
+        );
     }
 
     /// Forces without a displacement are spread over the ramp that the file or the option states.
@@ -340,19 +478,27 @@ mod tests {
     fn one_long_column_is_an_approach_and_a_retraction() {
         let all = of_spring(600);
         let text = |head: &str| joined(head, 600, &|index| format!("{}", all[index].1));
-        let ramp = CurveOptions { ramp: Some(1.5e-7), ..CurveOptions::default() };
+        let ramp = CurveOptions {
+            ramp: Some(1.5e-7),
+            ..CurveOptions::default()
+        };
         let found = [
             from_text(&text("Force [nN]\n"), &ramp).unwrap(),
             read(&text("Ramp size: 150 nm\nForce [nN]\n")),
         ];
         let expected = read(&lines(all.iter().copied()));
         for curve in found {
-            assert_eq!((curve.free, &curve.segment), (expected.free, &expected.segment));
-            assert!(
-                (curve.displacement[299] - 1.5e-7).abs() < 1e-12 && curve.displacement[599].abs() < 1e-12
+            assert_eq!(
+                (curve.free, &curve.segment),
+                (expected.free, &expected.segment)
             );
             assert!(
-                curve.statements[0].contains("none of the displacement (150 nm there and back), Force (nN)")
+                (curve.displacement[299] - 1.5e-7).abs() < 1e-12
+                    && curve.displacement[599].abs() < 1e-12
+            );
+            assert!(
+                curve.statements[0]
+                    .contains("none of the displacement (150 nm there and back), Force (nN)")
             );
         }
     }

@@ -42,25 +42,43 @@ impl FreeParts {
         let ends_apart = points.segment[count - 1] % 2 == 1;
         let after = ends_apart.then(|| points.free_at_the_end(least)).flatten();
         let after = asked.filter(|_| is_retraction).or(after).unwrap_or(0);
-        let needs_approach = !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
-        let (number, of) =
-            if needs_approach { (before, approach.len()) } else { (before.or(Ok(after)), count) };
+        let needs_approach =
+            !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
+        let (number, of) = if needs_approach {
+            (before, approach.len())
+        } else {
+            (before.or(Ok(after)), count)
+        };
         let free = number.map_or_else(|why| refuse_baseline(why, points, approach, least), Ok)?;
         if !(FEWEST..of).contains(&free) {
             let place = if needs_approach { "before" } else { "without" };
             let fault = format!("no part {place} contact: {free} of {of} points");
-            return refused(fault, format!("at least {FEWEST}, found or by --free-points"));
+            return refused(
+                fault,
+                format!("at least {FEWEST}, found or by --free-points"),
+            );
         }
         let (low, high) = ends(points.displacement.iter().copied());
-        let time = (0..count).map(|index| index as f64 / (count - 1) as f64).collect();
-        let displacement = points.displacement.iter().map(|at| (at - low) / (high - low)).collect();
-        Ok(FreeParts { before: before.ok(), after, shares: [time, displacement] })
+        let time = (0..count)
+            .map(|index| index as f64 / (count - 1) as f64)
+            .collect();
+        let displacement = points
+            .displacement
+            .iter()
+            .map(|at| (at - low) / (high - low))
+            .collect();
+        Ok(FreeParts {
+            before: before.ok(),
+            after,
+            shares: [time, displacement],
+        })
     }
 
     /// Returns the index range of the points without contact that give the zero and the noise.
     fn base(&self) -> Range<usize> {
         let count = self.shares[0].len();
-        self.before.map_or(count - self.after..count, |before| 0..before)
+        self.before
+            .map_or(count - self.after..count, |before| 0..before)
     }
 
     pub fn line(&self, points: &Points) -> Baseline {
@@ -93,42 +111,73 @@ impl FreeParts {
         let [time, displacement] = &self.shares;
         let (count, base) = (points.force.len(), self.base());
         let middle = [time, displacement].map(|shares| mean(&shares[base.clone()]));
-        let known = if let Drift::Known(drift) = options.drift { Some(drift) } else { None };
+        let known = if let Drift::Known(drift) = options.drift {
+            Some(drift)
+        } else {
+            None
+        };
         points
             .force
             .iter_mut()
             .zip(time)
             .for_each(|(force, at)| *force -= known.unwrap_or(0.0) * (at - middle[0]));
         let has_both = self.before.is_some() && self.after >= FEWEST;
-        let ends = if has_both { count - self.after..count } else { 0..0 };
+        let ends = if has_both {
+            count - self.after..count
+        } else {
+            0..0
+        };
         let point = |index: usize| {
             let is_after = f64::from(u8::from(!base.contains(&index)));
-            [time[index], displacement[index], is_after, points.force[index]]
+            [
+                time[index],
+                displacement[index],
+                is_after,
+                points.force[index],
+            ]
         };
         let free: Vec<[f64; 4]> = base.clone().chain(ends).map(point).collect();
         let is_removed = [options.drift == Drift::Remove, options.tilt == Tilt::Remove];
         let (rest, noise_between) = Slopes::rest(&free);
         let is_straight = rest <= CURVED * noise_between;
         let remains = |(value, error): (f64, f64)| {
-            let least = if is_straight { noise } else { noise.max(DOMINATES * rest) };
+            let least = if is_straight {
+                noise
+            } else {
+                noise.max(DOMINATES * rest)
+            };
             value.abs() > least.max(REMAINS * error)
         };
-        let with_step = Slopes::through(&free, [true; 3]).filter(|slopes| has_both && remains(slopes.step));
-        let Some(slopes) = Slopes::through(&free, [is_removed[0], is_removed[1], with_step.is_some()]) else {
+        let with_step =
+            Slopes::through(&free, [true; 3]).filter(|slopes| has_both && remains(slopes.step));
+        let Some(slopes) =
+            Slopes::through(&free, [is_removed[0], is_removed[1], with_step.is_some()])
+        else {
             let fault = "drift and tilt are one line in the part before contact, and there is none after it";
             return refused(fault, "one of --drift remove and --tilt remove");
         };
-        let both = with_step.or_else(|| Slopes::through(&free, [true, true, false]).filter(|_| has_both));
-        let stated = both.or_else(|| Slopes::through(&free, [true, false, false])).unwrap_or_default();
+        let both =
+            with_step.or_else(|| Slopes::through(&free, [true, true, false]).filter(|_| has_both));
+        let stated = both
+            .or_else(|| Slopes::through(&free, [true, false, false]))
+            .unwrap_or_default();
         let taken = [slopes.drift.0, slopes.tilt.0];
         let found = slopes.zero + taken[0] * middle[0] + taken[1] * middle[1];
         // A retraction alone has the zero of its own end.
         let of_end = !options.segments.is_empty() && !options.segments.contains(&1) && has_both;
-        let step = with_step.filter(|_| of_end).map_or(0.0, |slopes| slopes.step.0);
-        let found = step + if is_removed == [false; 2] { mean(&points.force[base.clone()]) } else { found };
+        let step = with_step
+            .filter(|_| of_end)
+            .map_or(0.0, |slopes| slopes.step.0);
+        let found = step
+            + if is_removed == [false; 2] {
+                mean(&points.force[base.clone()])
+            } else {
+                found
+            };
         let zero = options.zero.unwrap_or(found);
         for (index, force) in points.force.iter_mut().enumerate() {
-            let lines = taken[0] * (time[index] - middle[0]) + taken[1] * (displacement[index] - middle[1]);
+            let lines =
+                taken[0] * (time[index] - middle[0]) + taken[1] * (displacement[index] - middle[1]);
             *force -= zero + lines;
         }
         let newton = |force: f64| format_quantity(force, "N");
@@ -151,23 +200,33 @@ impl FreeParts {
                 does(is_removed[1])
             );
         } else {
-            let place = if self.before.is_some() { "before" } else { "after" };
+            let place = if self.before.is_some() {
+                "before"
+            } else {
+                "after"
+            };
             text += &format!(
                 "Drift over the whole curve, or tilt, by the part {place} contact alone: {} ± {}; {}.",
                 newton(value),
                 newton(error),
-                if is_removed[1] { "it was removed".to_owned() } else { drift }
+                if is_removed[1] {
+                    "it was removed".to_owned()
+                } else {
+                    drift
+                }
             );
         }
         let mut remaining = [0.0, 0.0, stated.step.0];
         if with_step.is_some() {
             let step = newton(stated.step.0);
-            text +=
-                &format!(" Beside these lines the force after contact differs by {step} from that before.");
+            text += &format!(
+                " Beside these lines the force after contact differs by {step} from that before."
+            );
         }
         if has_both {
-            for (of, (slope, name)) in
-                [(stated.drift, "drift"), (stated.tilt, "tilt")].into_iter().enumerate()
+            for (of, (slope, name)) in [(stated.drift, "drift"), (stated.tilt, "tilt")]
+                .into_iter()
+                .enumerate()
             {
                 if remains(slope) && !is_removed[of] {
                     remaining[of] = slope.0;
@@ -178,7 +237,8 @@ impl FreeParts {
             text += " A line remains: --drift remove takes it off if it is over time, --tilt remove if it is over the displacement.";
         }
         if !is_straight && remaining == [0.0; 3] {
-            text += " The parts without contact are no straight lines, as by interference of light.";
+            text +=
+                " The parts without contact are no straight lines, as by interference of light.";
         }
         Ok((remaining, text))
     }
@@ -194,17 +254,25 @@ fn refuse_baseline<T>(
     let newton = |force: f64| format_quantity(force, "N");
     let first: Vec<f64> = approach.iter().rev().copied().collect();
     match why {
-        NoBaseline::Few if approach.is_empty() => {
-            refused("no part without contact after the retraction", "a retraction that ends without contact")
-        }
+        NoBaseline::Few if approach.is_empty() => refused(
+            "no part without contact after the retraction",
+            "a retraction that ends without contact",
+        ),
         NoBaseline::Few => refused(
-            format!("{} points in the approach are too few to find the contact", approach.len()),
+            format!(
+                "{} points in the approach are too few to find the contact",
+                approach.len()
+            ),
             format!("at least {}, or --free-points COUNT", 2 * FEWEST),
         ),
-        NoBaseline::InContact if points.segment.contains(&1) && free_count(&first, least).is_ok() => refused(
-            "the first segment begins in contact and ends without it: a retraction",
-            "an approach first, in the order of time",
-        ),
+        NoBaseline::InContact
+            if points.segment.contains(&1) && free_count(&first, least).is_ok() =>
+        {
+            refused(
+                "the first segment begins in contact and ends without it: a retraction",
+                "an approach first, in the order of time",
+            )
+        }
         NoBaseline::InContact => refused(
             "no part before contact: the force changes from the first point on",
             "an approach that begins farther away; --free-points COUNT; --segments 2 for the retraction alone",
@@ -217,7 +285,10 @@ fn refuse_baseline<T>(
             "a part before contact, then another slope; --free-points COUNT for a weak contact",
         ),
         NoBaseline::Straight(_, noise) => refused(
-            format!("no contact: in the approach the force stays within its noise of {}", newton(noise)),
+            format!(
+                "no contact: in the approach the force stays within its noise of {}",
+                newton(noise)
+            ),
             "a change by more than the noise; --free-points COUNT for a weak contact",
         ),
     }
@@ -231,14 +302,30 @@ mod tests {
 
     /// The curve of the spring with a drift, a tilt and a step after contact, all in nN.
     fn made(drift: f64, tilt: f64, step: f64) -> String {
-        lines(of_spring(600).into_iter().enumerate().map(|(index, (d, f))| {
-            let step = if index < 300 { 0.0 } else { step };
-            (d, f + drift * index as f64 / 599.0 + tilt * (d + 100.0) / 150.0 + step)
-        }))
+        lines(
+            of_spring(600)
+                .into_iter()
+                .enumerate()
+                .map(|(index, (d, f))| {
+                    let step = if index < 300 { 0.0 } else { step };
+                    (
+                        d,
+                        f + drift * index as f64 / 599.0 + tilt * (d + 100.0) / 150.0 + step,
+                    )
+                }),
+        )
     }
 
     fn read(text: &str, drift: Drift, tilt: Tilt) -> MeasuredCurve {
-        from_text(text, &CurveOptions { drift, tilt, ..CurveOptions::default() }).unwrap()
+        from_text(
+            text,
+            &CurveOptions {
+                drift,
+                tilt,
+                ..CurveOptions::default()
+            },
+        )
+        .unwrap()
     }
 
     #[test]
@@ -255,7 +342,10 @@ mod tests {
     fn a_retraction_alone_touches_where_it_leaves_compression() {
         let pulled = |at: f64| (at, if at < -50.0 { 0.0 } else { at });
         let text = lines((0..300).map(|index| pulled(f64::from(100 - index))));
-        let options = CurveOptions { zero: Some(0.0), ..CurveOptions::default() };
+        let options = CurveOptions {
+            zero: Some(0.0),
+            ..CurveOptions::default()
+        };
         assert_eq!(from_text(&text, &options).unwrap().touch, 0.0);
     }
 
@@ -263,30 +353,49 @@ mod tests {
     /// the force before and after contact is neither.
     #[test]
     fn what_remains_without_contact_is_named_with_its_remedy() {
-        let keep = |text: &str| read(text, Drift::Keep, Tilt::Keep).remaining.map(|one| (one * 1e9).round());
+        let keep = |text: &str| {
+            read(text, Drift::Keep, Tilt::Keep)
+                .remaining
+                .map(|one| (one * 1e9).round())
+        };
         assert_eq!(keep(&made(0.0, 0.0, 0.0)), [0.0; 3]);
         assert_eq!(keep(&made(0.0, 3.0, 0.0)), [0.0, 3.0, 0.0]);
         assert_eq!(keep(&made(-3.0, 0.0, 0.0)), [-3.0, 0.0, 0.0]);
         assert_eq!(keep(&made(2.0, -4.0, 0.0)), [2.0, -4.0, 0.0]);
         assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
         // Waves of the force are neither; a retraction alone has its own zero.
-        let waves = lines(of_spring(600).into_iter().map(|(d, f)| (d, f + 2.0 * (0.1 * d).sin())));
+        let waves = lines(
+            of_spring(600)
+                .into_iter()
+                .map(|(d, f)| (d, f + 2.0 * (0.1 * d).sin())),
+        );
         assert_eq!(keep(&waves), [0.0; 3]);
         let stated = |text: &str, drift, tilt| read(text, drift, tilt).statements.concat();
-        let is_curved = |text: &str| stated(text, Drift::Keep, Tilt::Keep).contains("no straight lines");
+        let is_curved =
+            |text: &str| stated(text, Drift::Keep, Tilt::Keep).contains("no straight lines");
         assert!(is_curved(&waves) && !is_curved(&made(0.0, 0.0, 0.0)));
-        let end = CurveOptions { segments: vec![2], ..CurveOptions::default() };
+        let end = CurveOptions {
+            segments: vec![2],
+            ..CurveOptions::default()
+        };
         let end = from_text(&made(0.0, 0.0, 2.0), &end).unwrap();
         assert!(end.force[299].abs() < 3e-10, "{:e}", end.force[299]);
         let tilted = made(0.0, 3.0, 0.0);
         let kept = stated(&tilted, Drift::Keep, Tilt::Keep);
         assert!(
-            kept.contains("A tilt remains: --tilt remove takes it off.") && !kept.contains("--drift"),
+            kept.contains("A tilt remains: --tilt remove takes it off.")
+                && !kept.contains("--drift"),
             "{kept}"
         );
         assert!(!stated(&tilted, Drift::Keep, Tilt::Remove).contains("remains"));
         let without = read(&made(2.0, 3.0, 0.0), Drift::Remove, Tilt::Remove);
         let plain = read(&made(0.0, 0.0, 0.0), Drift::Keep, Tilt::Keep);
-        assert!(without.force.iter().zip(&plain.force).all(|(one, other)| (one - other).abs() < 1e-10));
+        assert!(
+            without
+                .force
+                .iter()
+                .zip(&plain.force)
+                .all(|(one, other)| (one - other).abs() < 1e-10)
+        );
     }
 }

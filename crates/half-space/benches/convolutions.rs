@@ -27,16 +27,35 @@ fn main() {
 /// A rough square, pressed to a force of 0.3 E* h L in 20 steps, and pulled off.
 fn measure_loop(cells: usize, hurst: f64) {
     let (last, rms_height) = (cells as f64 / 8.0, 0.01);
-    let power = |k: f64| if k <= last { k.powf(-2.0 * hurst - 2.0) } else { 0.0 };
+    let power = |k: f64| {
+        if k <= last {
+            k.powf(-2.0 * hurst - 2.0)
+        } else {
+            0.0
+        }
+    };
     let mut heights = random_map(cells, power, 1).expect("memory");
-    let rms = (heights.iter().map(|height| height * height).sum::<f64>() / heights.len() as f64).sqrt();
-    heights.iter_mut().for_each(|height| *height *= rms_height / rms);
-    let waves = (-64..=64_i32).flat_map(|x| (-64..=64_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
-    let (energy, squares) = waves.filter(|k| *k > 0.0).fold((0.0, 0.0), |(energy, squares), k| {
-        (energy + 0.25 * std::f64::consts::TAU * k * power(k), squares + power(k))
-    });
+    let rms =
+        (heights.iter().map(|height| height * height).sum::<f64>() / heights.len() as f64).sqrt();
+    heights
+        .iter_mut()
+        .for_each(|height| *height *= rms_height / rms);
+    let waves =
+        (-64..=64_i32).flat_map(|x| (-64..=64_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
+    let (energy, squares) = waves
+        .filter(|k| *k > 0.0)
+        .fold((0.0, 0.0), |(energy, squares), k| {
+            (
+                energy + 0.25 * std::f64::consts::TAU * k * power(k),
+                squares + power(k),
+            )
+        });
     let work = rms_height * rms_height * energy / squares;
-    let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+    let square = Square {
+        heights: &heights,
+        side: 1.0,
+        effective_modulus: 1.0,
+    };
     let (start, used) = (Instant::now(), used());
     let mut body = AdhesiveSquare::new(&square, (work, work)).expect("a square");
     let mut to = |depth: f64| body.move_to(depth, &|| false).expect("a state");
@@ -48,8 +67,13 @@ fn measure_loop(cells: usize, hurst: f64) {
         (depth, steps) = (depth - step, steps + 1);
     }
     let elapsed = start.elapsed().as_secs_f64();
-    let seconds = used.and_then(|before| Some(self::used()? - before)).unwrap_or(elapsed);
-    println!("{cells:>5}  {hurst}  {steps} steps   {seconds:.3}   {}", body.convolutions());
+    let seconds = used
+        .and_then(|before| Some(self::used()? - before))
+        .unwrap_or(elapsed);
+    println!(
+        "{cells:>5}  {hurst}  {steps} steps   {seconds:.3}   {}",
+        body.convolutions()
+    );
 }
 
 /// Time, s, for which this thread has had a processor, as Linux counts it.
@@ -60,11 +84,22 @@ fn used() -> Option<f64> {
 
 fn measure(cells: usize, boundary: Boundary, hurst: f64) {
     let last = cells as f64 / 8.0;
-    let power = |k: f64| if k <= last { k.powf(-2.0 * hurst - 2.0) } else { 0.0 };
+    let power = |k: f64| {
+        if k <= last {
+            k.powf(-2.0 * hurst - 2.0)
+        } else {
+            0.0
+        }
+    };
     let mut heights = random_map(cells, power, 1).expect("memory");
-    let rms = (heights.iter().map(|height| height * height).sum::<f64>() / heights.len() as f64).sqrt();
+    let rms =
+        (heights.iter().map(|height| height * height).sum::<f64>() / heights.len() as f64).sqrt();
     heights.iter_mut().for_each(|height| *height *= 0.01 / rms);
-    let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+    let square = Square {
+        heights: &heights,
+        side: 1.0,
+        effective_modulus: 1.0,
+    };
     let gradient = {
         let slope = |at: usize| {
             let (x, y) = (at % cells, at / cells);
@@ -77,12 +112,20 @@ fn measure(cells: usize, boundary: Boundary, hurst: f64) {
     let mut half_space = HalfSpace::new(cells, boundary).expect("a grid");
     let (mut counts, mut times, mut areas) = (Vec::new(), Vec::new(), Vec::new());
     // Area over the load is about 2/(E* h').
-    for share in [0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8] {
+    for share in [
+        0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8,
+    ] {
         let force = share * gradient / 2.0;
         let (start, used) = (Instant::now(), used());
-        let found = half_space.press(&square, Load::Force(force), 1e-8, &|| false).expect("a contact");
+        let found = half_space
+            .press(&square, Load::Force(force), 1e-8, &|| false)
+            .expect("a contact");
         let elapsed = start.elapsed().as_secs_f64();
-        times.push(1e3 * used.and_then(|before| Some(self::used()? - before)).unwrap_or(elapsed));
+        times.push(
+            1e3 * used
+                .and_then(|before| Some(self::used()? - before))
+                .unwrap_or(elapsed),
+        );
         assert!(found.is_reached, "{share}: {}", found.residual);
         counts.push(found.convolutions);
         areas.push(found.area);

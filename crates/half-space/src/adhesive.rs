@@ -62,13 +62,23 @@ impl AdhesiveSquare {
     /// # Errors
     /// Returns an error if the number of heights is not the square of an allowed number of cells along a side, if a value
     /// is out of its range, or if the memory is too small.
-    pub fn new(square: &Square<'_>, (opening, closing): (f64, f64)) -> Result<Self, HalfSpaceError> {
+    pub fn new(
+        square: &Square<'_>,
+        (opening, closing): (f64, f64),
+    ) -> Result<Self, HalfSpaceError> {
         let cells = square.heights.len().isqrt();
         check_cells(cells)?;
         if cells * cells != square.heights.len() {
-            return Err(HalfSpaceError::Heights { found: square.heights.len(), allowed: cells * cells });
+            return Err(HalfSpaceError::Heights {
+                found: square.heights.len(),
+                allowed: cells * cells,
+            });
         }
-        let Square { side, effective_modulus, heights } = *square;
+        let Square {
+            side,
+            effective_modulus,
+            heights,
+        } = *square;
         positive("side", side)?;
         positive("effective modulus", effective_modulus)?;
         positive("work of adhesion", opening)?;
@@ -88,7 +98,11 @@ impl AdhesiveSquare {
         let mut highest = f64::NEG_INFINITY;
         for &found in heights {
             if !(found / side).is_finite() {
-                return Err(HalfSpaceError::Value { name: "height", found, allowed: "finite numbers" });
+                return Err(HalfSpaceError::Value {
+                    name: "height",
+                    found,
+                    allowed: "finite numbers",
+                });
             }
             highest = highest.max(found);
         }
@@ -102,7 +116,14 @@ impl AdhesiveSquare {
         let opened = resized(Vec::new(), ringed * ringed, false)?;
         let per = effective_modulus * scale;
         let works = (opening / per, closing / per);
-        Ok(AdhesiveSquare { grid, cells, side: scale, effective_modulus, works, opened })
+        Ok(AdhesiveSquare {
+            grid,
+            cells,
+            side: scale,
+            effective_modulus,
+            works,
+            opened,
+        })
     }
 
     /// Returns the number of convolutions over the grid since the square was created, a measure of the computing work.
@@ -123,7 +144,11 @@ impl AdhesiveSquare {
     ) -> Result<AdhesiveState, HalfSpaceError> {
         if !indentation.is_finite() {
             let allowed = "finite numbers";
-            return Err(HalfSpaceError::Value { name: "indentation", found: indentation, allowed });
+            return Err(HalfSpaceError::Value {
+                name: "indentation",
+                found: indentation,
+                allowed,
+            });
         }
         let depth = indentation / self.side;
         let delta = 1.0 / self.grid.cells as f64;
@@ -159,11 +184,19 @@ impl AdhesiveSquare {
     fn energy(&self, at: usize) -> Option<f64> {
         let ringed = self.cells + 2;
         let is_open = self.grid.outside[at] == 1.0;
-        let own = if is_open { self.gap(at) } else { self.tension(at) };
+        let own = if is_open {
+            self.gap(at)
+        } else {
+            self.tension(at)
+        };
         let (mut sum, mut count) = (0.0, 0.0);
         for other in [at - 1, at + 1, at - ringed, at + ringed] {
             if (self.grid.outside[other] == 1.0) != is_open {
-                sum += if is_open { self.tension(other) } else { self.gap(other) };
+                sum += if is_open {
+                    self.tension(other)
+                } else {
+                    self.gap(other)
+                };
                 count += 1.0;
             }
         }
@@ -178,7 +211,11 @@ impl AdhesiveSquare {
         };
         let over: Vec<usize> = self.body().filter(is_over).collect();
         for &at in &over {
-            (self.grid.outside[at], self.grid.pressure[at], self.opened[at]) = (1.0, 0.0, true);
+            (
+                self.grid.outside[at],
+                self.grid.pressure[at],
+                self.opened[at],
+            ) = (1.0, 0.0, true);
         }
         !over.is_empty()
     }
@@ -186,7 +223,12 @@ impl AdhesiveSquare {
     /// Takes all cells into contact that penetrate. Returns true if there was one.
     fn touch(&mut self) -> bool {
         let is_in = |at: &usize| {
-            let Grid { outside, levels, level, .. } = &self.grid;
+            let Grid {
+                outside,
+                levels,
+                level,
+                ..
+            } = &self.grid;
             outside[*at] == 1.0 && !self.opened[*at] && levels[*at] <= *level
         };
         self.take_in(&self.body().filter(is_in).collect::<Vec<_>>())
@@ -208,10 +250,24 @@ impl AdhesiveSquare {
     }
 
     fn state(&self, indentation: f64) -> AdhesiveState {
-        let Grid { pressure, levels, depths, outside, cells, .. } = &self.grid;
+        let Grid {
+            pressure,
+            levels,
+            depths,
+            outside,
+            cells,
+            ..
+        } = &self.grid;
         let cell = (self.side / *cells as f64).powi(2);
-        let displacements = levels.iter().zip(depths).map(|(level, depth)| level - depth);
-        let energy: f64 = pressure.iter().zip(displacements).map(|(p, u)| 0.5 * p * u).sum();
+        let displacements = levels
+            .iter()
+            .zip(depths)
+            .map(|(level, depth)| level - depth);
+        let energy: f64 = pressure
+            .iter()
+            .zip(displacements)
+            .map(|(p, u)| 0.5 * p * u)
+            .sum();
         AdhesiveState {
             indentation,
             force: cell * self.effective_modulus * pressure.iter().sum::<f64>(),
@@ -245,11 +301,23 @@ mod tests {
         };
         let heights: Vec<f64> = (0..cells * cells).map(height).collect();
         let work = (critical / cells as f64).powi(3) * 8.0 / (9.0 * PI);
-        let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
-        (AdhesiveSquare::new(&square, (work, closing * work)).unwrap(), work)
+        let square = Square {
+            heights: &heights,
+            side: 1.0,
+            effective_modulus: 1.0,
+        };
+        (
+            AdhesiveSquare::new(&square, (work, closing * work)).unwrap(),
+            work,
+        )
     }
 
-    fn sphere(cells: usize, critical: f64, place: (f64, f64), closing: f64) -> (AdhesiveSquare, f64) {
+    fn sphere(
+        cells: usize,
+        critical: f64,
+        place: (f64, f64),
+        closing: f64,
+    ) -> (AdhesiveSquare, f64) {
         ellipsoid(cells, critical, (place, (1.0, 0.0)), closing)
     }
 
@@ -260,9 +328,16 @@ mod tests {
         for step in 1..=pressed {
             moved(&mut body, 0.2 * f64::from(step) * unit);
         }
-        let steps = (-32..4 * pressed).rev().map(|step| 0.05 * f64::from(step) * unit);
-        let states: Vec<AdhesiveState> = steps.map(|indentation| moved(&mut body, indentation)).collect();
-        assert_eq!(states.last().map(|state| (state.area, state.force)), Some((0.0, 0.0)));
+        let steps = (-32..4 * pressed)
+            .rev()
+            .map(|step| 0.05 * f64::from(step) * unit);
+        let states: Vec<AdhesiveState> = steps
+            .map(|indentation| moved(&mut body, indentation))
+            .collect();
+        assert_eq!(
+            states.last().map(|state| (state.area, state.force)),
+            Some((0.0, 0.0))
+        );
         let pull_off = states.iter().map(|state| -state.force).fold(0.0, f64::max);
         [-touch, pull_off].map(|force| force / (1.5 * PI * work))
     }
@@ -299,11 +374,19 @@ mod tests {
                 // The trap of a front that closes a whole ring at once: at first touch JKR has 8/9 of the pull-off.
                 if closing == 1.0 && critical > 10.0 {
                     let touch = found.iter().map(|[touch, _]| touch * 9.0 / 8.0);
-                    touch.for_each(|touch| assert!((touch - 1.0).abs() < 0.1, "{critical}: {touch}"));
+                    touch.for_each(|touch| {
+                        assert!((touch - 1.0).abs() < 0.1, "{critical}: {touch}")
+                    });
                 }
                 let mean = found.iter().map(|[_, force]| force).sum::<f64>() / count as f64;
-                assert!((mean - 1.0).abs() < of_mean, "{critical}: {mean} of {found:?}");
-                assert!(found.iter().all(|[_, one]| (one - 1.0).abs() < of_one), "{critical}: {found:?}");
+                assert!(
+                    (mean - 1.0).abs() < of_mean,
+                    "{critical}: {mean} of {found:?}"
+                );
+                assert!(
+                    found.iter().all(|[_, one]| (one - 1.0).abs() < of_one),
+                    "{critical}: {found:?}"
+                );
             }
         }
     }
@@ -322,7 +405,10 @@ mod tests {
         println!("ellipsoid at five angles: {forces:.4?}");
         let mean = forces.iter().sum::<f64>() / forces.len() as f64;
         assert!((0.93..1.02).contains(&mean), "{forces:?}");
-        assert!(forces.iter().all(|force| (force / mean - 1.0).abs() < 0.03), "{forces:?}");
+        assert!(
+            forces.iter().all(|force| (force / mean - 1.0).abs() < 0.03),
+            "{forces:?}"
+        );
     }
 
     /// Kendall (1971): a round flat punch pulls off at √(8πE*γa³). The stairs of cells along its
@@ -332,9 +418,19 @@ mod tests {
         let (cells, radius) = (64, 0.35);
         let at = |index: usize| (index as f64 + 0.5) / cells as f64 - 0.5;
         let heights: Vec<f64> = (0..cells * cells)
-            .map(|index| if at(index % cells).hypot(at(index / cells)) <= radius { 0.0 } else { -1.0 })
+            .map(|index| {
+                if at(index % cells).hypot(at(index / cells)) <= radius {
+                    0.0
+                } else {
+                    -1.0
+                }
+            })
             .collect();
-        let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+        let square = Square {
+            heights: &heights,
+            side: 1.0,
+            effective_modulus: 1.0,
+        };
         let work = 1e-6;
         let mut body = AdhesiveSquare::new(&square, (work, work)).unwrap();
         let exact = (8.0 * PI * work * radius.powi(3)).sqrt();
@@ -344,7 +440,11 @@ mod tests {
             largest = largest.max(-state.force);
         }
         println!("round punch: {:.4}", largest / exact);
-        assert!((0.9..1.0).contains(&(largest / exact)), "{}", largest / exact);
+        assert!(
+            (0.9..1.0).contains(&(largest / exact)),
+            "{}",
+            largest / exact
+        );
     }
 
     /// At every step the work of the force less the change of the elastic energy and of γA is dissipated, which is never
@@ -353,8 +453,12 @@ mod tests {
     fn no_step_gains_energy() {
         let (mut body, work) = sphere(64, 13.0, (0.3, 0.2), 1.0);
         let unit = (13.0_f64 / 64.0).powi(2);
-        let steps = (0..=10).chain((-30..10).rev()).map(|step| 0.05 * f64::from(step) * unit);
-        let states: Vec<AdhesiveState> = steps.map(|indentation| moved(&mut body, indentation)).collect();
+        let steps = (0..=10)
+            .chain((-30..10).rev())
+            .map(|step| 0.05 * f64::from(step) * unit);
+        let states: Vec<AdhesiveState> = steps
+            .map(|indentation| moved(&mut body, indentation))
+            .collect();
         let mut dissipated = 0.0;
         for pair in states.windows(2) {
             let [one, other] = pair else { unreachable!() };
@@ -368,11 +472,16 @@ mod tests {
         }
         let all: f64 = states
             .windows(2)
-            .map(|pair| 0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation))
+            .map(|pair| {
+                0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
+            })
             .sum();
         // The loop begins in contact.
         let begun = states[0].elastic_energy - work * states[0].area;
-        assert!((dissipated - (all + begun)).abs() < 1e-9 * all.abs(), "{dissipated} {all} {begun}");
+        assert!(
+            (dissipated - (all + begun)).abs() < 1e-9 * all.abs(),
+            "{dissipated} {all} {begun}"
+        );
         assert!(dissipated > 0.0);
     }
 
@@ -382,8 +491,12 @@ mod tests {
         let (cells, critical) = (128, 20.0);
         let (mut body, work) = sphere(cells, critical, (0.3, 0.2), 1.0);
         let unit = (critical / cells as f64).powi(2);
-        let steps = (0..=20).chain((-60..20).rev()).map(|step| 0.05 * f64::from(step) * unit);
-        let states: Vec<AdhesiveState> = steps.map(|indentation| moved(&mut body, indentation)).collect();
+        let steps = (0..=20)
+            .chain((-60..20).rev())
+            .map(|step| 0.05 * f64::from(step) * unit);
+        let states: Vec<AdhesiveState> = steps
+            .map(|indentation| moved(&mut body, indentation))
+            .collect();
         assert_eq!(states.last().map(|state| state.area), Some(0.0));
         let between = |pair: &[AdhesiveState]| {
             0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
@@ -404,22 +517,37 @@ mod tests {
     fn check_rough_loops(seeds: std::ops::Range<u64>) {
         let (cells, rms_height) = (64, 0.01);
         for seed in seeds {
-            for (hurst, ratio, closing) in
-                [(0.3, 0.3, 1.0), (0.8, 0.3, 0.0), (0.8, 1.0, 1.0), (0.3, 3.0, 0.5)]
-            {
-                let power = |k: f64| if k <= 8.0 { k.powf(-2.0 * hurst - 2.0) } else { 0.0 };
+            for (hurst, ratio, closing) in [
+                (0.3, 0.3, 1.0),
+                (0.8, 0.3, 0.0),
+                (0.8, 1.0, 1.0),
+                (0.3, 3.0, 0.5),
+            ] {
+                let power = |k: f64| {
+                    if k <= 8.0 {
+                        k.powf(-2.0 * hurst - 2.0)
+                    } else {
+                        0.0
+                    }
+                };
                 let mut heights = random_map(cells, power, seed).unwrap();
                 let square = heights.iter().map(|z| z * z).sum::<f64>() / heights.len() as f64;
-                heights.iter_mut().for_each(|height| *height *= rms_height / square.sqrt());
+                heights
+                    .iter_mut()
+                    .for_each(|height| *height *= rms_height / square.sqrt());
                 // e_el = (E*/4) Σ q |ĥ|² over all waves.
-                let waves =
-                    (-8..=8_i32).flat_map(|x| (-8..=8_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
+                let waves = (-8..=8_i32)
+                    .flat_map(|x| (-8..=8_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
                 let waves: Vec<f64> = waves.filter(|k| *k > 0.0 && *k <= 8.0).collect();
                 let sum = |of: &dyn Fn(f64) -> f64| waves.iter().map(|k| of(*k)).sum::<f64>();
-                let energy =
-                    0.25 * rms_height.powi(2) * sum(&|k| 2.0 * PI * k * power(k)) / sum(&|k| power(k));
+                let energy = 0.25 * rms_height.powi(2) * sum(&|k| 2.0 * PI * k * power(k))
+                    / sum(&|k| power(k));
                 let work = energy / ratio;
-                let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+                let square = Square {
+                    heights: &heights,
+                    side: 1.0,
+                    effective_modulus: 1.0,
+                };
                 let mut body = AdhesiveSquare::new(&square, (work, closing * work)).unwrap();
                 let step = 0.15 * rms_height;
                 let mut depth = 0.0;
@@ -433,12 +561,23 @@ mod tests {
                     states.push(moved(&mut body, depth));
                     assert!(states.len() < 400, "{hurst} {ratio}");
                 }
-                assert!(states.iter().all(|state| state.force.is_finite() && state.elastic_energy >= 0.0));
+                assert!(
+                    states
+                        .iter()
+                        .all(|state| state.force.is_finite() && state.elastic_energy >= 0.0)
+                );
                 let between = |pair: &[AdhesiveState]| {
-                    0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
+                    0.5 * (pair[0].force + pair[1].force)
+                        * (pair[1].indentation - pair[0].indentation)
                 };
-                assert!(states.windows(2).map(between).sum::<f64>() > 0.0, "{hurst} {ratio}");
-                assert!(states.iter().any(|state| state.force < 0.0), "{hurst} {ratio}");
+                assert!(
+                    states.windows(2).map(between).sum::<f64>() > 0.0,
+                    "{hurst} {ratio}"
+                );
+                assert!(
+                    states.iter().any(|state| state.force < 0.0),
+                    "{hurst} {ratio}"
+                );
             }
         }
     }
@@ -452,23 +591,48 @@ mod tests {
         let heights = random_map(cells, power, 3).unwrap();
         let states = |side: f64, modulus: f64| {
             let scaled: Vec<f64> = heights.iter().map(|height| height * side).collect();
-            let square = Square { heights: &scaled, side, effective_modulus: modulus };
+            let square = Square {
+                heights: &scaled,
+                side,
+                effective_modulus: modulus,
+            };
             let work = 1e-5 * modulus * side;
             let mut body = AdhesiveSquare::new(&square, (work, 0.5 * work)).unwrap();
             let steps = (0..=6).chain((-12..6).rev());
-            steps.map(|step| moved(&mut body, 0.002 * f64::from(step) * side)).collect::<Vec<_>>()
+            steps
+                .map(|step| moved(&mut body, 0.002 * f64::from(step) * side))
+                .collect::<Vec<_>>()
         };
         let expected = states(1.0, 1.0);
-        assert!(expected.iter().any(|state| state.force < 0.0) && expected[6].force > 0.0, "{expected:?}");
+        assert!(
+            expected.iter().any(|state| state.force < 0.0) && expected[6].force > 0.0,
+            "{expected:?}"
+        );
         let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
-        for (side, modulus) in [(2.0_f64.powi(-13), 2.0_f64.powi(21)), (4.0, 1.0), (1.0, 0.125)] {
+        for (side, modulus) in [
+            (2.0_f64.powi(-13), 2.0_f64.powi(21)),
+            (4.0, 1.0),
+            (1.0, 0.125),
+        ] {
             for (found, expected) in states(side, modulus).iter().zip(&expected) {
                 let force = modulus * side * side;
-                assert!(near(found.indentation, expected.indentation * side), "{side}: {found:?}");
-                assert!(near(found.force, expected.force * force), "{side}: {found:?} {expected:?}");
-                assert!(near(found.area, expected.area * side * side), "{side}: {found:?} {expected:?}");
+                assert!(
+                    near(found.indentation, expected.indentation * side),
+                    "{side}: {found:?}"
+                );
+                assert!(
+                    near(found.force, expected.force * force),
+                    "{side}: {found:?} {expected:?}"
+                );
+                assert!(
+                    near(found.area, expected.area * side * side),
+                    "{side}: {found:?} {expected:?}"
+                );
                 let energy = expected.elastic_energy * force * side;
-                assert!(near(found.elastic_energy, energy), "{side}: {found:?} {expected:?}");
+                assert!(
+                    near(found.elastic_energy, energy),
+                    "{side}: {found:?} {expected:?}"
+                );
             }
         }
     }
@@ -478,7 +642,11 @@ mod tests {
     fn a_flat_square_pulls_off_as_a_punch() {
         let of = |cells: usize| {
             let heights = vec![0.0; cells * cells];
-            let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+            let square = Square {
+                heights: &heights,
+                side: 1.0,
+                effective_modulus: 1.0,
+            };
             let work = 1e-6;
             let mut body = AdhesiveSquare::new(&square, (work, work)).unwrap();
             let ideal = (PI * work).sqrt();
@@ -494,21 +662,38 @@ mod tests {
         };
         let [coarse, fine] = [32, 64].map(of);
         println!("flat square: {coarse:.4}, {fine:.4}");
-        assert!((1.03..1.10).contains(&coarse) && (1.03..1.10).contains(&fine), "{coarse} {fine}");
+        assert!(
+            (1.03..1.10).contains(&coarse) && (1.03..1.10).contains(&fine),
+            "{coarse} {fine}"
+        );
     }
 
     #[test]
     fn values_out_of_range_are_named() {
         let heights = vec![0.0; 32 * 32];
-        let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
-        let refused =
-            |square: &Square<'_>, works| AdhesiveSquare::new(square, works).err().unwrap().to_string();
-        assert_eq!(refused(&square, (0.0, 0.0)), "work of adhesion = 0e0; allowed: a positive number");
+        let square = Square {
+            heights: &heights,
+            side: 1.0,
+            effective_modulus: 1.0,
+        };
+        let refused = |square: &Square<'_>, works| {
+            AdhesiveSquare::new(square, works)
+                .err()
+                .unwrap()
+                .to_string()
+        };
+        assert_eq!(
+            refused(&square, (0.0, 0.0)),
+            "work of adhesion = 0e0; allowed: a positive number"
+        );
         assert_eq!(
             refused(&square, (1.0, 2.0)),
             "work of adhesion on closing = 2e0; allowed: from 0 to the work of adhesion"
         );
-        let few = Square { heights: &heights[1..], ..square };
+        let few = Square {
+            heights: &heights[1..],
+            ..square
+        };
         assert_eq!(
             refused(&few, (1.0, 1.0)),
             "31 cells along a side; allowed: a power of two from 32 to 8192"

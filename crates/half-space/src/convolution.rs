@@ -2,8 +2,8 @@
 
 use asperity_data::{OutOfMemory, resized};
 use asperity_fourier::{
-    Complex, ComplexToReal, Fft, FftNum, RealToComplex, plan_forward, plan_inverse, plan_real_forward,
-    plan_real_inverse,
+    Complex, ComplexToReal, Fft, FftNum, RealToComplex, plan_forward, plan_inverse,
+    plan_real_forward, plan_real_inverse,
 };
 use std::sync::Arc;
 
@@ -85,17 +85,27 @@ impl<T: FftNum + Default> Convolution<T> {
         let plan = plan_real_forward::<f64>(padded);
         let mut scratch = plan.make_scratch_vec();
         for (y, values) in rows.chunks_exact_mut(half).enumerate() {
-            (0..padded).zip(&mut row).for_each(|(x, value)| *value = kernel(x.min(padded - x), y));
+            (0..padded)
+                .zip(&mut row)
+                .for_each(|(x, value)| *value = kernel(x.min(padded - x), y));
             // The lengths are those of the plan.
             let _ = plan.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
-            values.iter_mut().zip(&spectrum).for_each(|(value, of)| *value = of.re);
+            values
+                .iter_mut()
+                .zip(&spectrum)
+                .for_each(|(value, of)| *value = of.re);
         }
         let scale = 1.0 / (padded * padded) as f64;
         for (k, values) in planned.transfer.chunks_exact_mut(padded).enumerate() {
-            (0..padded).zip(&mut row).for_each(|(y, value)| *value = rows[y.min(padded - y) * half + k]);
+            (0..padded)
+                .zip(&mut row)
+                .for_each(|(y, value)| *value = rows[y.min(padded - y) * half + k]);
             let _ = plan.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
             let of = |y: usize| number(scale * spectrum[y.min(padded - y)].re);
-            values.iter_mut().enumerate().for_each(|(y, value)| *value = of(y));
+            values
+                .iter_mut()
+                .enumerate()
+                .for_each(|(y, value)| *value = of(y));
         }
         Ok(planned)
     }
@@ -104,15 +114,21 @@ impl<T: FftNum + Default> Convolution<T> {
         let rows = (plan_real_forward(padded), plan_real_inverse(padded));
         let columns = (plan_forward(padded), plan_inverse(padded));
         let scratch = [rows.0.get_scratch_len(), rows.1.get_scratch_len()].into_iter();
-        let scratch =
-            scratch.chain([columns.0.get_inplace_scratch_len(), columns.1.get_inplace_scratch_len()]);
+        let scratch = scratch.chain([
+            columns.0.get_inplace_scratch_len(),
+            columns.1.get_inplace_scratch_len(),
+        ]);
         Ok(Convolution {
             cells,
             padded,
             transfer: resized(Vec::new(), padded * (padded / 2 + 1), T::zero())?,
             spectra: resized(Vec::new(), Self::stride(padded) * cells, Complex::default())?,
             row: resized(Vec::new(), padded, T::zero())?,
-            block: resized(Vec::new(), Self::TOGETHER * Self::apart(padded), Complex::default())?,
+            block: resized(
+                Vec::new(),
+                Self::TOGETHER * Self::apart(padded),
+                Complex::default(),
+            )?,
             scratch: resized(Vec::new(), scratch.max().unwrap_or(0), Complex::default())?,
             rows,
             columns,
@@ -137,7 +153,11 @@ impl<T: FftNum + Default> Convolution<T> {
             }
             self.row[cells..].fill(T::zero());
             // The lengths are those of the plan.
-            let _ = self.rows.0.process_with_scratch(&mut self.row, &mut spectrum[..half], &mut self.scratch);
+            let _ = self.rows.0.process_with_scratch(
+                &mut self.row,
+                &mut spectrum[..half],
+                &mut self.scratch,
+            );
         }
         for first in (0..half).step_by(Self::TOGETHER) {
             let width = Self::TOGETHER.min(half - first);
@@ -145,21 +165,32 @@ impl<T: FftNum + Default> Convolution<T> {
             for (tile, rows) in self.spectra.chunks(TILE * stride).enumerate() {
                 for (column, to) in self.block.chunks_exact_mut(apart).take(width).enumerate() {
                     let values = rows[first + column..].iter().step_by(stride);
-                    to[tile * TILE..].iter_mut().zip(values).for_each(|(to, value)| *to = *value);
+                    to[tile * TILE..]
+                        .iter_mut()
+                        .zip(values)
+                        .for_each(|(to, value)| *to = *value);
                 }
             }
             let transfer = self.transfer[first * padded..].chunks_exact(padded);
             for (column, transfer) in self.block.chunks_exact_mut(apart).zip(transfer).take(width) {
                 let column = &mut column[..padded];
                 column[cells..].fill(Complex::default());
-                self.columns.0.process_with_scratch(column, &mut self.scratch);
-                column.iter_mut().zip(transfer).for_each(|(value, factor)| *value = *value * *factor);
-                self.columns.1.process_with_scratch(column, &mut self.scratch);
+                self.columns
+                    .0
+                    .process_with_scratch(column, &mut self.scratch);
+                column
+                    .iter_mut()
+                    .zip(transfer)
+                    .for_each(|(value, factor)| *value = *value * *factor);
+                self.columns
+                    .1
+                    .process_with_scratch(column, &mut self.scratch);
             }
             for (tile, rows) in self.spectra.chunks_mut(TILE * stride).enumerate() {
                 for (column, values) in self.block.chunks_exact(apart).take(width).enumerate() {
                     let to = rows[first + column..].iter_mut().step_by(stride);
-                    to.zip(&values[tile * TILE..]).for_each(|(to, value)| *to = *value);
+                    to.zip(&values[tile * TILE..])
+                        .for_each(|(to, value)| *to = *value);
                 }
             }
         }
@@ -167,7 +198,11 @@ impl<T: FftNum + Default> Convolution<T> {
             // Rounding leaves an imaginary part, which the spectrum of real numbers does not have.
             spectrum[0].im = T::zero();
             spectrum[half - 1].im = T::zero();
-            let _ = self.rows.1.process_with_scratch(&mut spectrum[..half], &mut self.row, &mut self.scratch);
+            let _ = self.rows.1.process_with_scratch(
+                &mut spectrum[..half],
+                &mut self.row,
+                &mut self.scratch,
+            );
             to(context, row, &self.row[..cells]);
         }
     }
@@ -183,7 +218,9 @@ mod tests {
     use super::*;
 
     fn numbers(count: usize) -> Vec<f64> {
-        (0..count).map(|index| (index as f64 * 12.9898).sin() * 43.758 % 1.0).collect()
+        (0..count)
+            .map(|index| (index as f64 * 12.9898).sin() * 43.758 % 1.0)
+            .collect()
     }
 
     fn apply(planned: &mut Convolution<f64>, from: &[f64], cells: usize) -> Vec<f64> {
@@ -205,9 +242,16 @@ mod tests {
             let to = apply(&mut planned, &from, cells);
             for (at, found) in to.iter().enumerate() {
                 let of = |other: usize| {
-                    kernel((at % cells).abs_diff(other % cells), (at / cells).abs_diff(other / cells))
+                    kernel(
+                        (at % cells).abs_diff(other % cells),
+                        (at / cells).abs_diff(other / cells),
+                    )
                 };
-                let sum: f64 = from.iter().enumerate().map(|(other, value)| value * of(other)).sum();
+                let sum: f64 = from
+                    .iter()
+                    .enumerate()
+                    .map(|(other, value)| value * of(other))
+                    .sum();
                 assert!((sum - found).abs() < 1e-13, "{cells}: {at}");
             }
         }
@@ -220,12 +264,17 @@ mod tests {
         let mut planned = Convolution::<f64>::by_transform(cells, cells, transform).unwrap();
         for (kx, ky) in [(0, 0), (2, 5), (6, 1), (1, 6), (3, 0)] {
             let phase = |at: usize| {
-                std::f64::consts::TAU * ((kx * (at % cells) + ky * (at / cells)) as f64) / cells as f64
+                std::f64::consts::TAU * ((kx * (at % cells) + ky * (at / cells)) as f64)
+                    / cells as f64
             };
             let from: Vec<f64> = (0..cells * cells).map(|at| phase(at).cos()).collect();
             let to = apply(&mut planned, &from, cells);
             let factor = transform(f64::from(kx as u32), f64::from(ky as u32));
-            assert!(from.iter().zip(&to).all(|(one, other)| (factor * one - other).abs() < 1e-13));
+            assert!(
+                from.iter()
+                    .zip(&to)
+                    .all(|(one, other)| (factor * one - other).abs() < 1e-13)
+            );
         }
     }
 }

@@ -66,7 +66,9 @@ pub struct HalfSpace {
 impl HalfSpace {
     /// Returns the memory in bytes that a solver takes for squares with this number of cells along a side.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
-        nested(cells).map(|cells| Grid::bytes(cells, boundary)).sum()
+        nested(cells)
+            .map(|cells| Grid::bytes(cells, boundary))
+            .sum()
     }
 
     /// Creates a solver for squares with this number of cells along a side.
@@ -76,7 +78,9 @@ impl HalfSpace {
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, HalfSpaceError> {
         check_cells(cells)?;
         check_room(HalfSpace::bytes(cells, boundary))?;
-        let grids = nested(cells).map(|cells| Grid::new(cells, boundary)).collect::<Result<Vec<_>, _>>()?;
+        let grids = nested(cells)
+            .map(|cells| Grid::new(cells, boundary))
+            .collect::<Result<Vec<_>, _>>()?;
         Ok(HalfSpace { boundary, grids })
     }
 
@@ -94,7 +98,11 @@ impl HalfSpace {
         tolerance: f64,
         stop: &dyn Fn() -> bool,
     ) -> Result<Pressed, HalfSpaceError> {
-        let Square { side, effective_modulus, .. } = *square;
+        let Square {
+            side,
+            effective_modulus,
+            ..
+        } = *square;
         positive("side", side)?;
         positive("effective modulus", effective_modulus)?;
         positive("tolerance", tolerance)?;
@@ -107,7 +115,11 @@ impl HalfSpace {
                 positive("indentation", depth)?;
                 if self.boundary == Boundary::Periodic {
                     let allowed = "a force: the displacement of a periodic half-space has no zero";
-                    return Err(HalfSpaceError::Value { name: "indentation", found: depth, allowed });
+                    return Err(HalfSpaceError::Value {
+                        name: "indentation",
+                        found: depth,
+                        allowed,
+                    });
                 }
                 Given::Indentation(depth / side)
             }
@@ -122,38 +134,77 @@ impl HalfSpace {
                 Given::Indentation(depth) => depth,
             }
         };
-        let ended = press(&mut self.grids, self.boundary, given, (tolerance, height), stop)?;
+        let ended = press(
+            &mut self.grids,
+            self.boundary,
+            given,
+            (tolerance, height),
+            stop,
+        )?;
         Ok(self.pressed(square, ended))
     }
 
     /// Sets the depths of the finest grid, and returns the rms height in units of the side.
     fn lay(&mut self, square: &Square<'_>) -> Result<f64, HalfSpaceError> {
-        let Some(grid) = self.grids.last_mut() else { return Ok(0.0) };
+        let Some(grid) = self.grids.last_mut() else {
+            return Ok(0.0);
+        };
         let allowed = grid.cells * grid.cells;
         if square.heights.len() != allowed {
-            return Err(HalfSpaceError::Heights { found: square.heights.len(), allowed });
+            return Err(HalfSpaceError::Heights {
+                found: square.heights.len(),
+                allowed,
+            });
         }
         let mut highest = f64::NEG_INFINITY;
         for &found in square.heights {
             if !(found / square.side).is_finite() {
-                return Err(HalfSpaceError::Value { name: "height", found, allowed: "finite numbers" });
+                return Err(HalfSpaceError::Value {
+                    name: "height",
+                    found,
+                    allowed: "finite numbers",
+                });
             }
             highest = highest.max(found);
         }
-        let depths = square.heights.iter().map(|height| (highest - height) / square.side);
-        grid.depths.iter_mut().zip(depths).for_each(|(to, of)| *to = of);
+        let depths = square
+            .heights
+            .iter()
+            .map(|height| (highest - height) / square.side);
+        grid.depths
+            .iter_mut()
+            .zip(depths)
+            .for_each(|(to, of)| *to = of);
         let mean = grid.depths.iter().sum::<f64>() / allowed as f64;
-        let square = grid.depths.iter().map(|depth| (depth - mean).powi(2)).sum::<f64>();
+        let square = grid
+            .depths
+            .iter()
+            .map(|depth| (depth - mean).powi(2))
+            .sum::<f64>();
         Ok((square / allowed as f64).sqrt())
     }
 
     fn pressed(&self, square: &Square<'_>, ended: Ended) -> Pressed {
-        let Some(grid) = self.grids.last() else { unreachable!("a half-space has a grid") };
-        let Square { side, effective_modulus, .. } = *square;
+        let Some(grid) = self.grids.last() else {
+            unreachable!("a half-space has a grid")
+        };
+        let Square {
+            side,
+            effective_modulus,
+            ..
+        } = *square;
         let cell = (side / grid.cells as f64).powi(2);
-        let pressure: Vec<f64> = grid.pressure.iter().map(|value| value * effective_modulus).collect();
+        let pressure: Vec<f64> = grid
+            .pressure
+            .iter()
+            .map(|value| value * effective_modulus)
+            .collect();
         Pressed {
-            gap: grid.levels.iter().map(|level| (level - grid.level) * side).collect(),
+            gap: grid
+                .levels
+                .iter()
+                .map(|level| (level - grid.level) * side)
+                .collect(),
             force: cell * pressure.iter().sum::<f64>(),
             indentation: grid.level * side,
             area: cell * grid.outside.iter().filter(|out| **out == 0.0).count() as f64,
@@ -171,7 +222,11 @@ impl HalfSpace {
 /// Returns an error if the number is not a power of two from 32 to 8192.
 pub fn check_cells(cells: usize) -> Result<(), HalfSpaceError> {
     let is_allowed = cells.is_power_of_two() && (COARSEST..=FINEST).contains(&cells);
-    if is_allowed { Ok(()) } else { Err(HalfSpaceError::Cells(cells)) }
+    if is_allowed {
+        Ok(())
+    } else {
+        Err(HalfSpaceError::Cells(cells))
+    }
 }
 
 /// Checks a number that has to be positive.
@@ -179,12 +234,17 @@ pub fn positive(name: &'static str, found: f64) -> Result<(), HalfSpaceError> {
     if found.is_normal() && found > 0.0 {
         return Ok(());
     }
-    Err(HalfSpaceError::Value { name, found, allowed: "a positive number" })
+    Err(HalfSpaceError::Value {
+        name,
+        found,
+        allowed: "a positive number",
+    })
 }
 
 /// Returns the numbers of cells along the sides of nested grids, the coarsest first.
 fn nested(cells: usize) -> impl Iterator<Item = usize> {
-    std::iter::successors(Some(COARSEST), |cells| Some(2 * cells)).take_while(move |of| *of <= cells)
+    std::iter::successors(Some(COARSEST), |cells| Some(2 * cells))
+        .take_while(move |of| *of <= cells)
 }
 
 #[cfg(test)]
@@ -193,11 +253,21 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    fn run(cells: usize, boundary: Boundary, height: impl Fn(f64, f64) -> f64, load: Load) -> Pressed {
+    fn run(
+        cells: usize,
+        boundary: Boundary,
+        height: impl Fn(f64, f64) -> f64,
+        load: Load,
+    ) -> Pressed {
         let at = |index: usize| (index as f64 + 0.5) / cells as f64 - 0.5;
-        let heights: Vec<f64> =
-            (0..cells * cells).map(|index| height(at(index % cells), at(index / cells))).collect();
-        let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+        let heights: Vec<f64> = (0..cells * cells)
+            .map(|index| height(at(index % cells), at(index / cells)))
+            .collect();
+        let square = Square {
+            heights: &heights,
+            side: 1.0,
+            effective_modulus: 1.0,
+        };
         let mut half_space = HalfSpace::new(cells, boundary).unwrap();
         let pressed = half_space.press(&square, load, 1e-8, &|| false).unwrap();
         assert!(pressed.is_reached, "{pressed:?}");
@@ -218,8 +288,17 @@ mod tests {
             assert!((largest / (2.0 * contact / (PI * radius)) - 1.0).abs() < 5.0 * bound);
             assert!((depth / (contact * contact / radius) - 1.0).abs() < bound);
             assert!((found.area / (PI * contact * contact) - 1.0).abs() < 0.02);
-            let same = run(cells, Boundary::Free, sphere, Load::Indentation(found.indentation));
-            assert!((same.force / force - 1.0).abs() < 1e-6, "{} {force}", same.force);
+            let same = run(
+                cells,
+                Boundary::Free,
+                sphere,
+                Load::Indentation(found.indentation),
+            );
+            assert!(
+                (same.force / force - 1.0).abs() < 1e-6,
+                "{} {force}",
+                same.force
+            );
         }
     }
 
@@ -227,7 +306,10 @@ mod tests {
     fn a_flat_square_has_its_stiffness() {
         for (cells, stiffness) in [(64, 1.1462), (128, 1.1492), (256, 1.1507)] {
             let found = run(cells, Boundary::Free, |_, _| 0.0, Load::Force(1e-3));
-            assert!((found.force / found.indentation / stiffness - 1.0).abs() < 1e-4, "{found:?}");
+            assert!(
+                (found.force / found.indentation / stiffness - 1.0).abs() < 1e-4,
+                "{found:?}"
+            );
         }
     }
 
@@ -241,19 +323,34 @@ mod tests {
         for share in [0.1_f64, 0.5, 0.9] {
             let found = run(cells, Boundary::Periodic, wave, Load::Force(share * full));
             let area = 2.0 / PI * share.sqrt().asin();
-            assert!((found.area - area).abs() <= 2.0 / cells as f64, "{share}: {} {area}", found.area);
+            assert!(
+                (found.area - area).abs() <= 2.0 / cells as f64,
+                "{share}: {} {area}",
+                found.area
+            );
             assert!(found.convolutions < 40, "{share}: {}", found.convolutions);
         }
         let waves = |x: f64, y: f64| amplitude * ((2.0 * PI * x).cos() + (2.0 * PI * y).cos());
         for (share, is_full) in [(0.99, false), (1.01, true)] {
-            let found = run(cells, Boundary::Periodic, waves, Load::Force(2.0 * share * full));
+            let found = run(
+                cells,
+                Boundary::Periodic,
+                waves,
+                Load::Force(2.0 * share * full),
+            );
             assert_eq!(found.area == 1.0, is_full, "{share}: {}", found.area);
         }
     }
 
     fn rough(cells: usize, hurst: f64, seed: u64) -> Vec<f64> {
         let last = cells as f64 / 8.0;
-        let power = |k: f64| if k <= last { 1e-5 * k.powf(-2.0 * hurst - 2.0) } else { 0.0 };
+        let power = |k: f64| {
+            if k <= last {
+                1e-5 * k.powf(-2.0 * hurst - 2.0)
+            } else {
+                0.0
+            }
+        };
         random_map(cells, power, seed).unwrap()
     }
 
@@ -261,30 +358,54 @@ mod tests {
     /// near full contact nothing takes longer.
     #[test]
     fn rough_squares_are_solved_at_any_load() {
-        for (boundary, hurst) in [(Boundary::Periodic, 0.3), (Boundary::Periodic, 0.8), (Boundary::Free, 0.5)]
-        {
+        for (boundary, hurst) in [
+            (Boundary::Periodic, 0.3),
+            (Boundary::Periodic, 0.8),
+            (Boundary::Free, 0.5),
+        ] {
             let heights = rough(128, hurst, 5);
-            let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+            let square = Square {
+                heights: &heights,
+                side: 1.0,
+                effective_modulus: 1.0,
+            };
             let mut half_space = HalfSpace::new(128, boundary).unwrap();
             let mut counts = Vec::new();
             let mut areas = vec![0.0];
             for exponent in -16..=4 {
                 let force = 0.3 * 2.0_f64.powf(0.5 * f64::from(exponent));
-                let found = half_space.press(&square, Load::Force(force), 1e-8, &|| false).unwrap();
-                assert!(found.is_reached && (found.force / force - 1.0).abs() < 1e-12, "{force}");
+                let found = half_space
+                    .press(&square, Load::Force(force), 1e-8, &|| false)
+                    .unwrap();
+                assert!(
+                    found.is_reached && (found.force / force - 1.0).abs() < 1e-12,
+                    "{force}"
+                );
                 assert!(found.pressure.iter().all(|pressure| *pressure >= 0.0));
-                let height = (heights.iter().map(|z| z * z).sum::<f64>() / heights.len() as f64).sqrt();
+                let height =
+                    (heights.iter().map(|z| z * z).sum::<f64>() / heights.len() as f64).sqrt();
                 assert!(found.gap.iter().all(|gap| *gap >= -1.1e-8 * height));
-                let pressed = found.gap.iter().zip(&found.pressure).filter(|(_, pressure)| **pressure > 0.0);
+                let pressed = found
+                    .gap
+                    .iter()
+                    .zip(&found.pressure)
+                    .filter(|(_, pressure)| **pressure > 0.0);
                 assert!(pressed.map(|(gap, _)| gap.abs()).fold(0.0, f64::max) <= 1.1e-8 * height);
                 assert!(found.area >= areas[areas.len() - 1], "{force}");
                 areas.push(found.area);
                 counts.push((found.area, found.convolutions));
             }
             let most = |range: std::ops::Range<f64>| {
-                counts.iter().filter(|(area, _)| range.contains(area)).map(|(_, count)| *count).max()
+                counts
+                    .iter()
+                    .filter(|(area, _)| range.contains(area))
+                    .map(|(_, count)| *count)
+                    .max()
             };
-            assert!(most(0.0..0.6) <= Some(50) && most(0.9..1.1) <= most(0.0..0.6), "{counts:?}");
+            assert!(
+                most(0.0..0.6) <= Some(50) && most(0.9..1.1) <= most(0.0..0.6),
+                "{counts:?}"
+            );
             assert!(most(0.9..1.1).is_some(), "{counts:?}");
         }
     }
@@ -296,19 +417,42 @@ mod tests {
         let (cells, last) = (128, 8.0);
         let mut slopes = Vec::new();
         for seed in 1..=4 {
-            let heights =
-                random_map(cells, |k| if k <= last { 1e-5 * k.powf(-3.6) } else { 0.0 }, seed).unwrap();
-            let near = |at: usize| [at / cells * cells + (at + 1) % cells, (at + cells) % (cells * cells)];
-            let slope =
-                |at: usize| near(at).map(|next| (heights[next] - heights[at]).powi(2)).iter().sum::<f64>();
+            let heights = random_map(
+                cells,
+                |k| if k <= last { 1e-5 * k.powf(-3.6) } else { 0.0 },
+                seed,
+            )
+            .unwrap();
+            let near = |at: usize| {
+                [
+                    at / cells * cells + (at + 1) % cells,
+                    (at + cells) % (cells * cells),
+                ]
+            };
+            let slope = |at: usize| {
+                near(at)
+                    .map(|next| (heights[next] - heights[at]).powi(2))
+                    .iter()
+                    .sum::<f64>()
+            };
             let gradient = (0..cells * cells).map(slope).sum::<f64>().sqrt();
-            let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+            let square = Square {
+                heights: &heights,
+                side: 1.0,
+                effective_modulus: 1.0,
+            };
             let mut half_space = HalfSpace::new(cells, Boundary::Periodic).unwrap();
             let force = 0.04 * gradient;
-            let found = half_space.press(&square, Load::Force(force), 1e-8, &|| false).unwrap();
-            let is_edge =
-                |at: usize| near(at).map(|next| (found.pressure[next] > 0.0) != (found.pressure[at] > 0.0));
-            let edges = (0..cells * cells).flat_map(is_edge).filter(|is_edge| *is_edge).count() as f64;
+            let found = half_space
+                .press(&square, Load::Force(force), 1e-8, &|| false)
+                .unwrap();
+            let is_edge = |at: usize| {
+                near(at).map(|next| (found.pressure[next] > 0.0) != (found.pressure[at] > 0.0))
+            };
+            let edges = (0..cells * cells)
+                .flat_map(is_edge)
+                .filter(|is_edge| *is_edge)
+                .count() as f64;
             slopes.push((found.area - 0.1 * edges / (cells * cells) as f64) * gradient / force);
         }
         println!("slopes of the area: {slopes:.3?}");
@@ -324,12 +468,21 @@ mod tests {
         let turned: Vec<f64> = (0..cells * cells).map(|at| heights[turn(at)]).collect();
         let mut half_space = HalfSpace::new(cells, Boundary::Free).unwrap();
         let [one, other] = [&heights, &turned].map(|heights| {
-            let square = Square { heights, side: 1.0, effective_modulus: 1.0 };
-            half_space.press(&square, Load::Force(0.02), 1e-10, &|| false).unwrap()
+            let square = Square {
+                heights,
+                side: 1.0,
+                effective_modulus: 1.0,
+            };
+            half_space
+                .press(&square, Load::Force(0.02), 1e-10, &|| false)
+                .unwrap()
         });
         let largest = one.pressure.iter().copied().fold(0.0, f64::max);
         for at in 0..cells * cells {
-            assert!((one.pressure[turn(at)] - other.pressure[at]).abs() < 1e-6 * largest, "{at}");
+            assert!(
+                (one.pressure[turn(at)] - other.pressure[at]).abs() < 1e-6 * largest,
+                "{at}"
+            );
         }
         assert!((one.indentation / other.indentation - 1.0).abs() < 1e-9);
     }
@@ -338,25 +491,52 @@ mod tests {
     #[test]
     fn a_contact_scales_with_its_modulus_and_side() {
         let (cells, heights) = (32, rough(32, 0.8, 7));
-        let unit = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+        let unit = Square {
+            heights: &heights,
+            side: 1.0,
+            effective_modulus: 1.0,
+        };
         let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
         let mut half_space = HalfSpace::new(cells, Boundary::Free).unwrap();
-        let mut press =
-            |square: &Square<'_>, load: Load| half_space.press(square, load, 1e-12, &|| false).unwrap();
+        let mut press = |square: &Square<'_>, load: Load| {
+            half_space.press(square, load, 1e-12, &|| false).unwrap()
+        };
         for (side, modulus) in [(1e-4, 2e6), (3.0, 1.0), (1.0, 5e-3), (7e2, 4e9)] {
             let scaled: Vec<f64> = heights.iter().map(|height| height * side).collect();
-            let square = Square { heights: &scaled, side, effective_modulus: modulus };
+            let square = Square {
+                heights: &scaled,
+                side,
+                effective_modulus: modulus,
+            };
             let force = 2e-3;
             let expected = press(&unit, Load::Force(force));
             let indentation = expected.indentation;
-            for load in [Load::Force(force * modulus * side * side), Load::Indentation(indentation * side)] {
+            for load in [
+                Load::Force(force * modulus * side * side),
+                Load::Indentation(indentation * side),
+            ] {
                 let found = press(&square, load);
-                assert!(near(found.force, force * modulus * side * side), "{load:?}: {}", found.force);
-                assert!(near(found.indentation, indentation * side), "{load:?}: {}", found.indentation);
-                assert!(near(found.area, expected.area * side * side), "{load:?}: {}", found.area);
+                assert!(
+                    near(found.force, force * modulus * side * side),
+                    "{load:?}: {}",
+                    found.force
+                );
+                assert!(
+                    near(found.indentation, indentation * side),
+                    "{load:?}: {}",
+                    found.indentation
+                );
+                assert!(
+                    near(found.area, expected.area * side * side),
+                    "{load:?}: {}",
+                    found.area
+                );
                 let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
                 let pressure = largest(&found.pressure);
-                assert!(near(pressure, largest(&expected.pressure) * modulus), "{load:?}: {pressure}");
+                assert!(
+                    near(pressure, largest(&expected.pressure) * modulus),
+                    "{load:?}: {pressure}"
+                );
                 let gap = largest(&found.gap);
                 assert!(near(gap, largest(&expected.gap) * side), "{load:?}: {gap}");
             }
@@ -365,33 +545,67 @@ mod tests {
 
     #[test]
     fn values_out_of_range_are_named() {
-        let refused = |cells| HalfSpace::new(cells, Boundary::Free).err().unwrap().to_string();
+        let refused = |cells| {
+            HalfSpace::new(cells, Boundary::Free)
+                .err()
+                .unwrap()
+                .to_string()
+        };
         for cells in [0, 31, 33, 48, 16_384] {
-            let expected = format!("{cells} cells along a side; allowed: a power of two from 32 to 8192");
+            let expected =
+                format!("{cells} cells along a side; allowed: a power of two from 32 to 8192");
             assert_eq!(refused(cells), expected);
         }
         let heights = vec![0.0; 32 * 32];
-        let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+        let square = Square {
+            heights: &heights,
+            side: 1.0,
+            effective_modulus: 1.0,
+        };
         let on = |boundary, square: &Square<'_>, load| {
             let mut half_space = HalfSpace::new(32, boundary).unwrap();
-            half_space.press(square, load, 1e-8, &|| false).unwrap_err().to_string()
+            half_space
+                .press(square, load, 1e-8, &|| false)
+                .unwrap_err()
+                .to_string()
         };
         let free = |square: &Square<'_>, load| on(Boundary::Free, square, load);
         for force in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let expected = format!("force = {force:e}; allowed: a positive number");
             assert_eq!(free(&square, Load::Force(force)), expected);
         }
-        let few = Square { heights: &heights[1..], ..square };
-        assert_eq!(free(&few, Load::Force(1.0)), "1023 heights; allowed: 1024, one for each cell");
-        let side = Square { side: -1.0, ..square };
-        assert_eq!(free(&side, Load::Force(1.0)), "side = -1e0; allowed: a positive number");
+        let few = Square {
+            heights: &heights[1..],
+            ..square
+        };
+        assert_eq!(
+            free(&few, Load::Force(1.0)),
+            "1023 heights; allowed: 1024, one for each cell"
+        );
+        let side = Square {
+            side: -1.0,
+            ..square
+        };
+        assert_eq!(
+            free(&side, Load::Force(1.0)),
+            "side = -1e0; allowed: a positive number"
+        );
         let mut broken = heights.clone();
         broken[7] = f64::NAN;
-        let broken = Square { heights: &broken, ..square };
-        assert_eq!(free(&broken, Load::Force(1.0)), "height = NaN; allowed: finite numbers");
+        let broken = Square {
+            heights: &broken,
+            ..square
+        };
+        assert_eq!(
+            free(&broken, Load::Force(1.0)),
+            "height = NaN; allowed: finite numbers"
+        );
         let periodic = on(Boundary::Periodic, &square, Load::Indentation(1.0));
         assert!(periodic.contains("allowed: a force"), "{periodic}");
         let mut stopped = HalfSpace::new(32, Boundary::Free).unwrap();
-        assert_eq!(stopped.press(&square, Load::Force(1.0), 1e-8, &|| true), Err(HalfSpaceError::Stopped));
+        assert_eq!(
+            stopped.press(&square, Load::Force(1.0), 1e-8, &|| true),
+            Err(HalfSpaceError::Stopped)
+        );
     }
 }

@@ -35,14 +35,24 @@ pub fn random_map(
         (1 - shell..=shell).for_each(|x| set(-x, shell));
     }
     let plan = plan_inverse(cells);
-    let mut scratch = resized(Vec::new(), plan.get_inplace_scratch_len(), Complex64::default())?;
+    let mut scratch = resized(
+        Vec::new(),
+        plan.get_inplace_scratch_len(),
+        Complex64::default(),
+    )?;
     plan.process_with_scratch(&mut waves, &mut scratch);
     let mut column = resized(Vec::new(), cells, Complex64::default())?;
     let mut heights = resized(Vec::new(), cells * cells, 0.0)?;
     for x in 0..cells {
-        column.iter_mut().enumerate().for_each(|(y, value)| *value = waves[y * cells + x]);
+        column
+            .iter_mut()
+            .enumerate()
+            .for_each(|(y, value)| *value = waves[y * cells + x]);
         plan.process_with_scratch(&mut column, &mut scratch);
-        column.iter().enumerate().for_each(|(y, value)| heights[y * cells + x] = value.re);
+        column
+            .iter()
+            .enumerate()
+            .for_each(|(y, value)| heights[y * cells + x] = value.re);
     }
     Ok(heights)
 }
@@ -53,15 +63,29 @@ mod tests {
 
     #[test]
     fn a_map_has_its_spectrum_and_is_refined_by_more_cells() {
-        let variance = |k: f64| if (1.0..=6.0).contains(&k) { k.powf(-3.6) } else { 0.0 };
-        let (coarse, fine) = (random_map(32, variance, 7).unwrap(), random_map(64, variance, 7).unwrap());
+        let variance = |k: f64| {
+            if (1.0..=6.0).contains(&k) {
+                k.powf(-3.6)
+            } else {
+                0.0
+            }
+        };
+        let (coarse, fine) = (
+            random_map(32, variance, 7).unwrap(),
+            random_map(64, variance, 7).unwrap(),
+        );
         let expected: f64 = (-16..=16_i32)
             .flat_map(|x| (-16..=16_i32).map(move |y| (x, y)))
             .filter(|wave| *wave != (0, 0))
             .map(|(x, y)| variance(f64::from(x).hypot(f64::from(y))))
             .sum();
-        let square = |of: &[f64]| of.iter().map(|height| height * height).sum::<f64>() / of.len() as f64;
-        assert!((square(&coarse) / expected - 1.0).abs() < 1e-12, "{} {expected}", square(&coarse));
+        let square =
+            |of: &[f64]| of.iter().map(|height| height * height).sum::<f64>() / of.len() as f64;
+        assert!(
+            (square(&coarse) / expected - 1.0).abs() < 1e-12,
+            "{} {expected}",
+            square(&coarse)
+        );
         for at in 0..32 * 32 {
             assert!((coarse[at] - fine[at / 32 * 2 * 64 + at % 32 * 2]).abs() < 1e-12);
         }
@@ -70,12 +94,22 @@ mod tests {
         let slopes = |along: usize| -> f64 {
             let of = |seed: u64| {
                 let map = random_map(32, variance, seed).unwrap();
-                let slope =
-                    |at: usize| if along == 1 && at % 32 == 31 { 0.0 } else { map[at + along] - map[at] };
+                let slope = |at: usize| {
+                    if along == 1 && at % 32 == 31 {
+                        0.0
+                    } else {
+                        map[at + along] - map[at]
+                    }
+                };
                 (0..31 * 32).map(|at| slope(at).powi(2)).sum::<f64>()
             };
             (0..40).map(of).sum()
         };
-        assert!((slopes(1) / slopes(32) - 1.0).abs() < 0.05, "{} {}", slopes(1), slopes(32));
+        assert!(
+            (slopes(1) / slopes(32) - 1.0).abs() < 0.05,
+            "{} {}",
+            slopes(1),
+            slopes(32)
+        );
     }
 }

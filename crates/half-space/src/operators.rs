@@ -45,11 +45,15 @@ impl Operators {
         let displacement = match boundary {
             // 2/(E*|q|); the mean displacement of a periodic half-space is infinite and left out.
             Boundary::Periodic => Convolution::by_transform(cells, cells, |x, y| {
-                if x == 0.0 && y == 0.0 { 0.0 } else { 2.0 / (TAU * x.hypot(y)) }
+                if x == 0.0 && y == 0.0 {
+                    0.0
+                } else {
+                    2.0 / (TAU * x.hypot(y))
+                }
             })?,
-            Boundary::Free => {
-                Convolution::by_kernel(cells, margin, |x, y| of_a_cell(x as f64, y as f64) / cells as f64)?
-            }
+            Boundary::Free => Convolution::by_kernel(cells, margin, |x, y| {
+                of_a_cell(x as f64, y as f64) / cells as f64
+            })?,
         };
         // A mean pressure takes the inverse of the longest wave: under a force it is taken out, else it need not be exact.
         let stiffness = |x: f64, y: f64| 0.5 * TAU / length * x.hypot(y).max(0.5);
@@ -58,7 +62,10 @@ impl Operators {
             displacement,
             stiffness: Convolution::by_transform(cells, padded, stiffness)?,
             convolutions: 0,
-            sweeps: Sweeps { cells, rows: resized(Vec::new(), 3 * (SWEEPS + 1) * cells, 0.0)? },
+            sweeps: Sweeps {
+                cells,
+                rows: resized(Vec::new(), 3 * (SWEEPS + 1) * cells, 0.0)?,
+            },
         })
     }
 
@@ -84,7 +91,12 @@ impl Operators {
         pressure: &mut [f32],
         mut visit: impl FnMut(usize, &[f32]),
     ) {
-        let Operators { cells, stiffness, sweeps, .. } = self;
+        let Operators {
+            cells,
+            stiffness,
+            sweeps,
+            ..
+        } = self;
         let cells = *cells;
         self.convolutions += 1;
         // In E a cell of the contact keeps its number, and another one becomes the mean of its neighbours.
@@ -93,7 +105,9 @@ impl Operators {
                 if let Some(fixed) = residual.chunks_exact(cells).nth(time) {
                     sweeps.row_mut(0, time).copy_from_slice(fixed);
                 }
-                sweeps.sweep(time, (residual, outside), |_, fixed, out, sum| fixed + 0.25 * out * sum);
+                sweeps.sweep(time, (residual, outside), |_, fixed, out, sum| {
+                    fixed + 0.25 * out * sum
+                });
             }
             to.copy_from_slice(sweeps.row_mut(SWEEPS, row));
         };
@@ -115,7 +129,10 @@ impl Operators {
             |context, row, found| {
                 let (sweeps, pressure) = context;
                 pressure[row * cells..][..cells].copy_from_slice(found);
-                let off = sweeps.row_mut(0, row).iter_mut().zip(found.iter().zip(&outside[row * cells..]));
+                let off = sweeps
+                    .row_mut(0, row)
+                    .iter_mut()
+                    .zip(found.iter().zip(&outside[row * cells..]));
                 off.for_each(|(to, (of, out))| *to = of * out);
                 restrict(context, row);
             },
@@ -146,12 +163,20 @@ impl Sweeps {
     ) {
         let (cells, last) = (self.cells, self.cells - 1);
         for sweep in 1..=SWEEPS {
-            let Some(row) = time.checked_sub(sweep).filter(|row| *row < cells) else { continue };
+            let Some(row) = time.checked_sub(sweep).filter(|row| *row < cells) else {
+                continue;
+            };
             let (before, own) = self.rows.split_at_mut(3 * sweep * cells);
             let before = &before[3 * (sweep - 1) * cells..];
             let near = [row.saturating_sub(1), row, (row + 1).min(last)];
             let [above, middle, below] = near.map(|row| &before[row % 3 * cells..][..cells]);
-            let of = [above, middle, below, &fixed[row * cells..], &outside[row * cells..]];
+            let of = [
+                above,
+                middle,
+                below,
+                &fixed[row * cells..],
+                &outside[row * cells..],
+            ];
             let to = &mut own[row % 3 * cells..][..cells];
             if sweep < SWEEPS {
                 sweep_row(of, to, |fixed, out, sum| each(false, fixed, out, sum));
@@ -167,12 +192,19 @@ fn sweep_row(of: [&[f32]; 5], to: &mut [f32], each: impl Fn(f32, f32, f32) -> f3
     let last = to.len() - 1;
     let at = |at: usize, left: usize, right: usize| {
         let [above, middle, below, fixed, outside] = of;
-        each(fixed[at], outside[at], above[at] + below[at] + (middle[left] + middle[right]))
+        each(
+            fixed[at],
+            outside[at],
+            above[at] + below[at] + (middle[left] + middle[right]),
+        )
     };
     (to[0], to[last]) = (at(0, 0, 1), at(last, last - 1, last));
     let [above, middle, below, fixed, outside] = of.map(|of| &of[1..]);
     // Iterators without indices are compiled to instructions on several numbers.
-    let around = above.iter().zip(below).zip(of[1].iter().zip(&middle[1..last]));
+    let around = above
+        .iter()
+        .zip(below)
+        .zip(of[1].iter().zip(&middle[1..last]));
     let to = to[1..last].iter_mut().zip(fixed.iter().zip(outside));
     for ((to, (fixed, outside)), ((above, below), (left, right))) in to.zip(around) {
         *to = each(*fixed, *outside, above + below + (left + right));
@@ -184,7 +216,10 @@ fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
     match boundary {
         Boundary::Periodic => (cells, cells),
         // Multiples of 16 have no large prime factor on the grids used.
-        Boundary::Free => ((2 * cells).next_multiple_of(16), (cells + cells / 4).next_multiple_of(16)),
+        Boundary::Free => (
+            (2 * cells).next_multiple_of(16),
+            (cells + cells / 4).next_multiple_of(16),
+        ),
     }
 }
 
@@ -194,10 +229,18 @@ fn of_a_cell(x: f64, y: f64) -> f64 {
     let part = |x: f64, y: f64| {
         let r = x.hypot(y);
         // y ln(x + r), written without the difference of near numbers for negative x.
-        let along = |x: f64, y: f64| y * if x < 0.0 { (y * y / (r - x)).ln() } else { (x + r).ln() };
+        let along = |x: f64, y: f64| {
+            y * if x < 0.0 {
+                (y * y / (r - x)).ln()
+            } else {
+                (x + r).ln()
+            }
+        };
         along(x, y) + along(y, x)
     };
-    (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5) + part(x - 0.5, y - 0.5)) / PI
+    (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5)
+        + part(x - 0.5, y - 0.5))
+        / PI
 }
 
 #[cfg(test)]
@@ -226,8 +269,9 @@ mod tests {
         let number = |index: usize| (index as f64 * 7.13).sin();
         for boundary in [Boundary::Free, Boundary::Periodic] {
             let mut operators = Operators::new(cells, boundary).unwrap();
-            let outside: Vec<f32> =
-                (0..cells * cells).map(|index| f32::from(u8::from(number(index) > 0.2))).collect();
+            let outside: Vec<f32> = (0..cells * cells)
+                .map(|index| f32::from(u8::from(number(index) > 0.2)))
+                .collect();
             let vector = |shift: usize| -> Vec<f32> {
                 outside
                     .iter()
@@ -243,10 +287,16 @@ mod tests {
             };
             let (of_one, of_other) = (on(&one), on(&other));
             let product = |a: &[f32], b: &[f32]| {
-                a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>()
+                a.iter()
+                    .zip(b)
+                    .map(|(a, b)| f64::from(*a) * f64::from(*b))
+                    .sum::<f64>()
             };
             let (left, right) = (product(&one, &of_other), product(&other, &of_one));
-            assert!((left - right).abs() < 1e-6 * product(&one, &of_one).abs(), "{left} {right}");
+            assert!(
+                (left - right).abs() < 1e-6 * product(&one, &of_one).abs(),
+                "{left} {right}"
+            );
             assert!(product(&one, &of_one) > 0.0);
         }
     }

@@ -94,7 +94,8 @@ impl Grid {
         let (cells, fine) = (self.cells, finer.cells);
         for (at, depth) in self.depths.iter_mut().enumerate() {
             let corner = 2 * (at / cells) * fine + 2 * (at % cells);
-            let of = [corner, corner + 1, corner + fine, corner + fine + 1].map(|at| finer.depths[at]);
+            let of =
+                [corner, corner + 1, corner + fine, corner + fine + 1].map(|at| finer.depths[at]);
             *depth = 0.25 * (of[0] + of[1] + (of[2] + of[3]));
         }
     }
@@ -110,7 +111,10 @@ impl Grid {
             Given::Indentation(depth) => {
                 self.pressure.fill(0.0);
                 let outside = |of: &f64| f32::from(u8::from(*of >= depth));
-                self.outside.iter_mut().zip(&self.depths).for_each(|(out, of)| *out = outside(of));
+                self.outside
+                    .iter_mut()
+                    .zip(&self.depths)
+                    .for_each(|(out, of)| *out = outside(of));
             }
         }
     }
@@ -138,8 +142,13 @@ impl Grid {
             let (near_row, far_row) = (row / 2, apart(row / 2, row % 2 == 1));
             for column in 0..cells {
                 let (near, far) = (column / 2, apart(column / 2, column % 2 == 1));
-                let corners = [(near_row, near), (near_row, far), (far_row, near), (far_row, far)]
-                    .map(|(row, column)| row * half + column);
+                let corners = [
+                    (near_row, near),
+                    (near_row, far),
+                    (far_row, near),
+                    (far_row, far),
+                ]
+                .map(|(row, column)| row * half + column);
                 let mean = |of: &dyn Fn(usize) -> f64| {
                     let [a, b, c, d] = corners.map(of);
                     0.0625 * (9.0 * a + 3.0 * (b + c) + d)
@@ -148,7 +157,11 @@ impl Grid {
                 let is_on = mean(&signed) > 0.0;
                 any |= is_on;
                 self.outside[at] = f32::from(u8::from(!is_on));
-                self.pressure[at] = if is_on { mean(&|at: usize| coarse.pressure[at]).max(0.0) } else { 0.0 };
+                self.pressure[at] = if is_on {
+                    mean(&|at: usize| coarse.pressure[at]).max(0.0)
+                } else {
+                    0.0
+                };
             }
         }
         if !any && matches!(given, Given::MeanPressure(_)) {
@@ -165,21 +178,33 @@ impl Grid {
         if let Given::MeanPressure(mean) = given {
             let [sum] = Sums::of([&self.pressure], [], |[pressure], []| [pressure]);
             let factor = mean * self.pressure.len() as f64 / sum;
-            self.pressure.iter_mut().for_each(|pressure| *pressure *= factor);
+            self.pressure
+                .iter_mut()
+                .for_each(|pressure| *pressure *= factor);
         }
         self.displace();
     }
 
     /// Computes the displacements by the pressures.
     pub fn displace(&mut self) {
-        let Grid { cells, operators, pressure, levels, depths, .. } = self;
+        let Grid {
+            cells,
+            operators,
+            pressure,
+            levels,
+            depths,
+            ..
+        } = self;
         let cells = *cells;
         operators.displace(
             levels,
             |_, row, to| to.copy_from_slice(&pressure[row * cells..][..cells]),
             |levels, row, displacement| {
                 let of = displacement.iter().zip(&depths[row * cells..]);
-                levels[row * cells..].iter_mut().zip(of).for_each(|(to, (u, z))| *to = u + z);
+                levels[row * cells..]
+                    .iter_mut()
+                    .zip(of)
+                    .for_each(|(to, (u, z))| *to = u + z);
             },
         );
     }
@@ -205,7 +230,9 @@ impl Grid {
         let mut found = [[0.0; LANES]; 3];
         let moved = groups_of(&mut self.pressure).zip(groups_of(&mut self.levels));
         let by = groups(&self.direction).iter().zip(groups(&self.image));
-        let cells = groups(&self.outside).iter().zip(groups_of(&mut self.residual));
+        let cells = groups(&self.outside)
+            .iter()
+            .zip(groups_of(&mut self.residual));
         for (((p, u), (direction, image)), (out, residual)) in moved.zip(by).zip(cells) {
             // Group by group, for instructions on several numbers.
             *p = from_fn(|lane| p[lane] + length * direction[lane]);
@@ -214,8 +241,17 @@ impl Grid {
             let on: [f64; LANES] = from_fn(|lane| (1.0 - out[lane]) * missing[lane]);
             *residual = on.map(|on| on as f32);
             let beyond = from_fn(|lane| out[lane] * missing[lane]);
-            for (most, of) in found.iter_mut().zip([on.map(f64::abs), beyond, p.map(|p| -p)]) {
-                *most = from_fn(|lane| if of[lane] > most[lane] { of[lane] } else { most[lane] });
+            for (most, of) in found
+                .iter_mut()
+                .zip([on.map(f64::abs), beyond, p.map(|p| -p)])
+            {
+                *most = from_fn(|lane| {
+                    if of[lane] > most[lane] {
+                        of[lane]
+                    } else {
+                        most[lane]
+                    }
+                });
             }
         }
         let [on_contact, beyond, pull] = found.map(|lanes| lanes.into_iter().fold(0.0, f64::max));
@@ -226,7 +262,12 @@ impl Grid {
     fn change_set(&mut self) -> bool {
         let mut is_clipped = false;
         let level = self.level;
-        for ((pressure, out), of) in self.pressure.iter_mut().zip(&mut self.outside).zip(&self.levels) {
+        for ((pressure, out), of) in self
+            .pressure
+            .iter_mut()
+            .zip(&mut self.outside)
+            .zip(&self.levels)
+        {
             if *out == 0.0 && *pressure <= 0.0 {
                 is_clipped |= *pressure < 0.0;
                 (*pressure, *out) = (0.0, 1.0);
@@ -258,7 +299,12 @@ impl Grid {
             let is_reached = residual <= tolerance && lowest >= 0.0;
             if is_reached || steps == MOST_STEPS {
                 let convolutions = self.operators.convolutions - before;
-                return Ok(Ended { residual, is_reached, steps, convolutions });
+                return Ok(Ended {
+                    residual,
+                    is_reached,
+                    steps,
+                    convolutions,
+                });
             }
             if stop() {
                 return Err(HalfSpaceError::Stopped);
@@ -304,7 +350,17 @@ impl Grid {
     /// Makes one step of the gradients on the present contact. Returns the product that the next step needs, and what
     /// `advance` finds.
     fn step(&mut self, given: Given, last: Option<f64>) -> (f64, [f64; 3]) {
-        let Grid { cells, operators, residual, former, outside, gradient, direction, image, .. } = self;
+        let Grid {
+            cells,
+            operators,
+            residual,
+            former,
+            outside,
+            gradient,
+            direction,
+            image,
+            ..
+        } = self;
         let cells = *cells;
         let mut found = Sums::default();
         operators.precondition(residual, outside, gradient, |row, gradient| {
@@ -317,9 +373,21 @@ impl Grid {
         let [product, former, total] = found.total();
         // Under a force the mean of the residual over the contact is zero, and so is the mean of the step.
         let count = self.count;
-        let mean_of = |total: f64| if matches!(given, Given::MeanPressure(_)) { total / count } else { 0.0 };
+        let mean_of = |total: f64| {
+            if matches!(given, Given::MeanPressure(_)) {
+                total / count
+            } else {
+                0.0
+            }
+        };
         let (mean, turned) = (mean_of(total), product - former);
-        let carried = last.map_or(0.0, |last| if last > 0.0 { (turned / last).max(0.0) } else { 0.0 });
+        let carried = last.map_or(0.0, |last| {
+            if last > 0.0 {
+                (turned / last).max(0.0)
+            } else {
+                0.0
+            }
+        });
         let mut context = (direction, image, Sums::default());
         operators.displace(
             &mut context,
@@ -327,20 +395,33 @@ impl Grid {
                 let singles = gradient[row * cells..].iter().zip(&outside[row * cells..]);
                 let both = direction[row * cells..].iter_mut().zip(to);
                 for ((direction, to), (gradient, out)) in both.zip(singles) {
-                    *direction = f64::from(*gradient) - (1.0 - f64::from(*out)) * mean + carried * *direction;
+                    *direction = f64::from(*gradient) - (1.0 - f64::from(*out)) * mean
+                        + carried * *direction;
                     *to = *direction;
                 }
             },
             |(direction, image, found), row, of| {
                 image[row * cells..][..cells].copy_from_slice(of);
                 let singles = [&residual[row * cells..], &outside[row * cells..]];
-                found.add([of, &direction[row * cells..]], singles, |[image, direction], [residual, out]| {
-                    [direction * f64::from(residual), direction * image, (1.0 - f64::from(out)) * image]
-                });
+                found.add(
+                    [of, &direction[row * cells..]],
+                    singles,
+                    |[image, direction], [residual, out]| {
+                        [
+                            direction * f64::from(residual),
+                            direction * image,
+                            (1.0 - f64::from(out)) * image,
+                        ]
+                    },
+                );
             },
         );
         let [along, curvature, total] = context.2.total();
-        let length = if curvature > 0.0 { along / curvature } else { 0.0 };
+        let length = if curvature > 0.0 {
+            along / curvature
+        } else {
+            0.0
+        };
         self.level += length * mean_of(total);
         (product, self.advance(length))
     }
@@ -386,19 +467,34 @@ impl<const N: usize> Sums<N> {
         single: [&[f32]; S],
         each: impl Fn([f64; D], [f32; S]) -> [f64; N],
     ) {
-        let count = double.iter().map(|of| of.len()).chain(single.iter().map(|of| of.len())).min();
+        let count = double
+            .iter()
+            .map(|of| of.len())
+            .chain(single.iter().map(|of| of.len()))
+            .min();
         let count = count.unwrap_or(0);
         let (double, single) = (double.map(|of| &of[..count]), single.map(|of| &of[..count]));
         let mut add = |lane: usize, of: [f64; N]| {
-            self.0.iter_mut().zip(of).for_each(|(total, of)| total[lane] += of);
+            self.0
+                .iter_mut()
+                .zip(of)
+                .for_each(|(total, of)| total[lane] += of);
         };
         let (doubles, singles) = (double.map(groups), single.map(groups));
         for group in 0..count / LANES {
             let (double, single) = (doubles.map(|of| &of[group]), singles.map(|of| &of[group]));
-            (0..LANES).for_each(|lane| add(lane, each(double.map(|of| of[lane]), single.map(|of| of[lane]))));
+            (0..LANES).for_each(|lane| {
+                add(
+                    lane,
+                    each(double.map(|of| of[lane]), single.map(|of| of[lane])),
+                )
+            });
         }
         for at in count / LANES * LANES..count {
-            add(at % LANES, each(double.map(|of| of[at]), single.map(|of| of[at])));
+            add(
+                at % LANES,
+                each(double.map(|of| of[at]), single.map(|of| of[at])),
+            );
         }
     }
 
@@ -426,7 +522,11 @@ pub fn press(
             let (coarse, fine) = grids.split_at_mut(at);
             fine[0].refine(&coarse[at - 1], given, boundary);
         }
-        let asked = if at == finest { tolerance } else { tolerance.max(COARSE) };
+        let asked = if at == finest {
+            tolerance
+        } else {
+            tolerance.max(COARSE)
+        };
         let ended = grids[at].solve(given, (asked, height), stop)?;
         if at == finest {
             return Ok(ended);

@@ -57,22 +57,45 @@ impl Figure {
     /// assert!(svg.starts_with("<svg") && svg.contains("A straight line"));
     /// ```
     pub fn of_chart(title: &str, chart: Chart) -> Figure {
-        Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
+        Figure {
+            title: title.to_owned(),
+            charts: vec![chart],
+            size: Figure::WIDE,
+            ..Figure::default()
+        }
     }
 
     /// Creates a figure without a title from the charts of several figures. The headings of the charts contain the titles and
     /// notes of the given figures.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
-        let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
-            charts.into_iter().map(move |chart| {
-                let parts = [Label::plain(&title), chart.heading.clone()];
-                let parts = parts.iter().chain(&notes).filter(|part| !part.is_empty()).cloned();
-                let heading = parts.reduce(|heading, part| heading.then(", ").join(&part));
-                Chart { heading: heading.unwrap_or_default(), ..chart }
-            })
-        });
-        Figure { charts: panels.collect(), size, ..Figure::default() }
+        let panels = figures.into_iter().flat_map(
+            |Figure {
+                 title,
+                 notes,
+                 charts,
+                 ..
+             }| {
+                charts.into_iter().map(move |chart| {
+                    let parts = [Label::plain(&title), chart.heading.clone()];
+                    let parts = parts
+                        .iter()
+                        .chain(&notes)
+                        .filter(|part| !part.is_empty())
+                        .cloned();
+                    let heading = parts.reduce(|heading, part| heading.then(", ").join(&part));
+                    Chart {
+                        heading: heading.unwrap_or_default(),
+                        ..chart
+                    }
+                })
+            },
+        );
+        Figure {
+            charts: panels.collect(),
+            size,
+            ..Figure::default()
+        }
     }
 
     /// Keeps the charts with these letters, in the order of `letters`, such as `ac` for the first and the third chart.
@@ -80,12 +103,23 @@ impl Figure {
     /// # Errors
     /// Returns an error if a letter belongs to no chart, or if no letter is given. The error lists the letters of the charts.
     pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
-        let panel =
-            |letter: char| (letter as usize).checked_sub('a' as usize).and_then(|at| self.charts.get(at));
-        let chosen: Option<Vec<Chart>> = letters.chars().map(|letter| panel(letter).cloned()).collect();
+        let panel = |letter: char| {
+            (letter as usize)
+                .checked_sub('a' as usize)
+                .and_then(|at| self.charts.get(at))
+        };
+        let chosen: Option<Vec<Chart>> = letters
+            .chars()
+            .map(|letter| panel(letter).cloned())
+            .collect();
         match chosen {
             Some(charts) if !charts.is_empty() => Ok(Figure { charts, ..self }),
-            _ => Err(self.charts.iter().zip('a'..='z').map(|(_, letter)| letter).collect()),
+            _ => Err(self
+                .charts
+                .iter()
+                .zip('a'..='z')
+                .map(|(_, letter)| letter)
+                .collect()),
         }
     }
 
@@ -118,12 +152,20 @@ pub struct Chart {
 impl Chart {
     /// Creates a chart of layers over two axes, without a heading.
     pub fn new(x: ChartAxis, y: ChartAxis, layers: Vec<Layer>) -> Chart {
-        Chart { heading: Label::default(), x, y, layers }
+        Chart {
+            heading: Label::default(),
+            x,
+            y,
+            layers,
+        }
     }
 
     /// Removes the name of each axis that has a symbol, so that the symbol alone labels the axis.
     pub fn with_symbols(mut self) -> Chart {
-        for axis in [&mut self.x, &mut self.y].into_iter().filter(|axis| !axis.symbol.is_empty()) {
+        for axis in [&mut self.x, &mut self.y]
+            .into_iter()
+            .filter(|axis| !axis.symbol.is_empty())
+        {
             axis.name.clear();
         }
         self
@@ -139,17 +181,25 @@ impl Chart {
         for layer in &mut self.layers {
             match &mut layer.shape {
                 Shape::Curve { points, .. } | Shape::Inside(points) => {
-                    points.iter_mut().for_each(|point| *point = (point.0 / x, point.1 / y));
+                    points
+                        .iter_mut()
+                        .for_each(|point| *point = (point.0 / x, point.1 / y));
                 }
                 Shape::Band(points) => {
-                    points.iter_mut().for_each(|point| *point = (point.0 / x, point.1 / y, point.2 / y));
+                    points
+                        .iter_mut()
+                        .for_each(|point| *point = (point.0 / x, point.1 / y, point.2 / y));
                 }
                 Shape::Envelope { x: ends, columns } => {
                     *ends = (ends.0 / x, ends.1 / x);
-                    columns.iter_mut().flatten().for_each(|ends| *ends = (ends.0 / y, ends.1 / y));
+                    columns
+                        .iter_mut()
+                        .flatten()
+                        .for_each(|ends| *ends = (ends.0 / y, ends.1 / y));
                 }
                 Shape::Boxes(boxes) => {
-                    let divided = |ends: &mut (f64, f64), unit: f64| *ends = (ends.0 / unit, ends.1 / unit);
+                    let divided =
+                        |ends: &mut (f64, f64), unit: f64| *ends = (ends.0 / unit, ends.1 / unit);
                     boxes.iter_mut().for_each(|(across, up)| {
                         divided(across, x);
                         divided(up, y);
@@ -173,10 +223,12 @@ impl Chart {
 
     /// Returns the first heat map of the chart for changes; `None` for a chart without one.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
-        self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
-            Shape::Map(map) => Some(map.as_mut()),
-            _ => None,
-        })
+        self.layers
+            .iter_mut()
+            .find_map(|layer| match &mut layer.shape {
+                Shape::Map(map) => Some(map.as_mut()),
+                _ => None,
+            })
     }
 }
 
@@ -194,12 +246,20 @@ pub struct Layer {
 impl Shape {
     /// Creates a curve that is drawn as a line through these points (x, y).
     pub fn line(points: Vec<(f64, f64)>, stroke: Stroke) -> Shape {
-        Shape::Curve { points, stroke: Some(stroke), sign: None }
+        Shape::Curve {
+            points,
+            stroke: Some(stroke),
+            sign: None,
+        }
     }
 
     /// Creates a curve that is drawn as a marker at each of these points (x, y), without a line.
     pub fn signs(points: Vec<(f64, f64)>, sign: Sign) -> Shape {
-        Shape::Curve { points, stroke: None, sign: Some(sign) }
+        Shape::Curve {
+            points,
+            stroke: None,
+            sign: Some(sign),
+        }
     }
 
     /// Returns the points (x, y) of a curve, or the lowest and the highest point of each column of a [`Shape::Envelope`]. For
@@ -207,10 +267,21 @@ impl Shape {
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
-            Shape::Envelope { x: (from, to), columns } => {
-                let at = |index: usize| from + (to - from) * (index as f64 + 0.5) / columns.len() as f64;
-                let ends = columns.iter().enumerate().filter_map(|(index, ends)| Some((at(index), (*ends)?)));
-                let both = |(x, (low, high))| [(x, low)].into_iter().chain((low < high).then_some((x, high)));
+            Shape::Envelope {
+                x: (from, to),
+                columns,
+            } => {
+                let at =
+                    |index: usize| from + (to - from) * (index as f64 + 0.5) / columns.len() as f64;
+                let ends = columns
+                    .iter()
+                    .enumerate()
+                    .filter_map(|(index, ends)| Some((at(index), (*ends)?)));
+                let both = |(x, (low, high))| {
+                    [(x, low)]
+                        .into_iter()
+                        .chain((low < high).then_some((x, high)))
+                };
                 ends.flat_map(both).collect()
             }
             _ => Vec::new(),
@@ -374,9 +445,17 @@ impl HeatMap {
     /// Returns the coordinates (see [`ChartAxis::span`]) of the borders of map cells along an axis, with one cell around each of
     /// these values. There is one border more than there are values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
-        let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
-        let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
-        let between: Vec<f64> = places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
+        let places: Vec<f64> = values
+            .iter()
+            .map(|value| scale.coordinate(*value))
+            .collect();
+        let (Some(first), Some(last)) = (places.first(), places.last()) else {
+            return vec![0.0, 1.0];
+        };
+        let between: Vec<f64> = places
+            .windows(2)
+            .map(|pair| f64::midpoint(pair[0], pair[1]))
+            .collect();
         let (before, after) = match (between.first(), between.last()) {
             (Some(second), Some(before_last)) => (2.0 * first - second, 2.0 * last - before_last),
             _ => (first - 0.5, last + 0.5),
@@ -387,7 +466,10 @@ impl HeatMap {
     /// Returns the range of coordinates of an axis that has a map cell around each of these values.
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
-        Span { low: borders[0], high: borders[borders.len() - 1] }
+        Span {
+            low: borders[0],
+            high: borders[borders.len() - 1],
+        }
     }
 }
 
@@ -428,7 +510,10 @@ impl Entry {
             match entries.iter_mut().find(|entry| entry.name == *name) {
                 Some(entry) if entry.samples.contains(&(ink, sample)) => {}
                 Some(entry) => entry.samples.push((ink, sample)),
-                None => entries.push(Entry { name: name.clone(), samples: vec![(ink, sample)] }),
+                None => entries.push(Entry {
+                    name: name.clone(),
+                    samples: vec![(ink, sample)],
+                }),
             }
         };
         for Layer { name, ink, shape } in charts.iter().flat_map(|chart| &chart.layers) {
@@ -441,7 +526,11 @@ impl Entry {
                 Shape::Map(map) => {
                     for (class, Class { sign, name, .. }) in map.class_names.iter().enumerate() {
                         if map.classes.contains(&Some(class)) {
-                            add(&Label::plain(name), Ink::Text, Sample::Line(None, Some(*sign)));
+                            add(
+                                &Label::plain(name),
+                                Ink::Text,
+                                Sample::Line(None, Some(*sign)),
+                            );
                         }
                     }
                     if let Some(contour) = &map.contour {
@@ -454,7 +543,12 @@ impl Entry {
             }
         }
         // Lines first: an area belongs to a line.
-        entries.sort_by_key(|entry| entry.samples.iter().any(|(_, sample)| *sample == Sample::Area));
+        entries.sort_by_key(|entry| {
+            entry
+                .samples
+                .iter()
+                .any(|(_, sample)| *sample == Sample::Area)
+        });
         entries
     }
 }

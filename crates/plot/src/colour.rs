@@ -33,8 +33,8 @@ impl Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
         ansi: rgb([
-            0x10151b, 0xff6b3d, 0x1ab485, 0xf0d655, 0x3b94f5, 0xee97dd, 0x5fd0e6, 0xc4cbd2, 0x858f9a,
-            0xff9370, 0x52d6ac, 0xf7e486, 0x7ab8ff, 0xf5c4ea, 0x96e4f2, 0xffffff,
+            0x10151b, 0xff6b3d, 0x1ab485, 0xf0d655, 0x3b94f5, 0xee97dd, 0x5fd0e6, 0xc4cbd2,
+            0x858f9a, 0xff9370, 0x52d6ac, 0xf7e486, 0x7ab8ff, 0xf5c4ea, 0x96e4f2, 0xffffff,
         ]),
     };
 
@@ -43,8 +43,8 @@ impl Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
         ansi: rgb([
-            0x1b2026, 0xcc3f00, 0x00805e, 0x7d6300, 0x005cc2, 0x8e2a7c, 0x007088, 0x525c66, 0x6a747e,
-            0xb33800, 0x006b4f, 0x695300, 0x004b9e, 0x751f66, 0x005c70, 0xffffff,
+            0x1b2026, 0xcc3f00, 0x00805e, 0x7d6300, 0x005cc2, 0x8e2a7c, 0x007088, 0x525c66,
+            0x6a747e, 0xb33800, 0x006b4f, 0x695300, 0x004b9e, 0x751f66, 0x005c70, 0xffffff,
         ]),
     };
 }
@@ -81,7 +81,9 @@ pub enum Ink {
 impl Ink {
     /// Returns the colour of the ink in a figure with a white background.
     pub fn on_paper(self) -> Rgb {
-        let Palette { foreground, ansi, .. } = Palette::LIGHT;
+        let Palette {
+            foreground, ansi, ..
+        } = Palette::LIGHT;
         match self {
             Ink::Text | Ink::Profile => foreground,
             Ink::Quiet | Ink::Kept => ansi[8],
@@ -109,12 +111,14 @@ pub enum Shades {
 
 /// Viridis (van der Walt and Smith, 2015), sampled at equal distances. It is readable with red-green colour blindness, and
 /// its lightness is monotonic.
-const VIRIDIS: [Rgb; 9] =
-    rgb([0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725]);
+const VIRIDIS: [Rgb; 9] = rgb([
+    0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725,
+]);
 
 /// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable with red-green colour blindness.
-const BLUE_TO_RED: [Rgb; 9] =
-    rgb([0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b]);
+const BLUE_TO_RED: [Rgb; 9] = rgb([
+    0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b,
+]);
 
 impl Shades {
     /// Number of bands of equal colour into which an SVG figure divides the colour scale.
@@ -136,7 +140,11 @@ impl Shades {
     /// Returns the colour at a position on the scale, from 0 for the lowest value to 1 for the highest. NaN has the colour of 0.
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
-        let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+        let share = if share.is_nan() {
+            0.0
+        } else {
+            share.clamp(0.0, 1.0)
+        };
         let place = share * (colours.len() - 1) as f64;
         let index = (place as usize).min(colours.len() - 2);
         let (from, to) = (colours[index], colours[index + 1]);
@@ -154,7 +162,11 @@ fn lightness([red, green, blue]: Rgb) -> f64 {
 
 /// Returns black or white, whichever is readable on this colour.
 pub(super) fn ink_on(colour: Rgb) -> Rgb {
-    if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
+    if lightness(colour) > 0.5 {
+        [0; 3]
+    } else {
+        [255; 3]
+    }
 }
 
 /// Returns a colour in web notation, `#rrggbb`.
@@ -168,23 +180,38 @@ mod tests {
 
     #[test]
     fn shades_are_ordered_in_grey_and_ink_is_readable_on_them() {
-        let shades = |shades: Shades| (0..=100).map(move |percent| shades.at(f64::from(percent) / 100.0));
+        let shades =
+            |shades: Shades| (0..=100).map(move |percent| shades.at(f64::from(percent) / 100.0));
         let greys = |all| shades(all).map(lightness).collect::<Vec<f64>>();
         let sequential = greys(Shades::Sequential);
-        assert!(sequential.windows(2).all(|pair| pair[0] < pair[1]), "{sequential:?}");
+        assert!(
+            sequential.windows(2).all(|pair| pair[0] < pair[1]),
+            "{sequential:?}"
+        );
         assert!(sequential[100] - sequential[0] > 0.7, "{sequential:?}");
         let diverging = greys(Shades::Diverging);
-        assert!(diverging[..=50].is_sorted() && diverging[50..].iter().rev().is_sorted(), "{diverging:?}");
+        assert!(
+            diverging[..=50].is_sorted() && diverging[50..].iter().rev().is_sorted(),
+            "{diverging:?}"
+        );
         for colour in shades(Shades::Sequential).chain(shades(Shades::Diverging)) {
-            assert!((lightness(colour) - lightness(ink_on(colour))).abs() >= 0.5, "{colour:?}");
+            assert!(
+                (lightness(colour) - lightness(ink_on(colour))).abs() >= 0.5,
+                "{colour:?}"
+            );
         }
-        assert_eq!([f64::NAN, f64::NEG_INFINITY].map(|share| Shades::Sequential.at(share)), [VIRIDIS[0]; 2]);
+        assert_eq!(
+            [f64::NAN, f64::NEG_INFINITY].map(|share| Shades::Sequential.at(share)),
+            [VIRIDIS[0]; 2]
+        );
         assert_eq!(Shades::Sequential.at(f64::INFINITY), VIRIDIS[8]);
     }
 
     #[test]
     fn curves_of_a_figure_have_colours_of_their_own() {
-        let colours: Vec<Rgb> = (0..5).map(|number| Ink::Series(number).on_paper()).collect();
+        let colours: Vec<Rgb> = (0..5)
+            .map(|number| Ink::Series(number).on_paper())
+            .collect();
         for (number, colour) in colours.iter().enumerate() {
             assert!(!colours[..number].contains(colour), "{number}");
         }

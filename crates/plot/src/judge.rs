@@ -11,8 +11,15 @@ pub fn parsed(svg: &str) -> (Vec<String>, String) {
         let tag = svg[element.range()].split('>').next().unwrap_or_default();
         tag.trim_start_matches('<').trim_end_matches('/').to_owned()
     };
-    let elements = document.descendants().filter(roxmltree::Node::is_element).map(tag).collect();
-    let text = document.descendants().filter(roxmltree::Node::is_text).filter_map(|node| node.text());
+    let elements = document
+        .descendants()
+        .filter(roxmltree::Node::is_element)
+        .map(tag)
+        .collect();
+    let text = document
+        .descendants()
+        .filter(roxmltree::Node::is_text)
+        .filter_map(|node| node.text());
     (elements, text.collect())
 }
 
@@ -28,11 +35,21 @@ pub fn check_picture(svg: &str) {
     let paper = &elements(svg, "rect")[0];
     let size = (attribute(paper, "width"), attribute(paper, "height"));
     let mut boxes: Vec<[f64; 4]> = Vec::new();
-    for (element, rest) in svg.split("<text").skip(1).map(|rest| rest.split_once('>').unwrap()) {
+    for (element, rest) in svg
+        .split("<text")
+        .skip(1)
+        .map(|rest| rest.split_once('>').unwrap())
+    {
         let words = rest.split("</text>").next().unwrap_or_default();
-        let plain: String = words.split('<').map(|part| part.rsplit('>').next().unwrap_or("")).collect();
-        let plain =
-            plain.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&");
+        let plain: String = words
+            .split('<')
+            .map(|part| part.rsplit('>').next().unwrap_or(""))
+            .collect();
+        let plain = plain
+            .replace("&lt;", "<")
+            .replace("&gt;", ">")
+            .replace("&quot;", "\"")
+            .replace("&amp;", "&");
         let [x, y, height] = ["x", "y", "font-size"].map(|name| attribute(element, name));
         let width = 0.9 * Label::plain(plain.trim()).width() * height;
         let left = match () {
@@ -42,7 +59,12 @@ pub fn check_picture(svg: &str) {
         };
         let (middle, half) = (y - 0.35 * height, 0.4 * height);
         let place = match element.contains("rotate") {
-            true => [x - half, middle - width / 2.0, x + half, middle + width / 2.0],
+            true => [
+                x - half,
+                middle - width / 2.0,
+                x + half,
+                middle + width / 2.0,
+            ],
             false => [left, middle - half, left + width, middle + half],
         };
         let is_inside = place[0] > 0.0 && place[1] > 0.0 && place[2] < size.0 && place[3] < size.1;
@@ -58,6 +80,10 @@ pub fn check_picture(svg: &str) {
 /// Returns the value of the attribute `name` of an SVG element as a number. `element` is one of the texts that [`elements`]
 /// returns. Returns NaN if the attribute is missing or is not a number.
 pub fn attribute(element: &str, name: &str) -> f64 {
-    let value = element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
-    value.and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)
+    let value = element
+        .split_once(&format!(" {name}=\""))
+        .and_then(|(_, rest)| rest.split('"').next());
+    value
+        .and_then(|value| value.parse().ok())
+        .unwrap_or(f64::NAN)
 }

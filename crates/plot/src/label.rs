@@ -39,7 +39,9 @@ impl Label {
         let mut characters = text.chars().peekable();
         while let Some(character) = characters.next() {
             if character == '_' {
-                while let Some(next) = characters.next_if(|next| next.is_alphanumeric() || *next == ',') {
+                while let Some(next) =
+                    characters.next_if(|next| next.is_alphanumeric() || *next == ',')
+                {
                     label.push(Face::Index, next.encode_utf8(&mut [0; 4]));
                 }
             } else if character.is_alphabetic() {
@@ -57,13 +59,21 @@ impl Label {
     /// assert_eq!(asperity_plot::Label::quantity("preload", "F_n").to_string(), "preload F_n");
     /// ```
     pub fn quantity(name: &str, symbol: &str) -> Label {
-        let space = if name.is_empty() || symbol.is_empty() { "" } else { " " };
+        let space = if name.is_empty() || symbol.is_empty() {
+            ""
+        } else {
+            " "
+        };
         Label::plain(name).then(space).join(&Label::symbol(symbol))
     }
 
     /// Creates a label of the symbol of a quantity, or of its name in upright text if `symbol` is empty.
     pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
-        if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
+        if symbol.is_empty() {
+            Label::plain(name)
+        } else {
+            Label::symbol(symbol)
+        }
     }
 
     /// Creates a label of a statement such as `H = 0.3`, with an italic symbol and an upright value.
@@ -89,7 +99,10 @@ impl Label {
 
     /// Appends another label.
     pub fn join(mut self, other: &Label) -> Label {
-        other.runs.iter().for_each(|(face, text)| self.push(*face, text));
+        other
+            .runs
+            .iter()
+            .for_each(|(face, text)| self.push(*face, text));
         self
     }
 
@@ -104,12 +117,18 @@ impl Label {
 
     /// Returns the width of the label divided by the font size, for a wide sans-serif font.
     pub fn width(&self) -> f64 {
-        self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
+        self.runs
+            .iter()
+            .flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c)))
+            .sum()
     }
 
     /// Divides the label into lines, at blanks where possible. No line has a [`Self::width`] above `most`.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
-        let all = self.runs.iter().flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
+        let all = self
+            .runs
+            .iter()
+            .flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
         let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
         for (face, character) in all {
             line.push((face, character));
@@ -119,7 +138,10 @@ impl Label {
                 let blank = last(' ').or_else(|| last(FIXED));
                 let rest = line.split_off(blank.map_or(line.len() - 1, |blank| blank + 1));
                 lines.push(std::mem::replace(&mut line, rest));
-                width = line.iter().map(|(face, character)| width_of(*face, *character)).sum();
+                width = line
+                    .iter()
+                    .map(|(face, character)| width_of(*face, *character))
+                    .sum();
             }
         }
         lines.push(line);
@@ -129,10 +151,16 @@ impl Label {
                 .iter()
                 .rposition(|(_, character)| ![' ', FIXED].contains(character))
                 .map_or(0, |last| last + 1);
-            line[..end].iter().for_each(|(face, c)| label.push(*face, c.encode_utf8(&mut [0; 4])));
+            line[..end]
+                .iter()
+                .for_each(|(face, c)| label.push(*face, c.encode_utf8(&mut [0; 4])));
             label
         };
-        lines.into_iter().map(label).filter(|line| !line.is_empty()).collect()
+        lines
+            .into_iter()
+            .map(label)
+            .filter(|line| !line.is_empty())
+            .collect()
     }
 
     fn push(&mut self, face: Face, text: &str) {
@@ -156,7 +184,9 @@ impl fmt::Display for Label {
             match face {
                 Face::Upright | Face::Italic => out.write_str(&text.replace(FIXED, " "))?,
                 Face::Index => write!(out, "_{text}")?,
-                Face::Exponent => text.chars().try_for_each(|c| write!(out, "{}", raised(c)))?,
+                Face::Exponent => text
+                    .chars()
+                    .try_for_each(|c| write!(out, "{}", raised(c)))?,
             }
         }
         Ok(())
@@ -167,7 +197,11 @@ impl fmt::Display for Label {
 pub(crate) const SMALL: f64 = 0.72;
 
 fn width_of(face: Face, character: char) -> f64 {
-    let share = if matches!(face, Face::Index | Face::Exponent) { SMALL } else { 1.0 };
+    let share = if matches!(face, Face::Index | Face::Exponent) {
+        SMALL
+    } else {
+        1.0
+    };
     share
         * match character {
             'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | '/' | '|' => 0.33,
@@ -213,14 +247,25 @@ pub fn number(value: f64, step: f64) -> String {
     let zero = text.chars().all(|digit| matches!(digit, '0' | '.'));
     let (whole, fraction) = text.split_at(text.find('.').unwrap_or(text.len()));
     let whole = whole.parse().map_or_else(|_| whole.to_owned(), grouped);
-    format!("{}{whole}{fraction}", if value < 0.0 && !zero { "-" } else { "" })
+    format!(
+        "{}{whole}{fraction}",
+        if value < 0.0 && !zero { "-" } else { "" }
+    )
 }
 
 /// Creates a label of a quantity and its value, given in the SI unit `unit`: `F_n = 12.5 µN` with a symbol, or `preload 12.5 µN`
 /// if `symbol` is empty.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
-    statement(name, symbol, &if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) })
+    statement(
+        name,
+        symbol,
+        &if is_count {
+            grouped(value as u64)
+        } else {
+            format_rounded(value, 3, unit)
+        },
+    )
 }
 
 /// Creates a label of a quantity and its value, which is given as text: `H = 0.3` with a symbol, or `Hurst exponent 0.3` if
@@ -253,22 +298,37 @@ mod tests {
             ]
             .map(|(face, text)| (face, text.to_owned()))
         );
-        assert_eq!(Label::symbol("F_a(d=0)/F_a,max").to_string(), "F_a(d=0)/F_a,max");
+        assert_eq!(
+            Label::symbol("F_a(d=0)/F_a,max").to_string(),
+            "F_a(d=0)/F_a,max"
+        );
         assert_eq!(Label::power_of_ten(-12).to_string(), "10⁻¹²");
-        assert_eq!(runs(&Label::statement("H = 0.3"))[1], (Face::Upright, "\u{a0}=\u{a0}0.3".to_owned()));
+        assert_eq!(
+            runs(&Label::statement("H = 0.3"))[1],
+            (Face::Upright, "\u{a0}=\u{a0}0.3".to_owned())
+        );
         assert!(Label::plain("").is_empty() && Label::symbol("").is_empty());
         assert_eq!(Label::plain("a\u{1b}[2J\n").to_string(), "a\\u{1b}[2J\\n");
     }
 
     #[test]
     fn lines_break_between_words() {
-        let label = Label::plain("one two ").join(&Label::symbol("F_n")).then(" three");
+        let label = Label::plain("one two ")
+            .join(&Label::symbol("F_n"))
+            .then(" three");
         let lines: Vec<String> = label.wrapped(6.0).iter().map(Label::to_string).collect();
         assert_eq!(lines, ["one two F_n", "three"]);
         assert!(label.wrapped(6.0).iter().all(|line| line.width() <= 6.0));
         let word = Label::plain("folder/file").wrapped(2.0);
-        assert!(word.len() > 2 && word.iter().all(|line| line.width() <= 2.0), "{word:?}");
-        assert_eq!(value_label("", "F_n", "N", 2e-5).wrapped(3.0).len(), 2, "one word, too long for a line");
+        assert!(
+            word.len() > 2 && word.iter().all(|line| line.width() <= 2.0),
+            "{word:?}"
+        );
+        assert_eq!(
+            value_label("", "F_n", "N", 2e-5).wrapped(3.0).len(),
+            2,
+            "one word, too long for a line"
+        );
         assert!(Label::default().wrapped(5.0).is_empty());
     }
 
@@ -291,7 +351,9 @@ mod tests {
         assert_eq!(number(20.0, 10.0), "20");
         assert_eq!(number(-1e-18, 0.2), "0.0");
         assert_eq!(number(-16384.0, 1.0), "-16 384");
-        let text = |symbol: &str, unit: &str, value| value_label("points", symbol, unit, value).to_string();
+        let text = |symbol: &str, unit: &str, value| {
+            value_label("points", symbol, unit, value).to_string()
+        };
         assert_eq!(text("N", "1", 65536.0), "N = 65 536");
         assert_eq!(text("N", "1", -2.0), "N = -2");
         assert_eq!(text("", "N", 1.25e-5), "points 12.5 µN");

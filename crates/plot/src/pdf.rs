@@ -44,7 +44,8 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
         letters: tree.fontdb(),
         fonts: Vec::new(),
     };
-    page.content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
+    page.content
+        .transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
     page.group(tree.root(), Transform::identity());
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
     packed.write_all(page.content.finish().as_slice())?;
@@ -53,24 +54,32 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     pdf.catalog(catalog).pages(pages);
     pdf.pages(pages).kids([only]).count(1);
     let mut one = pdf.page(only);
-    one.media_box(Rect::new(0.0, 0.0, width, height)).parent(pages).contents(stream);
+    one.media_box(Rect::new(0.0, 0.0, width, height))
+        .parent(pages)
+        .contents(stream);
     let mut resources = one.resources();
     let mut states = resources.ext_g_states();
     for percent in page.opacities {
         let name = state(percent);
-        let mut opacity = states.insert(Name(name.as_bytes())).start::<ExtGraphicsState<'_>>();
+        let mut opacity = states
+            .insert(Name(name.as_bytes()))
+            .start::<ExtGraphicsState<'_>>();
         opacity.non_stroking_alpha(f32::from(percent) / 100.0);
     }
     states.finish();
     let first = info.get() + 1;
     let mut fonts = resources.fonts();
     for (index, font) in page.fonts.iter().enumerate() {
-        fonts.pair(Name(font.name(index).as_bytes()), font.reference(first, index));
+        fonts.pair(
+            Name(font.name(index).as_bytes()),
+            font.reference(first, index),
+        );
     }
     fonts.finish();
     resources.finish();
     one.finish();
-    pdf.stream(stream, &packed.finish()?).filter(Filter::FlateDecode);
+    pdf.stream(stream, &packed.finish()?)
+        .filter(Filter::FlateDecode);
     pdf.document_info(info).title(TextStr(title));
     for (index, font) in page.fonts.iter().enumerate() {
         font.write(&mut pdf, first, index)?;
@@ -104,7 +113,10 @@ impl Page<'_> {
             // Figures have text of plain colours alone.
             if let Some(Paint::Color(colour)) = span.fill.as_ref().map(|fill| fill.paint()) {
                 let [red, green, blue] = rgb(*colour);
-                self.content.save_state().set_fill_rgb(red, green, blue).begin_text();
+                self.content
+                    .save_state()
+                    .set_fill_rgb(red, green, blue)
+                    .begin_text();
                 self.letters(span, to_page);
                 self.content.end_text().restore_state();
             }
@@ -115,10 +127,14 @@ impl Page<'_> {
     fn letters(&mut self, span: &Span, to_page: Transform) {
         let mut rest = span.positioned_glyphs.as_slice();
         while let Some(first) = rest.first() {
-            let Some(index) = self.font(first.font) else { return };
+            let Some(index) = self.font(first.font) else {
+                return;
+            };
             let em = self.fonts[index].units_per_em();
             let place = |glyph: &PositionedGlyph| {
-                to_page.pre_concat(glyph.outline_transform()).pre_concat(Transform::from_scale(em, em))
+                to_page
+                    .pre_concat(glyph.outline_transform())
+                    .pre_concat(Transform::from_scale(em, em))
             };
             let begin = place(first);
             let size = begin.sx.hypot(begin.ky);
@@ -126,14 +142,18 @@ impl Page<'_> {
             let along = |glyph: &PositionedGlyph| {
                 let at = place(glyph);
                 let (dx, dy) = ((at.tx - begin.tx) / size, (at.ty - begin.ty) / size);
-                let (across, along) = (dx * begin.ky - dy * begin.sx, dx * begin.sx + dy * begin.ky);
+                let (across, along) =
+                    (dx * begin.ky - dy * begin.sx, dx * begin.sx + dy * begin.ky);
                 let is_alike = (at.sx - begin.sx).hypot(at.ky - begin.ky) < SAME * size;
-                (glyph.font == first.font && is_alike && across.abs() < SAME * size).then(|| along / size)
+                (glyph.font == first.font && is_alike && across.abs() < SAME * size)
+                    .then(|| along / size)
             };
             let distances: Vec<f32> = rest.iter().map_while(along).collect();
             let (run, next) = rest.split_at(distances.len().max(1));
             let font = &mut self.fonts[index];
-            self.content.set_font(Name(font.name(index).as_bytes()), 1.0).set_text_matrix(matrix(begin));
+            self.content
+                .set_font(Name(font.name(index).as_bytes()), 1.0)
+                .set_text_matrix(matrix(begin));
             let mut shown = self.content.show_positioned();
             let mut items = shown.items();
             let mut reached = 0.0;
@@ -164,7 +184,9 @@ impl Page<'_> {
         // Figures have plain colours alone.
         if let Some((fill, Paint::Color(colour))) = path.fill().map(|fill| (fill, fill.paint())) {
             let ([red, green, blue], opacity) = (rgb(*colour), fill.opacity().get());
-            self.content.set_fill_rgb(red, green, blue).set_stroke_rgb(red, green, blue);
+            self.content
+                .set_fill_rgb(red, green, blue)
+                .set_stroke_rgb(red, green, blue);
             if opacity < 1.0 {
                 let percent = (100.0 * opacity).round() as u8;
                 self.opacities.insert(percent);
@@ -177,9 +199,13 @@ impl Page<'_> {
                 self.outline(path.data()).fill_nonzero();
             }
         }
-        if let Some((stroke, Paint::Color(colour))) = path.stroke().map(|stroke| (stroke, stroke.paint())) {
+        if let Some((stroke, Paint::Color(colour))) =
+            path.stroke().map(|stroke| (stroke, stroke.paint()))
+        {
             let [red, green, blue] = rgb(*colour);
-            self.content.set_stroke_rgb(red, green, blue).set_line_width(stroke.width().get());
+            self.content
+                .set_stroke_rgb(red, green, blue)
+                .set_line_width(stroke.width().get());
             if stroke.linejoin() == LineJoin::Round {
                 self.content.set_line_join(LineJoinStyle::RoundJoin);
             }
@@ -202,13 +228,15 @@ impl Page<'_> {
                 PathSegment::LineTo(to) => self.content.line_to(to.x, to.y),
                 PathSegment::QuadTo(by, to) => {
                     // The cubic curve of the same shape.
-                    let near = |end: Point| (end.x + (by.x - end.x) / 1.5, end.y + (by.y - end.y) / 1.5);
+                    let near =
+                        |end: Point| (end.x + (by.x - end.x) / 1.5, end.y + (by.y - end.y) / 1.5);
                     let (one, other) = (near(last), near(to));
-                    self.content.cubic_to(one.0, one.1, other.0, other.1, to.x, to.y)
+                    self.content
+                        .cubic_to(one.0, one.1, other.0, other.1, to.x, to.y)
                 }
-                PathSegment::CubicTo(one, other, to) => {
-                    self.content.cubic_to(one.x, one.y, other.x, other.y, to.x, to.y)
-                }
+                PathSegment::CubicTo(one, other, to) => self
+                    .content
+                    .cubic_to(one.x, one.y, other.x, other.y, to.x, to.y),
                 PathSegment::Close => self.content.close_path(),
             };
             if let PathSegment::MoveTo(to)
@@ -248,14 +276,18 @@ mod tests {
     }
 
     fn find(file: &[u8], words: &[u8]) -> usize {
-        file.windows(words.len()).position(|window| window == words).unwrap()
+        file.windows(words.len())
+            .position(|window| window == words)
+            .unwrap()
     }
 
     /// The drawing operators of a file, which are its first stream.
     fn inflated(file: &[u8]) -> String {
         let (from, to) = (find(file, b"\nstream\n") + 8, find(file, b"\nendstream"));
         let mut content = String::new();
-        ZlibDecoder::new(&file[from..to]).read_to_string(&mut content).unwrap();
+        ZlibDecoder::new(&file[from..to])
+            .read_to_string(&mut content)
+            .unwrap();
         content
     }
 
@@ -268,18 +300,31 @@ mod tests {
 
     #[test]
     fn a_page_has_its_real_size_and_its_shapes_as_operators() {
-        let (size, content) = drawn("<rect x=\"2\" y=\"3\" width=\"4\" height=\"5\" fill=\"#ff0000\"/>");
-        let ends: Vec<f32> =
-            size.split(' ').skip(1).filter_map(|end| end.trim_matches('[').parse().ok()).collect();
+        let (size, content) =
+            drawn("<rect x=\"2\" y=\"3\" width=\"4\" height=\"5\" fill=\"#ff0000\"/>");
+        let ends: Vec<f32> = size
+            .split(' ')
+            .skip(1)
+            .filter_map(|end| end.trim_matches('[').parse().ok())
+            .collect();
         let points = [80.0, 40.0].map(|mm| mm / 25.4 * 72.0);
         assert!(
-            ends.len() == 4 && (ends[2] - points[0]).abs() < 0.01 && (ends[3] - points[1]).abs() < 0.01,
+            ends.len() == 4
+                && (ends[2] - points[0]).abs() < 0.01
+                && (ends[3] - points[1]).abs() < 0.01,
             "{size}"
         );
-        assert!(content.contains("1 0 0 RG\n2 3 m\n6 3 l\n6 8 l\n2 8 l\nh\nf\n"), "{content}");
-        let (_, line) =
-            drawn("<path d=\"M0 0Q1 2 3 0\" fill=\"none\" stroke=\"#0000ff\" stroke-dasharray=\"6 3\"/>");
-        assert!(line.contains("0 0 1 RG") && line.contains("[6 3] 0 d") && line.contains(" c\nS"), "{line}");
+        assert!(
+            content.contains("1 0 0 RG\n2 3 m\n6 3 l\n6 8 l\n2 8 l\nh\nf\n"),
+            "{content}"
+        );
+        let (_, line) = drawn(
+            "<path d=\"M0 0Q1 2 3 0\" fill=\"none\" stroke=\"#0000ff\" stroke-dasharray=\"6 3\"/>",
+        );
+        assert!(
+            line.contains("0 0 1 RG") && line.contains("[6 3] 0 d") && line.contains(" c\nS"),
+            "{line}"
+        );
     }
 
     /// The text of a file by its own table of the letters of its glyphs, a line for each run.
@@ -294,8 +339,16 @@ mod tests {
             }
         }
         let content = inflated(file);
-        let runs = content.split('[').skip(1).filter_map(|run| Some(run.rsplit_once("] TJ")?.0));
-        let line = |run| glyphs(run).into_iter().map(|glyph| letters[&glyph]).collect::<String>();
+        let runs = content
+            .split('[')
+            .skip(1)
+            .filter_map(|run| Some(run.rsplit_once("] TJ")?.0));
+        let line = |run| {
+            glyphs(run)
+                .into_iter()
+                .map(|glyph| letters[&glyph])
+                .collect::<String>()
+        };
         runs.map(line).collect::<Vec<_>>().join("\n")
     }
 
@@ -305,7 +358,10 @@ mod tests {
         while let Some(opening) = rest.next() {
             match opening {
                 '<' => {
-                    let digits: Vec<u32> = rest.by_ref().map_while(|digit| digit.to_digit(16)).collect();
+                    let digits: Vec<u32> = rest
+                        .by_ref()
+                        .map_while(|digit| digit.to_digit(16))
+                        .collect();
                     bytes.extend(digits.chunks(2).map(|pair| 16 * pair[0] + pair[1]));
                 }
                 '(' => loop {
@@ -319,7 +375,9 @@ mod tests {
                             'f' => 12,
                             first @ '0'..='7' => {
                                 let digits = [first, rest.next().unwrap(), rest.next().unwrap()];
-                                digits.iter().fold(0, |octal, digit| 8 * octal + digit.to_digit(8).unwrap())
+                                digits
+                                    .iter()
+                                    .fold(0, |octal, digit| 8 * octal + digit.to_digit(8).unwrap())
                             }
                             other => u32::from(other),
                         },
@@ -329,7 +387,10 @@ mod tests {
                 _ => {}
             }
         }
-        bytes.chunks(2).map(|pair| 256 * pair[0] + pair[1]).collect()
+        bytes
+            .chunks(2)
+            .map(|pair| 256 * pair[0] + pair[1])
+            .collect()
     }
 
     #[test]
@@ -343,7 +404,10 @@ mod tests {
         assert_eq!(read(&file), "κ = √µN\nforce \nF\n (µN)");
         let content = inflated(&file);
         // Letters are no outlines; a label written upwards turns by 90 degrees.
-        assert!(!content.contains(" c\n") && content.contains(" -15.118111 -15.118111 "), "{content}");
+        assert!(
+            !content.contains(" c\n") && content.contains(" -15.118111 -15.118111 "),
+            "{content}"
+        );
         let text = String::from_utf8_lossy(&file);
         assert_eq!(text.matches("/FontFile2").count(), 2, "two faces");
     }

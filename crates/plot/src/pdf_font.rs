@@ -14,8 +14,11 @@ use ttf_parser::{Face, GlyphId};
 /// Number of objects of a font in a file.
 const OBJECTS: i32 = 5;
 /// Glyph numbers of a PDF file, which are the numbers of the font.
-const IDENTITY: SystemInfo<'_> =
-    SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
+const IDENTITY: SystemInfo<'_> = SystemInfo {
+    registry: Str(b"Adobe"),
+    ordering: Str(b"Identity"),
+    supplement: 0,
+};
 /// Width of vertical stems, in thousandths of the font size. A reader uses it to choose another font if this one fails.
 const STEM: f32 = 80.0;
 
@@ -37,7 +40,14 @@ impl PdfFont {
         let (name, is_italic) = (face.post_script_name.clone(), face.style != Style::Normal);
         let data = fonts.with_face_data(id, |data, _| data.to_vec())?;
         let units_per_em = f32::from(Face::parse(&data, 0).ok()?.units_per_em());
-        Some(PdfFont { id, name, is_italic, data, units_per_em, glyphs: BTreeMap::new() })
+        Some(PdfFont {
+            id,
+            name,
+            is_italic,
+            data,
+            units_per_em,
+            glyphs: BTreeMap::new(),
+        })
     }
 
     pub(super) fn is(&self, id: ID) -> bool {
@@ -59,18 +69,36 @@ impl PdfFont {
     }
 
     /// Shows a glyph, which has these letters, and returns its width in thousandths of the font size.
-    pub(super) fn show(&mut self, items: &mut PositionedItems<'_>, glyph: u16, letters: &str) -> f32 {
+    pub(super) fn show(
+        &mut self,
+        items: &mut PositionedItems<'_>,
+        glyph: u16,
+        letters: &str,
+    ) -> f32 {
         items.show(Str(&glyph.to_be_bytes()));
-        let PdfFont { glyphs, data, units_per_em, .. } = self;
-        let advance = || Face::parse(data, 0).ok().and_then(|face| face.glyph_hor_advance(GlyphId(glyph)));
+        let PdfFont {
+            glyphs,
+            data,
+            units_per_em,
+            ..
+        } = self;
+        let advance = || {
+            Face::parse(data, 0)
+                .ok()
+                .and_then(|face| face.glyph_hor_advance(GlyphId(glyph)))
+        };
         let width = || 1000.0 * f32::from(advance().unwrap_or(0)) / *units_per_em;
-        glyphs.entry(glyph).or_insert_with(|| (width(), letters.to_owned())).0
+        glyphs
+            .entry(glyph)
+            .or_insert_with(|| (width(), letters.to_owned()))
+            .0
     }
 
     /// Writes the objects of the font.
     pub(super) fn write(&self, pdf: &mut Pdf, first: i32, index: usize) -> io::Result<()> {
         let reference = self.reference(first, index);
-        let [cid, descriptor, letters, file] = [1, 2, 3, 4].map(|next| Ref::new(reference.get() + next));
+        let [cid, descriptor, letters, file] =
+            [1, 2, 3, 4].map(|next| Ref::new(reference.get() + next));
         let name = Name(self.name.as_bytes());
         let face = Face::parse(&self.data, 0).map_err(io::Error::other)?;
         let scaled = |units: i16| 1000.0 * f32::from(units) / self.units_per_em;
@@ -80,7 +108,10 @@ impl PdfFont {
             .descendant_font(cid)
             .to_unicode(letters);
         let mut font = pdf.cid_font(cid);
-        font.subtype(CidFontType::Type2).base_font(name).system_info(IDENTITY).font_descriptor(descriptor);
+        font.subtype(CidFontType::Type2)
+            .base_font(name)
+            .system_info(IDENTITY)
+            .font_descriptor(descriptor);
         font.cid_to_gid_map_predefined(Name(b"Identity"));
         let mut widths = font.widths();
         for (glyph, (width, _)) in &self.glyphs {
@@ -89,8 +120,13 @@ impl PdfFont {
         widths.finish();
         font.finish();
         let bounds = face.global_bounding_box();
-        let [left, bottom, right, top] = [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(scaled);
-        let style = if self.is_italic { FontFlags::ITALIC } else { FontFlags::empty() };
+        let [left, bottom, right, top] =
+            [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(scaled);
+        let style = if self.is_italic {
+            FontFlags::ITALIC
+        } else {
+            FontFlags::empty()
+        };
         pdf.font_descriptor(descriptor)
             .name(name)
             .flags(FontFlags::SYMBOLIC | style)
@@ -109,7 +145,9 @@ impl PdfFont {
         let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
         packed.write_all(&self.data)?;
         let packed = packed.finish()?;
-        pdf.stream(file, &packed).filter(Filter::FlateDecode).pair(Name(b"Length1"), self.data.len() as i32);
+        pdf.stream(file, &packed)
+            .filter(Filter::FlateDecode)
+            .pair(Name(b"Length1"), self.data.len() as i32);
         Ok(())
     }
 }

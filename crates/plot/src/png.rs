@@ -10,7 +10,10 @@ use std::sync::Arc;
 
 /// Upright and oblique letters, with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
 /// files.
-const FONTS: [&[u8]; 2] = [include_bytes!("font/sans.ttf"), include_bytes!("font/sans-oblique.ttf")];
+const FONTS: [&[u8]; 2] = [
+    include_bytes!("font/sans.ttf"),
+    include_bytes!("font/sans-oblique.ttf"),
+];
 /// Pixels for each px of a document: 2, or 600 per inch for a figure with a given width.
 const SCALE: f32 = 2.0;
 const PRINT_SCALE: f32 = 6.25;
@@ -24,39 +27,65 @@ impl Figure {
     /// # Errors
     /// Returns an error if the picture would have more than 67 million pixels (2^26).
     pub fn png(&self) -> io::Result<Vec<u8>> {
-        png(&self.svg(), if self.width.is_some() { PRINT_SCALE } else { SCALE })
+        png(
+            &self.svg(),
+            if self.width.is_some() {
+                PRINT_SCALE
+            } else {
+                SCALE
+            },
+        )
     }
 }
 
 /// Converts an SVG document to outlines, in px of 1/96 inch.
 pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     let mut fonts = Database::new();
-    FONTS.iter().for_each(|font| fonts.load_font_data(font.to_vec()));
-    let options = Options { fontdb: Arc::new(fonts), ..Options::default() };
+    FONTS
+        .iter()
+        .for_each(|font| fonts.load_font_data(font.to_vec()));
+    let options = Options {
+        fontdb: Arc::new(fonts),
+        ..Options::default()
+    };
     Tree::from_str(svg, &options).map_err(io::Error::other)
 }
 
 /// Draws an SVG document on white and returns the content of a PNG file.
 fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
     let tree = tree(svg)?;
-    let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (scale * side).ceil());
+    let [width, height] =
+        [tree.size().width(), tree.size().height()].map(|side| (scale * side).ceil());
     let is_small = f64::from(width) * f64::from(height) <= MOST_PIXELS;
-    let pixmap = is_small.then(|| Pixmap::new(width as u32, height as u32)).flatten();
+    let pixmap = is_small
+        .then(|| Pixmap::new(width as u32, height as u32))
+        .flatten();
     let mut pixmap = pixmap.ok_or_else(|| {
         let limit = format!("allowed: at most {MOST_PIXELS} in all; SVG has no limit");
         io::Error::other(format!("a picture of {width} × {height} pixels; {limit}"))
     })?;
     // The last pixels may be covered in part.
     pixmap.fill(Color::WHITE);
-    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    resvg::render(
+        &tree,
+        Transform::from_scale(scale, scale),
+        &mut pixmap.as_mut(),
+    );
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     let per_metre = (scale * PX).round() as u32;
-    encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter }));
-    let pixels: Vec<u8> =
-        pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    encoder.set_pixel_dims(Some(PixelDimensions {
+        xppu: per_metre,
+        yppu: per_metre,
+        unit: Unit::Meter,
+    }));
+    let pixels: Vec<u8> = pixmap
+        .data()
+        .chunks_exact(4)
+        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+        .collect();
     encoder.write_header()?.write_image_data(&pixels)?;
     Ok(file)
 }
@@ -66,47 +95,72 @@ mod tests {
     use super::*;
 
     fn document(elements: &str) -> String {
-        format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"30.5\">{elements}</svg>")
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"30.5\">{elements}</svg>"
+        )
     }
 
     fn pixels(elements: &str) -> (usize, Vec<[u8; 3]>) {
         let file = png(&document(elements), SCALE).unwrap();
-        let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(file))
+            .read_info()
+            .unwrap();
         assert_eq!(reader.info().pixel_dims.map(|dims| dims.xppu), Some(7559));
         let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
         let frame = reader.next_frame(&mut bytes).unwrap();
-        assert_eq!((frame.width, frame.height, frame.color_type), (80, 61, ColorType::Rgb));
+        assert_eq!(
+            (frame.width, frame.height, frame.color_type),
+            (80, 61, ColorType::Rgb)
+        );
         (frame.width as usize, bytes.as_chunks::<3>().0.to_vec())
     }
 
     #[test]
     fn shapes_are_at_their_places_on_white() {
-        let (width, pixels) = pixels("<rect x=\"2\" y=\"2\" width=\"4\" height=\"3\" fill=\"#c81e0a\"/>");
+        let (width, pixels) =
+            pixels("<rect x=\"2\" y=\"2\" width=\"4\" height=\"3\" fill=\"#c81e0a\"/>");
         for (index, colour) in pixels.iter().enumerate() {
             let (x, y) = (index % width, index / width);
             let inside = (4..12).contains(&x) && (4..10).contains(&y);
-            assert_eq!(*colour, if inside { [0xc8, 0x1e, 0x0a] } else { [255; 3] }, "{x} {y}");
+            assert_eq!(
+                *colour,
+                if inside { [0xc8, 0x1e, 0x0a] } else { [255; 3] },
+                "{x} {y}"
+            );
         }
     }
 
     #[test]
     fn the_fonts_have_the_characters_of_figures() {
         let drawn = |character: char, style: &str| {
-            let style =
-                format!("x=\"9\" y=\"20\" font-family=\"sans-serif, DejaVu Sans\" font-style=\"{style}\"");
+            let style = format!(
+                "x=\"9\" y=\"20\" font-family=\"sans-serif, DejaVu Sans\" font-style=\"{style}\""
+            );
             pixels(&format!("<text {style}>{character}</text>")).1
         };
         let missing = drawn('汉', "normal");
         for character in "Az09 µγκδπ−·×±≤∇√°⁻¹²³…–“”éßЖ".chars() {
             let both = ["normal", "italic"].map(|style| drawn(character, style));
             assert!(both.iter().all(|drawn| *drawn != missing), "{character}");
-            assert!(!character.is_ascii_alphanumeric() || both[0] != both[1], "{character}");
+            assert!(
+                !character.is_ascii_alphanumeric() || both[0] != both[1],
+                "{character}"
+            );
         }
     }
 
     #[test]
     fn too_many_pixels_are_refused() {
-        let error = png(&document("").replace("40", "1e6").replace("30.5", "1e6"), SCALE).unwrap_err();
-        assert!(error.to_string().contains("2000000 × 2000000 pixels; allowed: at most 67108864"), "{error}");
+        let error = png(
+            &document("").replace("40", "1e6").replace("30.5", "1e6"),
+            SCALE,
+        )
+        .unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("2000000 × 2000000 pixels; allowed: at most 67108864"),
+            "{error}"
+        );
     }
 }

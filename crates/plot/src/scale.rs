@@ -24,10 +24,14 @@ impl Span {
     /// ```
     pub fn around(coordinates: impl Iterator<Item = f64>, room: f64) -> Span {
         let finite = coordinates.filter(|coordinate| coordinate.is_finite());
-        let (low, high) =
-            finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
+            (low.min(at), high.max(at))
+        });
         if low > high {
-            return Span { low: 0.0, high: 1.0 };
+            return Span {
+                low: 0.0,
+                high: 1.0,
+            };
         }
         let width = high - low;
         let largest = low.abs().max(high.abs());
@@ -36,7 +40,10 @@ impl Span {
             () if largest > 0.0 => 0.1 * largest,
             () => 1.0,
         };
-        Span { low: low - margin, high: high + margin }
+        Span {
+            low: low - margin,
+            high: high + margin,
+        }
     }
 
     /// Returns the range of coordinates for an axis that shows these values. On a linear scale it begins at zero if
@@ -45,9 +52,14 @@ impl Span {
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
-            AxisScale::Linear if span.low >= 0.0 && span.low <= 0.3 * span.high => Span { low: 0.0, ..span },
+            AxisScale::Linear if span.low >= 0.0 && span.low <= 0.3 * span.high => {
+                Span { low: 0.0, ..span }
+            }
             AxisScale::Linear => span,
-            AxisScale::Logarithmic => Span { low: span.low.max(span.high - decades), ..span },
+            AxisScale::Logarithmic => Span {
+                low: span.low.max(span.high - decades),
+                ..span
+            },
         }
     }
 
@@ -55,13 +67,19 @@ impl Span {
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();
-        Span { low, high: span.high.ceil().max(low + 1.0) }
+        Span {
+            low,
+            high: span.high.ceil().max(low + 1.0),
+        }
     }
 
     /// Returns the range, widened at each end by `room` times its width.
     pub fn widened(self, room: f64) -> Span {
         let margin = room * self.width();
-        Span { low: self.low - margin, high: self.high + margin }
+        Span {
+            low: self.low - margin,
+            high: self.high + margin,
+        }
     }
 
     /// Returns the upper end minus the lower end.
@@ -81,20 +99,62 @@ mod tests {
 
     #[test]
     fn ranges_suit_their_values() {
-        let linear = |values: &[f64]| Span::of_values(AxisScale::Linear, values.iter().copied(), 6.0);
-        assert_eq!(linear(&[0.1, f64::NAN, 2.0]), Span { low: 0.0, high: 2.0 });
-        assert_eq!(linear(&[1.0, 2.0]), Span { low: 1.0, high: 2.0 });
-        let decades = |values: &[f64]| Span::of_values(AxisScale::Logarithmic, values.iter().copied(), 6.0);
-        assert_eq!(decades(&[0.0, -1.0, 1e-2, 1.0]), Span { low: -2.0, high: 0.0 });
+        let linear =
+            |values: &[f64]| Span::of_values(AxisScale::Linear, values.iter().copied(), 6.0);
+        assert_eq!(
+            linear(&[0.1, f64::NAN, 2.0]),
+            Span {
+                low: 0.0,
+                high: 2.0
+            }
+        );
+        assert_eq!(
+            linear(&[1.0, 2.0]),
+            Span {
+                low: 1.0,
+                high: 2.0
+            }
+        );
+        let decades =
+            |values: &[f64]| Span::of_values(AxisScale::Logarithmic, values.iter().copied(), 6.0);
+        assert_eq!(
+            decades(&[0.0, -1.0, 1e-2, 1.0]),
+            Span {
+                low: -2.0,
+                high: 0.0
+            }
+        );
         assert_eq!(decades(&[1e-20, 1.0]).low, -6.0);
         let rounded = linear(&[2.0, 2.0 + 1e-9]);
-        assert!((rounded.low - 1.8).abs() < 1e-6 && (rounded.high - 2.2).abs() < 1e-6, "{rounded:?}");
+        assert!(
+            (rounded.low - 1.8).abs() < 1e-6 && (rounded.high - 2.2).abs() < 1e-6,
+            "{rounded:?}"
+        );
         for none in [&[][..], &[0.0], &[3.0, 3.0], &[-1.0], &[f64::INFINITY]] {
-            for span in [linear(none), decades(none), Span::around(none.iter().copied(), 0.1)] {
-                assert!(span.width() > 0.0 && span.width().is_finite(), "{none:?} {span:?}");
+            for span in [
+                linear(none),
+                decades(none),
+                Span::around(none.iter().copied(), 0.1),
+            ] {
+                assert!(
+                    span.width() > 0.0 && span.width().is_finite(),
+                    "{none:?} {span:?}"
+                );
             }
         }
-        assert_eq!(Span::decades([0.3, 1.2].into_iter()), Span { low: 0.0, high: 2.0 });
-        assert_eq!(Span::around([1.0, 3.0].into_iter(), 0.5), Span { low: 0.0, high: 4.0 });
+        assert_eq!(
+            Span::decades([0.3, 1.2].into_iter()),
+            Span {
+                low: 0.0,
+                high: 2.0
+            }
+        );
+        assert_eq!(
+            Span::around([1.0, 3.0].into_iter(), 0.5),
+            Span {
+                low: 0.0,
+                high: 4.0
+            }
+        );
     }
 }

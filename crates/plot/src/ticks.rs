@@ -28,13 +28,19 @@ pub(super) fn ticks(
         return Vec::new();
     }
     let (factor, shift, mut ticks) = match scale {
-        AxisScale::Linear => (divisor, 0.0, linear(low / divisor, high / divisor, most, least / divisor)),
+        AxisScale::Linear => (
+            divisor,
+            0.0,
+            linear(low / divisor, high / divisor, most, least / divisor),
+        ),
         AxisScale::Logarithmic => {
             let shift = divisor.log10();
             (1.0, shift, logarithmic(low - shift, high - shift, most))
         }
     };
-    ticks.iter_mut().for_each(|tick| tick.at = tick.at * factor + shift);
+    ticks
+        .iter_mut()
+        .for_each(|tick| tick.at = tick.at * factor + shift);
     ticks
 }
 
@@ -65,12 +71,18 @@ fn linear(low: f64, high: f64, most: usize, least: f64) -> Vec<Tick> {
     };
     let small = step / between as f64;
     let hair = 1e-6 * step;
-    let (first, last) = (((low - hair) / small).ceil() as i64, ((high + hair) / small).floor() as i64);
+    let (first, last) = (
+        ((low - hair) / small).ceil() as i64,
+        ((high + hair) / small).floor() as i64,
+    );
     (first..=last)
         .map(|index| {
             let at = index as f64 * small;
             let large = index.rem_euclid(between as i64) == 0;
-            Tick { at, label: large.then(|| Label::plain(&number(at, step))) }
+            Tick {
+                at,
+                label: large.then(|| Label::plain(&number(at, step))),
+            }
         })
         .collect()
 }
@@ -79,7 +91,10 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let hair = 1e-9;
     let decades = (low - hair).floor() as i32..=(high + hair).ceil() as i32;
     let inside = |at: f64| (low - hair..=high + hair).contains(&at);
-    let whole = decades.clone().filter(|decade| inside(f64::from(*decade))).count();
+    let whole = decades
+        .clone()
+        .filter(|decade| inside(f64::from(*decade)))
+        .count();
     // With fewer than three decades 2 and 5 are labelled as well.
     let labelled: &[i32] = match whole {
         0..=1 if high - low < 0.7 => &[1, 2, 3, 4, 5, 6, 7, 8, 9],
@@ -98,18 +113,30 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
             let shown = labelled.contains(&digit) && decade.rem_euclid(every) == 0;
             let label = || match (powers, digit) {
                 (true, 1) => Label::power_of_ten(decade),
-                (true, digit) => Label::plain(&format!("{digit}·")).join(&Label::power_of_ten(decade)),
-                (false, digit) => {
-                    Label::plain(&number(f64::from(digit) * 10_f64.powi(decade), 10_f64.powi(decade)))
+                (true, digit) => {
+                    Label::plain(&format!("{digit}·")).join(&Label::power_of_ten(decade))
                 }
+                (false, digit) => Label::plain(&number(
+                    f64::from(digit) * 10_f64.powi(decade),
+                    10_f64.powi(decade),
+                )),
             };
-            ticks.push(Tick { at, label: shown.then(label) });
+            ticks.push(Tick {
+                at,
+                label: shown.then(label),
+            });
         }
     }
     // A range of less than a factor of two may contain no round number.
     if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
         let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most, 0.0);
-        return numbers.into_iter().map(|tick| Tick { at: tick.at.log10(), ..tick }).collect();
+        return numbers
+            .into_iter()
+            .map(|tick| Tick {
+                at: tick.at.log10(),
+                ..tick
+            })
+            .collect();
     }
     ticks
 }
@@ -120,19 +147,40 @@ mod tests {
 
     fn labels(scale: AxisScale, (low, high): (f64, f64), divisor: f64) -> Vec<String> {
         let ticks = ticks(scale, Span { low, high }, divisor, 6, 0.0).into_iter();
-        ticks.filter_map(|tick| Some(tick.label?.to_string())).collect()
+        ticks
+            .filter_map(|tick| Some(tick.label?.to_string()))
+            .collect()
     }
 
     #[test]
     fn ticks_are_round_numbers() {
         use AxisScale::{Linear, Logarithmic};
-        assert_eq!(labels(Linear, (0.1, 0.9), 1.0), ["0.2", "0.4", "0.6", "0.8"]);
-        assert_eq!(labels(Linear, (0.0, 2.5e-5), 1e-6), ["0", "5", "10", "15", "20", "25"]);
-        assert_eq!(labels(Logarithmic, (-0.5, 1.0), 1.0), ["0.5", "1", "2", "5", "10"]);
-        assert_eq!(labels(Logarithmic, (-3.0, 1.0), 1.0), ["0.001", "0.01", "0.1", "1", "10"]);
+        assert_eq!(
+            labels(Linear, (0.1, 0.9), 1.0),
+            ["0.2", "0.4", "0.6", "0.8"]
+        );
+        assert_eq!(
+            labels(Linear, (0.0, 2.5e-5), 1e-6),
+            ["0", "5", "10", "15", "20", "25"]
+        );
+        assert_eq!(
+            labels(Logarithmic, (-0.5, 1.0), 1.0),
+            ["0.5", "1", "2", "5", "10"]
+        );
+        assert_eq!(
+            labels(Logarithmic, (-3.0, 1.0), 1.0),
+            ["0.001", "0.01", "0.1", "1", "10"]
+        );
         assert_eq!(labels(Logarithmic, (0.3, 0.6), 1.0), ["2", "3"]);
-        assert_eq!(labels(Logarithmic, (0.0, 0.02), 1.0), ["1.00", "1.01", "1.02", "1.03", "1.04"]);
-        assert_eq!(labels(Logarithmic, (-9.0, -3.0), 1.0).len(), 3, "every other decade");
+        assert_eq!(
+            labels(Logarithmic, (0.0, 0.02), 1.0),
+            ["1.00", "1.01", "1.02", "1.03", "1.04"]
+        );
+        assert_eq!(
+            labels(Logarithmic, (-9.0, -3.0), 1.0).len(),
+            3,
+            "every other decade"
+        );
         assert_eq!(labels(Linear, (1.0, 1.0), 1.0), [""; 0]);
     }
 
@@ -142,8 +190,16 @@ mod tests {
             for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
                 let ticks = ticks(scale, Span { low, high }, 1.0, 6, 0.0);
                 let room = 1e-5 * (high - low) + 1e-8;
-                assert!(ticks.iter().all(|tick| (low - room..=high + room).contains(&tick.at)), "{ticks:?}");
-                assert!(ticks.iter().filter(|tick| tick.label.is_some()).count() <= 10, "{ticks:?}");
+                assert!(
+                    ticks
+                        .iter()
+                        .all(|tick| (low - room..=high + room).contains(&tick.at)),
+                    "{ticks:?}"
+                );
+                assert!(
+                    ticks.iter().filter(|tick| tick.label.is_some()).count() <= 10,
+                    "{ticks:?}"
+                );
             }
         }
     }

@@ -10,13 +10,22 @@ use std::cmp::Ordering;
 
 impl Report for Boundaries {
     fn text(&self) -> Option<String> {
-        let mut heading: Vec<String> = self.others.iter().map(|axis| axis.symbol_or_path()).collect();
+        let mut heading: Vec<String> = self
+            .others
+            .iter()
+            .map(|axis| axis.symbol_or_path())
+            .collect();
         heading.extend(["protocol", "level", self.symbol(), "95 %"].map(String::from));
         let mut rows = vec![heading];
         for boundary in &self.found {
-            let Crossing { value, side, interval } = boundary.crossing;
+            let Crossing {
+                value,
+                side,
+                interval,
+            } = boundary.crossing;
             let beyond = ["< ", "", "> "][(side as i8 + 1) as usize];
-            let interval = interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
+            let interval =
+                interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
             let mut row: Vec<String> = boundary.others.iter().map(ToString::to_string).collect();
             row.extend([
                 boundary.protocol_name().to_owned(),
@@ -29,8 +38,16 @@ impl Report for Boundaries {
         let mut sheet = Sheet::default();
         sheet.table(&rows);
         let is_kappa = self.over == RoughnessParameter::Kappa;
-        let paper = if is_kappa { "; the paper gives 0.6" } else { "" };
-        sheet.paragraph(&format!("{} over {} random profiles{paper}.", self.symbol(), self.lines));
+        let paper = if is_kappa {
+            "; the paper gives 0.6"
+        } else {
+            ""
+        };
+        sheet.paragraph(&format!(
+            "{} over {} random profiles{paper}.",
+            self.symbol(),
+            self.lines
+        ));
         Some(sheet.into_text())
     }
 
@@ -45,7 +62,11 @@ impl Report for Boundaries {
             }
             set("protocol", json!(boundary.protocol_name()));
             set("level", json!(boundary.level));
-            let Crossing { value, side, interval } = boundary.crossing;
+            let Crossing {
+                value,
+                side,
+                interval,
+            } = boundary.crossing;
             match side {
                 Ordering::Equal => {
                     set(self.over.name(), json!(value));
@@ -57,22 +78,34 @@ impl Report for Boundaries {
             Value::Object(object)
         };
         let found: Vec<Value> = self.found.iter().map(object).collect();
-        Some(Box::new(json!({ "lines": self.lines, "boundaries": found })))
+        Some(Box::new(
+            json!({ "lines": self.lines, "boundaries": found }),
+        ))
     }
 
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.found.iter());
         for (place, axis) in self.others.iter().enumerate() {
             table = match axis.is_whole() {
-                true => table.with(axis.symbol_or_path(), Kind::Whole, move |one| one.others[place] as u64),
-                false => table.with(axis.symbol_or_path(), Kind::Real, move |one| one.others[place]),
+                true => table.with(axis.symbol_or_path(), Kind::Whole, move |one| {
+                    one.others[place] as u64
+                }),
+                false => table.with(axis.symbol_or_path(), Kind::Real, move |one| {
+                    one.others[place]
+                }),
             };
         }
         table = table
-            .with("protocol", Kind::Text("zero force".len()), |one| one.protocol_name())
+            .with("protocol", Kind::Text("zero force".len()), |one| {
+                one.protocol_name()
+            })
             .real("level", |one| one.level);
-        table = table.real(self.over.name(), |one| one.crossing.known().map(|(value, _)| value));
-        let beyond = |one: &AdhesionBoundary, side| (one.crossing.side == side).then_some(one.crossing.value);
+        table = table.real(self.over.name(), |one| {
+            one.crossing.known().map(|(value, _)| value)
+        });
+        let beyond = |one: &AdhesionBoundary, side| {
+            (one.crossing.side == side).then_some(one.crossing.value)
+        };
         table = table
             .real("low", |one| Some(one.crossing.interval?.0))
             .real("high", |one| Some(one.crossing.interval?.1))

@@ -16,7 +16,10 @@ impl Report for [Verdict] {
             [
                 case.name.to_owned(),
                 edges.name().to_owned(),
-                verdict.error.as_ref().map_or_else(|_| "–".to_owned(), |&error| figure(error)),
+                verdict
+                    .error
+                    .as_ref()
+                    .map_or_else(|_| "–".to_owned(), |&error| figure(error)),
                 figure(bound),
                 if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
                 format!("{:.2} s", verdict.seconds),
@@ -26,9 +29,14 @@ impl Report for [Verdict] {
         sheet.heading("Claims");
         let mut sentences = Vec::new();
         for case in Case::all() {
-            if self.iter().any(|verdict| verdict.check.case.name == case.name) {
-                let evidence =
-                    format!("{} Evidence: {}; error of {}.", case.holds, case.evidence, case.error_of);
+            if self
+                .iter()
+                .any(|verdict| verdict.check.case.name == case.name)
+            {
+                let evidence = format!(
+                    "{} Evidence: {}; error of {}.",
+                    case.holds, case.evidence, case.error_of
+                );
                 sentences.push([case.name.to_owned(), evidence]);
             }
         }
@@ -40,7 +48,9 @@ impl Report for [Verdict] {
                 let Check { case, edges, bound } = verdict.check;
                 let name = format!("{} {}", case.name, edges.name());
                 let why = match &verdict.error {
-                    Ok(error) => format!("error {} above the bound {}", figure(*error), figure(bound)),
+                    Ok(error) => {
+                        format!("error {} above the bound {}", figure(*error), figure(bound))
+                    }
                     Err(fault) => fault.clone(),
                 };
                 [name, why]
@@ -74,13 +84,19 @@ impl Report for [Verdict] {
             }
         };
         let passes = self.iter().all(Verdict::passes);
-        Some(Box::new(object! { "passes": passes, "checks": self.iter().map(row).collect::<Vec<_>>() }))
+        Some(Box::new(
+            object! { "passes": passes, "checks": self.iter().map(row).collect::<Vec<_>>() },
+        ))
     }
 }
 
 /// Writes a bound or an error with two digits, which suffice for a comparison. Zero is exact.
 fn figure(value: f64) -> String {
-    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+    if value == 0.0 {
+        "0".to_owned()
+    } else {
+        format!("{value:.1e}")
+    }
 }
 
 #[cfg(test)]
@@ -93,21 +109,39 @@ mod tests {
     #[test]
     fn what_fails_is_shown_with_its_reason() {
         let named = |name: &str| Check::of(|case| case.name == name);
-        let [one, other] = named("flat-line")[..] else { panic!("not two kinds of edges") };
+        let [one, other] = named("flat-line")[..] else {
+            panic!("not two kinds of edges")
+        };
         let third = named("stepwise-solver")[0];
-        let verdict = |check, error| Verdict { check, error, seconds: 0.25 };
-        let verdicts =
-            [verdict(one, Ok(0.0)), verdict(other, Ok(3.0)), verdict(third, Err("another contact".into()))];
+        let verdict = |check, error| Verdict {
+            check,
+            error,
+            seconds: 0.25,
+        };
+        let verdicts = [
+            verdict(one, Ok(0.0)),
+            verdict(other, Ok(3.0)),
+            verdict(third, Err("another contact".into())),
+        ];
         let text = verdicts.text().unwrap();
         let row = |name: &str, edges: &str| {
-            text.lines().find(|line| line.starts_with(name) && line.contains(edges)).unwrap().to_owned()
+            text.lines()
+                .find(|line| line.starts_with(name) && line.contains(edges))
+                .unwrap()
+                .to_owned()
         };
-        assert!(row("flat-line", "Grid").contains(" 0 ") && row("flat-line", "Grid").contains("pass"));
         assert!(
-            row("flat-line", "SubCell").contains("3.0e0") && row("flat-line", "SubCell").contains("FAIL")
+            row("flat-line", "Grid").contains(" 0 ") && row("flat-line", "Grid").contains("pass")
+        );
+        assert!(
+            row("flat-line", "SubCell").contains("3.0e0")
+                && row("flat-line", "SubCell").contains("FAIL")
         );
         assert!(row("stepwise-solver", "FAIL").contains("–"), "{text}");
-        assert!(text.contains("error 3.0e0 above the bound") && text.contains("another contact"), "{text}");
+        assert!(
+            text.contains("error 3.0e0 above the bound") && text.contains("another contact"),
+            "{text}"
+        );
         assert!(text.contains("1 of 3 checks pass, in 0.8 s."), "{text}");
         let mut json = Vec::new();
         write(&mut json, &verdicts[..], Format::Json, "").unwrap();

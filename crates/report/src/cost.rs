@@ -39,7 +39,13 @@ impl<'a> CostReport<'a> {
         table: &'a CostTable,
         reference: Option<&'a Reference>,
     ) -> CostReport<'a> {
-        CostReport { title, scene, answer: table.answer(), table, reference }
+        CostReport {
+            title,
+            scene,
+            answer: table.answer(),
+            table,
+            reference,
+        }
     }
 }
 
@@ -48,11 +54,16 @@ impl Report for CostReport<'_> {
     fn text(&self) -> Option<String> {
         let table = self.table;
         let mut sheet = Sheet::default();
-        table.answer().iter().for_each(|sentence| sheet.paragraph(sentence));
+        table
+            .answer()
+            .iter()
+            .for_each(|sentence| sheet.paragraph(sentence));
         if let Some(model) = self.reference.and_then(model_sentence) {
             sheet.paragraph(&model);
         }
-        sheet.heading("Relative errors, with the observed order of convergence since the row before");
+        sheet.heading(
+            "Relative errors, with the observed order of convergence since the row before",
+        );
         sheet.paragraph(&counted_from(table));
         if table.is_over_loads(self.scene) {
             sheet.paragraph(
@@ -70,16 +81,21 @@ impl Report for CostReport<'_> {
             if knob == Knob::Step {
                 setting = "step";
                 let springs = grouped(rows.first().map_or(0, |row| row.springs));
-                heading +=
-                    &format!(", compared with the exact solver on the same {springs} springs, edges Grid");
+                heading += &format!(
+                    ", compared with the exact solver on the same {springs} springs, edges Grid"
+                );
             }
             sheet.heading(&heading);
             let [force, curve, energy, contact] = ERRORS;
-            let mut lines = vec![[setting, "time", force, curve, energy, contact].map(String::from)];
+            let mut lines =
+                vec![[setting, "time", force, curve, energy, contact].map(String::from)];
             lines.extend(rows.iter().map(|row| cells(row)));
             sheet.table(&lines);
         }
-        let (spent, budget) = (format_rounded(table.spent, 3, "s"), format_rounded(table.budget, 3, "s"));
+        let (spent, budget) = (
+            format_rounded(table.spent, 3, "s"),
+            format_rounded(table.budget, 3, "s"),
+        );
         sheet.heading(&format!(
             "A time is the shortest of several whole runs from the scene to the curve; an FFT of 2^20 real numbers takes \
              {} here. All measurements together took {spent} of {budget}.",
@@ -87,7 +103,10 @@ impl Report for CostReport<'_> {
         ));
         if !table.left_out.is_empty() {
             sheet.heading(&format!("Left out, as {budget} was too short for them:"));
-            table.left_out.iter().for_each(|what| sheet.paragraph(&format!("- {what}")));
+            table
+                .left_out
+                .iter()
+                .for_each(|what| sheet.paragraph(&format!("- {what}")));
         }
         Some(sheet.into_text())
     }
@@ -99,20 +118,32 @@ impl Report for CostReport<'_> {
     /// Returns a table with a row for each setting. A row has computing times in s and relative errors.
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.table.rows.iter())
-            .with("knob", Kind::Text("sub-cell-springs".len()), |row| <&str>::from(row.knob))
+            .with("knob", Kind::Text("sub-cell-springs".len()), |row| {
+                <&str>::from(row.knob)
+            })
             .real("setting", |row| row.setting)
             .whole("springs", |row| row.springs)
-            .real("minimum_seconds", |row| row.seconds.map(|time| time.minimum))
+            .real("minimum_seconds", |row| {
+                row.seconds.map(|time| time.minimum)
+            })
             .real("median_seconds", |row| row.seconds.map(|time| time.median))
             .real("transforms", |row| row.transforms);
         for (index, name) in CostTable::QUANTITIES.into_iter().enumerate() {
             let error = move |row: &&Row| row.errors[index];
             table = table
-                .with(format!("{name}_error"), Kind::Real, move |row| error(row).map(|one| one.error))
-                .with(format!("{name}_resolved"), Kind::Text("false".len()), move |row| {
-                    error(row).map_or("", |one| if one.resolved { "true" } else { "false" })
+                .with(format!("{name}_error"), Kind::Real, move |row| {
+                    error(row).map(|one| one.error)
                 })
-                .with(format!("{name}_order"), Kind::Real, move |row| error(row).and_then(|one| one.order));
+                .with(
+                    format!("{name}_resolved"),
+                    Kind::Text("false".len()),
+                    move |row| {
+                        error(row).map_or("", |one| if one.resolved { "true" } else { "false" })
+                    },
+                )
+                .with(format!("{name}_order"), Kind::Real, move |row| {
+                    error(row).and_then(|one| one.order)
+                });
         }
         Some(table.done())
     }
@@ -124,19 +155,33 @@ impl Report for CostReport<'_> {
 
 fn counted_from(table: &CostTable) -> String {
     let reference = &table.reference;
-    let finest = format!("the solution with {} springs and edges SubCell", grouped(reference.springs));
+    let finest = format!(
+        "the solution with {} springs and edges SubCell",
+        grouped(reference.springs)
+    );
     let from = match reference.adhesion_force {
         Some(force) if reference.closed_form => {
-            format!("the closed form of the adhesion force, {}, and {finest}", format_quantity(force, "N"))
+            format!(
+                "the closed form of the adhesion force, {}, and {finest}",
+                format_quantity(force, "N")
+            )
         }
         _ => finest,
     };
-    let own = reference.errors.into_iter().zip(ERRORS).filter_map(|(error, name)| {
-        let error = error.filter(|_| !(reference.closed_form && name == ERRORS[0]))?;
-        Some(format!("{name} {error:.0e}"))
-    });
+    let own = reference
+        .errors
+        .into_iter()
+        .zip(ERRORS)
+        .filter_map(|(error, name)| {
+            let error = error.filter(|_| !(reference.closed_form && name == ERRORS[0]))?;
+            Some(format!("{name} {error:.0e}"))
+        });
     let own: Vec<_> = own.collect();
-    let own = if own.is_empty() { "none is known".into() } else { own.join(", ") };
+    let own = if own.is_empty() {
+        "none is known".into()
+    } else {
+        own.join(", ")
+    };
     format!(
         "Counted from {from}. Its own errors, estimated from the last refinements: {own}. An error below that \
          is shown as < that error."
@@ -148,8 +193,12 @@ fn cells(row: &Row) -> [String; 6] {
         Knob::Step => format_quantity(row.setting, "m"),
         _ => grouped(row.setting as u64),
     };
-    let time = row.seconds.map_or_else(String::new, |time| format_rounded(time.minimum, 3, "s"));
-    let [force, curve, energy, contact] = row.errors.map(|error| error.map_or_else(String::new, error_cell));
+    let time = row
+        .seconds
+        .map_or_else(String::new, |time| format_rounded(time.minimum, 3, "s"));
+    let [force, curve, energy, contact] = row
+        .errors
+        .map(|error| error.map_or_else(String::new, error_cell));
     [setting, time, force, curve, energy, contact]
 }
 

@@ -25,7 +25,11 @@ pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     match count {
         1 => format!("One random profile, seed {first}"),
         _ => {
-            format!("{} random profiles, seeds {first} to {}", grouped(count), first.wrapping_add(count - 1))
+            format!(
+                "{} random profiles, seeds {first} to {}",
+                grouped(count),
+                first.wrapping_add(count - 1)
+            )
         }
     }
 }
@@ -40,15 +44,31 @@ pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
 
 /// Adds the main numbers of a scene: median, quartiles and range over its random profiles, and the regimes of the profiles.
 pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
-    sheet.heading(&profiles_named(ensemble.profiles(), ensemble.results().plan().seed));
+    sheet.heading(&profiles_named(
+        ensemble.profiles(),
+        ensemble.results().plan().seed,
+    ));
     let mut rows = vec![["", "median", "quartiles", "range", "profiles"].map(String::from)];
     for (name, quantity) in NAMES.iter().zip(Ensemble::NUMBERS) {
-        let Some(all) = ensemble.statistics(quantity) else { continue };
-        let Statistics { quartiles: [lower, median, upper], range, count, .. } = all;
+        let Some(all) = ensemble.statistics(quantity) else {
+            continue;
+        };
+        let Statistics {
+            quartiles: [lower, median, upper],
+            range,
+            count,
+            ..
+        } = all;
         let shown = |value, digits| rounded(quantity, value, digits);
         let ends = |(low, high)| one_unit([low, high].map(|end| shown(end, 2)));
         let median = shown(median, 3);
-        rows.push([(*name).to_owned(), median, ends((lower, upper)), ends(range), grouped(count as u64)]);
+        rows.push([
+            (*name).to_owned(),
+            median,
+            ends((lower, upper)),
+            ends(range),
+            grouped(count as u64),
+        ]);
     }
     if rows.len() > 1 {
         sheet.table(&rows);
@@ -59,13 +79,19 @@ pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     }
     let failed = ensemble.failed().count();
     if let Some((seed, reason)) = ensemble.failed().next() {
-        sheet.paragraph(&format!("{failed} of them cannot follow the loading: seed {seed}: {reason}."));
+        sheet.paragraph(&format!(
+            "{failed} of them cannot follow the loading: seed {seed}: {reason}."
+        ));
     }
 }
 
 /// Returns the numbers of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
 fn regimes_in_words(counts: RegimeCounts) -> String {
-    counts.present().map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
+    counts
+        .present()
+        .map(|(name, count)| format!("{name} {count}"))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Returns median and quartiles of the adhesion force over random profiles, as a caption; `None` without an adhesion force.
@@ -76,8 +102,9 @@ pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
     let median = format_rounded(median, 3, force.unit());
     let quartiles = format_range((lower, upper), 2, force.unit());
     let (profiles, seed) = (grouped(ensemble.profiles()), ensemble.results().plan().seed);
-    let text =
-        format!(": median {median} of {profiles} random profiles, quartiles {quartiles}; curve: seed {seed}");
+    let text = format!(
+        ": median {median} of {profiles} random profiles, quartiles {quartiles}; curve: seed {seed}"
+    );
     Some(Label::symbol(force.symbol()).then(&text))
 }
 
@@ -128,7 +155,9 @@ impl Report for Ensemble {
             let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
             let regime = |line| results.regime(0, line, *quantity);
             table = match quantity.is_regime() {
-                true => table.with(name, text, move |line| regime(*line).map_or("", Regime::name)),
+                true => table.with(name, text, move |line| {
+                    regime(*line).map_or("", Regime::name)
+                }),
                 false => table.real(name, |line| results.value(0, *line, *quantity)),
             };
         }
@@ -140,9 +169,13 @@ impl Report for Ensemble {
 /// study, on each random profile.
 impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let Plan { scene, axes, lines, .. } = self.plan();
+        let Plan {
+            scene, axes, lines, ..
+        } = self.plan();
         let axes: BTreeMap<_, _> = axes.iter().map(|axis| (&axis.path, &axis.values)).collect();
-        Some(Box::new(object! { "scene": scene, "axes": axes, "profiles": lines, "records": self.table() }))
+        Some(Box::new(
+            object! { "scene": scene, "axes": axes, "profiles": lines, "records": self.table() },
+        ))
     }
 
     fn table(&self) -> Option<Table<'_>> {

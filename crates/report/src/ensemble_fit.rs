@@ -28,7 +28,11 @@ pub struct EnsembleFitReport<'a> {
 
 impl Report for EnsembleFitReport<'_> {
     fn text(&self) -> Option<String> {
-        let EnsembleFitReport { title, fit, has_roughness_errors } = *self;
+        let EnsembleFitReport {
+            title,
+            fit,
+            has_roughness_errors,
+        } = *self;
         let mut sheet = Sheet::default();
         if let Some(text) = self.not_described() {
             sheet.paragraph(&text);
@@ -39,9 +43,20 @@ impl Report for EnsembleFitReport<'_> {
         sheet.heading(&format!("Many random profiles of {title}"));
         fit.instrument.iter().for_each(|text| sheet.paragraph(text));
         let number = fit.curves.len();
-        let curves = if number == 1 { "1 curve".to_owned() } else { format!("{number} curves") };
-        let spectrum = if has_roughness_errors { "this roughness" } else { "exactly this roughness" };
-        let profiles = format!("from {curves} and {} random profiles of {spectrum}", grouped(fit.lines));
+        let curves = if number == 1 {
+            "1 curve".to_owned()
+        } else {
+            format!("{number} curves")
+        };
+        let spectrum = if has_roughness_errors {
+            "this roughness"
+        } else {
+            "exactly this roughness"
+        };
+        let profiles = format!(
+            "from {curves} and {} random profiles of {spectrum}",
+            grouped(fit.lines)
+        );
         sheet.paragraph(&match fit.work_at_most {
             Some(most) => format!(
                 "γ is at most {} (95 %), {profiles}: curves without adhesion do not differ from these.",
@@ -71,17 +86,28 @@ impl Report for EnsembleFitReport<'_> {
             format!("{} by the number of profiles", share(fit.shares.profiles)),
         ];
         if has_roughness_errors {
-            parts.push(format!("{} by the errors of the roughness", share(fit.shares.roughness)));
+            parts.push(format!(
+                "{} by the errors of the roughness",
+                share(fit.shares.roughness)
+            ));
         }
         if fit.work_at_most.is_none() {
-            sheet.paragraph(&format!("The squared width of the interval of γ: {}.", parts.join(", ")));
+            sheet.paragraph(&format!(
+                "The squared width of the interval of γ: {}.",
+                parts.join(", ")
+            ));
         }
-        let prospects =
-            fit.prospects.iter().map(|of| format!("{} curves ± {}", of.curves, per_cent(of.half_width)));
+        let prospects = fit
+            .prospects
+            .iter()
+            .map(|of| format!("{} curves ± {}", of.curves, per_cent(of.half_width)));
         let prospects: Vec<String> = prospects.collect();
         if !prospects.is_empty() {
             let profiles = grouped(fit.lines);
-            sheet.paragraph(&format!("With {profiles} profiles γ by {}.", prospects.join(", ")));
+            sheet.paragraph(&format!(
+                "With {profiles} profiles γ by {}.",
+                prospects.join(", ")
+            ));
         }
         if fit.at_end_of_table && fit.work_at_most.is_none() {
             sheet.paragraph(
@@ -102,14 +128,31 @@ impl Report for EnsembleFitReport<'_> {
         if !has_roughness_errors {
             let text = "The interval leaves out errors of the roughness";
             // Those of a measured roughness cannot be stated.
-            let options = fit.roughness.map_or("", |_| ": --height-error, --hurst-error state them");
+            let options = fit
+                .roughness
+                .map_or("", |_| ": --height-error, --hurst-error state them");
             sheet.paragraph(&format!("{text}{options}."));
         }
         sheet.heading("Each curve by itself");
-        let header = ["curve", "pull-off", "loop area", "stiffness", "γ", "95 % interval"];
+        let header = [
+            "curve",
+            "pull-off",
+            "loop area",
+            "stiffness",
+            "γ",
+            "95 % interval",
+        ];
         let rows = fit.curves.iter().map(row);
-        sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
-        let ends = fit.curves.iter().filter(|curve| curve.at_end_of_table).count();
+        sheet.table(
+            &std::iter::once(header.map(String::from))
+                .chain(rows)
+                .collect::<Vec<_>>(),
+        );
+        let ends = fit
+            .curves
+            .iter()
+            .filter(|curve| curve.at_end_of_table)
+            .count();
         if ends > 0 {
             let reach = if ends == 1 { "reaches" } else { "reach" };
             sheet.paragraph(&format!(
@@ -126,10 +169,17 @@ impl Report for EnsembleFitReport<'_> {
             } else {
                 ": the work of adhesion or the roughness may vary from place to place"
             };
-            sheet.paragraph(&format!("Scatter of the curves over scatter of the profiles: {ratio:.2}{why}."));
+            sheet.paragraph(&format!(
+                "Scatter of the curves over scatter of the profiles: {ratio:.2}{why}."
+            ));
         }
-        self.foreign().into_iter().for_each(|text| sheet.paragraph(&text));
-        sheet.paragraph(&format!("{} curves were computed. {INDEPENDENT}", grouped(fit.computed as u64)));
+        self.foreign()
+            .into_iter()
+            .for_each(|text| sheet.paragraph(&text));
+        sheet.paragraph(&format!(
+            "{} curves were computed. {INDEPENDENT}",
+            grouped(fit.computed as u64)
+        ));
         Some(sheet.into_text())
     }
 
@@ -139,15 +189,28 @@ impl Report for EnsembleFitReport<'_> {
 
     fn table(&self) -> Option<Table<'_>> {
         let curves = &self.fit.curves;
-        let names = curves.iter().map(|curve| curve.name.chars().count()).max()?;
-        let table = Table::of(|| curves.iter()).with("curve", Kind::Text(names), |curve| curve.name.clone());
+        let names = curves
+            .iter()
+            .map(|curve| curve.name.chars().count())
+            .max()?;
+        let table = Table::of(|| curves.iter())
+            .with("curve", Kind::Text(names), |curve| curve.name.clone());
         let table = table.real("preload", |curve| curve.preload);
-        let table = table.real("pull_off_force", |curve| curve.pull_off_force.unwrap_or(f64::NAN));
-        let table =
-            table.real("loop_area", |curve| curve.loop_area).real("stiffness", |curve| curve.stiffness);
-        let table = table.real("work", |curve| curve.work.value).real("work_low", |curve| curve.work.low);
+        let table = table.real("pull_off_force", |curve| {
+            curve.pull_off_force.unwrap_or(f64::NAN)
+        });
+        let table = table
+            .real("loop_area", |curve| curve.loop_area)
+            .real("stiffness", |curve| curve.stiffness);
+        let table = table
+            .real("work", |curve| curve.work.value)
+            .real("work_low", |curve| curve.work.low);
         let table = table.real("work_high", |curve| curve.work.high);
-        Some(table.whole("foreign", |curve| u64::from(curve.foreign)).done())
+        Some(
+            table
+                .whole("foreign", |curve| u64::from(curve.foreign))
+                .done(),
+        )
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -160,7 +223,11 @@ impl Report for EnsembleFitReport<'_> {
         };
         let IntervalEstimate { value, low, high } = fit.work;
         // The axis is logarithmic: an interval that begins at 0 is drawn from the lowest end of all curves.
-        let lowest = fit.curves.iter().map(|curve| curve.work.low).fold(value, f64::min);
+        let lowest = fit
+            .curves
+            .iter()
+            .map(|curve| curve.work.low)
+            .fold(value, f64::min);
         let low = if low > 0.0 { low } else { lowest };
         let band = Shape::Band([0.5, last + 0.5].map(|place| (place, low, high)).to_vec());
         let bars = places().map(|(place, curve)| {
@@ -169,33 +236,58 @@ impl Report for EnsembleFitReport<'_> {
         });
         let mut layers = vec![Layer::new("95 % interval of all".into(), Ink::Quiet, band)];
         layers.extend(bars);
-        layers.push(Layer::new("all curves".into(), Ink::Contact, Shape::Level(value)));
-        for (name, ink, is_foreign) in
-            [("one curve, 95 % interval", Ink::Text, false), ("foreign curve", Ink::Cursor, true)]
-        {
+        layers.push(Layer::new(
+            "all curves".into(),
+            Ink::Contact,
+            Shape::Level(value),
+        ));
+        for (name, ink, is_foreign) in [
+            ("one curve, 95 % interval", Ink::Text, false),
+            ("foreign curve", Ink::Cursor, true),
+        ] {
             let points = points(is_foreign);
             if !points.is_empty() {
-                layers.push(Layer::new(name.into(), ink, Shape::signs(points, Sign::Dot)));
+                layers.push(Layer::new(
+                    name.into(),
+                    ink,
+                    Shape::signs(points, Sign::Dot),
+                ));
             }
         }
-        let ends = fit.curves.iter().flat_map(|curve| [curve.work.low, curve.work.high]).chain([low, high]);
+        let ends = fit
+            .curves
+            .iter()
+            .flat_map(|curve| [curve.work.low, curve.work.high])
+            .chain([low, high]);
         let scale = AxisScale::Logarithmic;
         let span = Span::around(ends.map(|work| scale.coordinate(work)), 0.06);
         let x = ChartAxis::new(
             AxisScale::Linear,
-            Span { low: 0.5, high: last + 0.5 },
+            Span {
+                low: 0.5,
+                high: last + 0.5,
+            },
             "number of the curve",
             "",
             "1",
         );
         let y = ChartAxis::new(scale, span, "work of adhesion", "γ", "J/m²");
         let note = match fit.work_at_most {
-            Some(most) => format!("all curves: γ is at most {} (95 %)", format_rounded(most, 2, "J/m²")),
+            Some(most) => format!(
+                "all curves: γ is at most {} (95 %)",
+                format_rounded(most, 2, "J/m²")
+            ),
             None => format!("all curves: γ = {}", with_interval(&fit.work, "J/m²")),
         };
         let charts = vec![Chart::new(x, y, layers)];
         let notes = vec![Label::plain(&note)];
-        Some(Figure { title: title.to_owned(), notes, charts, size: Figure::SMALL, ..Figure::default() })
+        Some(Figure {
+            title: title.to_owned(),
+            notes,
+            charts,
+            size: Figure::SMALL,
+            ..Figure::default()
+        })
     }
 }
 
@@ -205,7 +297,10 @@ const INDEPENDENT: &str = "Each curve counts as a place with a profile of its ow
 /// Writes `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
 fn with_interval(of: &IntervalEstimate, unit: &str) -> String {
     let value = format_rounded(of.value, 3, unit);
-    format!("{value}, {} (95 %)", format_range((of.low, of.high), 3, unit))
+    format!(
+        "{value}, {} (95 %)",
+        format_range((of.low, of.high), 3, unit)
+    )
 }
 
 fn row(curve: &CurveOfEnsemble) -> [String; 6] {
@@ -213,11 +308,16 @@ fn row(curve: &CurveOfEnsemble) -> [String; 6] {
     let mark = if curve.foreign { ", foreign" } else { "" };
     [
         curve.name.clone(),
-        curve.pull_off_force.map_or("-".to_owned(), |force| quantity(force, "N")),
+        curve
+            .pull_off_force
+            .map_or("-".to_owned(), |force| quantity(force, "N")),
         quantity(curve.loop_area, "J"),
         quantity(curve.stiffness, "N/m"),
         quantity(curve.work.value, "J/m²"),
-        format!("{}{mark}", format_range((curve.work.low, curve.work.high), 2, "J/m²")),
+        format!(
+            "{}{mark}",
+            format_range((curve.work.low, curve.work.high), 2, "J/m²")
+        ),
     ]
 }
 
@@ -225,7 +325,11 @@ impl EnsembleFitReport<'_> {
     fn not_described(&self) -> Option<String> {
         let deviating = self.fit.deviations.iter().filter(|one| one.deviates);
         let words = |one: &SummaryDeviation| {
-            let direction = if one.logarithm > 0.0 { "larger" } else { "smaller" };
+            let direction = if one.logarithm > 0.0 {
+                "larger"
+            } else {
+                "smaller"
+            };
             let factor = 100.0 * one.logarithm.abs().exp_m1();
             format!(
                 "{} {direction} by {factor:.0} % ({:.1} standard errors)",

@@ -14,13 +14,19 @@ pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&
     let in_contact = |point: &&CurvePoint| point.springs > 0;
     let smallest = branch.smallest(legs).map_or(*last, |(_, point)| point);
     let range = (last.indentation - first.indentation).abs();
-    let is_near = |other: &CurvePoint| (point.indentation - other.indentation).abs() <= NEAR * range;
+    let is_near =
+        |other: &CurvePoint| (point.indentation - other.indentation).abs() <= NEAR * range;
     match branch.direction {
         _ if range == 0.0 => None,
         Direction::Loading => Some(match point {
             CurvePoint { springs: 0, .. } => "approach",
             _ if is_near(last) => "turning point",
-            _ if stages.iter().flat_map(|stage| &stage.curve).find(in_contact).is_some_and(is_near) => {
+            _ if stages
+                .iter()
+                .flat_map(|stage| &stage.curve)
+                .find(in_contact)
+                .is_some_and(is_near) =>
+            {
                 "jump-in"
             }
             CurvePoint { force, .. } if force < 0.0 => "spreads under tension",
@@ -48,13 +54,18 @@ mod tests {
         if let Some(loading) = loading {
             document = document.set("loading", loading).unwrap();
         }
-        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap().history
+        Simulation::default()
+            .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+            .unwrap()
+            .history
     }
 
     /// Events along a branch in the order of their first occurrence; on a rough profile some recur.
     fn events(legs: &[LegRecord], branch: &Branch) -> Vec<&'static str> {
         let mut events = Vec::new();
-        let points = legs[branch.stages.clone()].iter().flat_map(|leg| &leg.curve);
+        let points = legs[branch.stages.clone()]
+            .iter()
+            .flat_map(|leg| &leg.curve);
         for event in points.filter_map(|&point| event(legs, branch, point)) {
             if !events.contains(&event) {
                 events.push(event);
@@ -68,14 +79,29 @@ mod tests {
         let cut = "[ToTouch, ToForce(1.0e-5), ToForce(5.0e-6), ToForce(-1.0e-5), ToSeparation]";
         for loading in [None, Some(cut)] {
             let legs = history("pressure-sensitive", loading).legs;
-            let [loading, unloading] = &Branch::all(&legs)[..] else { panic!("two branches") };
+            let [loading, unloading] = &Branch::all(&legs)[..] else {
+                panic!("two branches")
+            };
             assert_eq!(
                 events(&legs, loading),
-                ["approach", "jump-in", "spreads under tension", "contact spreads", "turning point"]
+                [
+                    "approach",
+                    "jump-in",
+                    "spreads under tension",
+                    "contact spreads",
+                    "turning point"
+                ]
             );
             assert_eq!(
                 events(&legs, unloading),
-                ["turning point", "contact shrinks", "under tension", "pull-off", "detachment", "separated"]
+                [
+                    "turning point",
+                    "contact shrinks",
+                    "under tension",
+                    "pull-off",
+                    "detachment",
+                    "separated"
+                ]
             );
         }
     }
@@ -86,7 +112,20 @@ mod tests {
         let unloading = Branch::last_unloading(&legs).unwrap();
         let smallest = legs[1].smallest;
         assert_eq!(event(&legs, &unloading, smallest), Some("pull-off"));
-        let still = [LegRecord { curve: vec![smallest; 2], ..legs[1].clone() }];
-        assert_eq!(event(&still, &Branch { stages: 0..1, ..unloading }, smallest), None);
+        let still = [LegRecord {
+            curve: vec![smallest; 2],
+            ..legs[1].clone()
+        }];
+        assert_eq!(
+            event(
+                &still,
+                &Branch {
+                    stages: 0..1,
+                    ..unloading
+                },
+                smallest
+            ),
+            None
+        );
     }
 }

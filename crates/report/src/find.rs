@@ -34,9 +34,17 @@ pub struct FindReport<'a> {
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
     let count = found.answers.len();
-    let (name, quantity) = (question.axis.symbol_or_name(), question.quantity.symbol_or_name());
-    let (target, searched) = (target_in_words(found), format_range(question.searched, 4, question.axis.unit));
-    let reachable = found.reachable().map_or_else(String::new, |ends| values_in_words(found, ends));
+    let (name, quantity) = (
+        question.axis.symbol_or_name(),
+        question.quantity.symbol_or_name(),
+    );
+    let (target, searched) = (
+        target_in_words(found),
+        format_range(question.searched, 4, question.axis.unit),
+    );
+    let reachable = found
+        .reachable()
+        .map_or_else(String::new, |ends| values_in_words(found, ends));
     let is_enough = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [true; 2];
     if question.seeks_least_preload() && found.answers.iter().all(is_enough) {
         let touch = at_touch_in_words(found);
@@ -53,9 +61,9 @@ pub fn found_in_words(found: &Found) -> String {
         );
     }
     let Some(median) = found.quantile(0.5) else {
-        let range = found
-            .range()
-            .map_or_else(String::new, |ends| format!(", at {}", format_range(ends, 3, question.axis.unit)));
+        let range = found.range().map_or_else(String::new, |ends| {
+            format!(", at {}", format_range(ends, 3, question.axis.unit))
+        });
         return format!(
             "{target} is reached on {with_value} of {count} profiles with {name} from {searched}{range}, which is too few \
              for a median: {quantity} is {reachable}."
@@ -73,7 +81,10 @@ pub fn found_in_words(found: &Found) -> String {
     }
     let mut beside = vec![quartiles_in_words(found)];
     if found.unreached() > 0 {
-        beside.push(format!("{} of {count} profiles without a value", found.unreached()));
+        beside.push(format!(
+            "{} of {count} profiles without a value",
+            found.unreached()
+        ));
     }
     let beside = beside.join("; ");
     let missed = missed_in_words(found).map_or_else(String::new, |missed| format!(" {missed}"));
@@ -103,28 +114,49 @@ fn quartiles_in_words(found: &Found) -> String {
 
 /// Returns words for a target without a crossing on any profile.
 fn never_in_words(found: &Found) -> &'static str {
-    let is_proven = found.answers.iter().all(|answer| answer.is_proven && !answer.may_miss);
-    if is_proven { "never reached" } else { "reached at none of the computed values" }
+    let is_proven = found
+        .answers
+        .iter()
+        .all(|answer| answer.is_proven && !answer.may_miss);
+    if is_proven {
+        "never reached"
+    } else {
+        "reached at none of the computed values"
+    }
 }
 
 /// Returns a sentence on the profiles on which a crossing may be missed; `None` without such a profile.
 fn missed_in_words(found: &Found) -> Option<String> {
-    let count = found.answers.iter().filter(|answer| answer.may_miss).count();
+    let count = found
+        .answers
+        .iter()
+        .filter(|answer| answer.may_miss)
+        .count();
     let all = found.answers.len();
     match (count, all) {
         (0, _) => None,
         (_, 1) => Some("Crossings may be missed.".to_owned()),
-        _ => Some(format!("On {count} of {all} profiles crossings may be missed.")),
+        _ => Some(format!(
+            "On {count} of {all} profiles crossings may be missed."
+        )),
     }
 }
 
 /// Returns words on the profiles that reach the target without a preload.
 fn at_touch_in_words(found: &Found) -> String {
-    match found.answers.iter().filter(|answer| answer.at_touch).count() {
+    match found
+        .answers
+        .iter()
+        .filter(|answer| answer.at_touch)
+        .count()
+    {
         0 => String::new(),
         touch if touch == found.answers.len() => ", and also turned at first touch".to_owned(),
         touch => {
-            format!(", and on {touch} of {} profiles also turned at first touch", found.answers.len())
+            format!(
+                ", and on {touch} of {} profiles also turned at first touch",
+                found.answers.len()
+            )
         }
     }
 }
@@ -132,7 +164,11 @@ fn at_touch_in_words(found: &Found) -> String {
 /// Returns the target in words: `F_a/F_a,max = 80 %`.
 fn target_in_words(found: &Found) -> String {
     let quantity = found.question.quantity;
-    format!("{} = {}", quantity.symbol_or_name(), rounded(quantity, found.question.target, 4))
+    format!(
+        "{} = {}",
+        quantity.symbol_or_name(),
+        rounded(quantity, found.question.target, 4)
+    )
 }
 
 /// Returns the range of possible values of the quantity in words.
@@ -156,9 +192,16 @@ fn computed_in_words(found: &Found) -> String {
     let (Some(least), Some(most)) = (tried.iter().min(), tried.iter().max()) else {
         return waves.to_owned();
     };
-    let count =
-        if least == most { grouped(*most) } else { format!("{} to {}", grouped(*least), grouped(*most)) };
-    let each = if found.answers.len() > 1 { " on each profile" } else { "" };
+    let count = if least == most {
+        grouped(*most)
+    } else {
+        format!("{} to {}", grouped(*least), grouped(*most))
+    };
+    let each = if found.answers.len() > 1 {
+        " on each profile"
+    } else {
+        ""
+    };
     format!(", computed at {count} values{each}{waves}")
 }
 
@@ -166,7 +209,10 @@ impl FindReport<'_> {
     /// Returns sentences on the profiles whose answer is not a single number.
     fn exceptions(&self) -> Vec<String> {
         let (found, question) = (self.found, &self.found.question);
-        let (name, quantity) = (question.axis.symbol_or_name(), question.quantity.symbol_or_name());
+        let (name, quantity) = (
+            question.axis.symbol_or_name(),
+            question.quantity.symbol_or_name(),
+        );
         let all = found.answers.len();
         let of_profiles = |is: &dyn Fn(&Answer) -> bool| {
             let count = found.answers.iter().filter(|answer| is(answer)).count();
@@ -187,14 +233,24 @@ impl FindReport<'_> {
             sentences.extend(touch.map(|on| format!("{on} first touch is enough.")));
         } else {
             let larger = of_profiles(&|answer| is_free(answer) && answer.reached == [true; 2]);
-            sentences
-                .extend(larger.map(|on| format!("{on} {quantity} is larger at any {name} of the range.")));
+            sentences.extend(
+                larger.map(|on| format!("{on} {quantity} is larger at any {name} of the range.")),
+            );
         }
         let never = |answer: &Answer| is_free(answer) && answer.reached == [false; 2];
-        let most = found.answers.iter().filter(|answer| never(answer)).filter_map(|answer| answer.reachable);
-        if let (Some(on), Some(most)) = (of_profiles(&never), most.map(|ends| ends.1).reduce(f64::max)) {
+        let most = found
+            .answers
+            .iter()
+            .filter(|answer| never(answer))
+            .filter_map(|answer| answer.reachable);
+        if let (Some(on), Some(most)) = (
+            of_profiles(&never),
+            most.map(|ends| ends.1).reduce(f64::max),
+        ) {
             let most = values_in_words(found, (most, most));
-            sentences.push(format!("{on} {quantity} never reaches that value: it is at most {most}."));
+            sentences.push(format!(
+                "{on} {quantity} never reaches that value: it is at most {most}."
+            ));
         }
         sentences
     }
@@ -202,13 +258,25 @@ impl FindReport<'_> {
     /// Returns rows of the profiles whose quantity crosses the target more than once, or falls below it again.
     fn several(&self) -> Vec<(String, String)> {
         let unit = self.found.question.axis.unit;
-        let several = self.found.answers.iter().filter(|answer| answer.crossings.len() > 1);
+        let several = self
+            .found
+            .answers
+            .iter()
+            .filter(|answer| answer.crossings.len() > 1);
         let row = |answer: &Answer| {
-            let numbers: Vec<String> =
-                answer.crossings.iter().map(|number| format_rounded(*number, 3, unit)).collect();
-            let at_least =
-                if answer.may_miss { format!("at least {}: ", numbers.len()) } else { String::new() };
-            let seed = answer.seed.map_or("this profile".to_owned(), |seed| format!("seed {seed}"));
+            let numbers: Vec<String> = answer
+                .crossings
+                .iter()
+                .map(|number| format_rounded(*number, 3, unit))
+                .collect();
+            let at_least = if answer.may_miss {
+                format!("at least {}: ", numbers.len())
+            } else {
+                String::new()
+            };
+            let seed = answer
+                .seed
+                .map_or("this profile".to_owned(), |seed| format!("seed {seed}"));
             (seed, format!("{at_least}{}", numbers.join(", ")))
         };
         several.map(row).collect()
@@ -222,17 +290,27 @@ impl Report for FindReport<'_> {
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         sheet.heading(&found_in_words(found));
-        self.exceptions().iter().for_each(|sentence| sheet.paragraph(sentence));
+        self.exceptions()
+            .iter()
+            .for_each(|sentence| sheet.paragraph(sentence));
         warnings_section(&mut sheet, self.warnings);
         let several = self.several();
         if !several.is_empty() {
             sheet.heading("Several crossings, of which the first counts");
-            several.iter().take(MOST_LISTED).for_each(|(seed, all)| sheet.row(seed, all));
+            several
+                .iter()
+                .take(MOST_LISTED)
+                .for_each(|(seed, all)| sheet.row(seed, all));
             let more = several.len().saturating_sub(MOST_LISTED);
-            sheet.row_of("and more", (more > 0).then(|| format!("{} profiles", grouped(more as u64))));
+            sheet.row_of(
+                "and more",
+                (more > 0).then(|| format!("{} profiles", grouped(more as u64))),
+            );
         }
-        let refused =
-            found.refused.as_ref().map(|why| format!(" Not all of these numbers are allowed: {why}."));
+        let refused = found
+            .refused
+            .as_ref()
+            .map(|why| format!(" Not all of these numbers are allowed: {why}."));
         let searched = format!(
             "Searched: {} from {}{}.",
             axis.name,
@@ -250,9 +328,16 @@ impl Report for FindReport<'_> {
         let others = if question.is_of_preload() {
             "The preload replaces the loading of the scene.".to_owned()
         } else {
-            others_stay(self.scene.adhesion.filter(|_| !axis.path.starts_with("adhesion.")))
+            others_stay(
+                self.scene
+                    .adhesion
+                    .filter(|_| !axis.path.starts_with("adhesion.")),
+            )
         };
-        sheet.heading(&format!("{searched}{} {others} {profiles}", refused.unwrap_or_default()));
+        sheet.heading(&format!(
+            "{searched}{} {others} {profiles}",
+            refused.unwrap_or_default()
+        ));
         Some(sheet.into_text())
     }
 
@@ -290,11 +375,20 @@ impl Report for FindReport<'_> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());
         let mut table = Table::of(rows);
-        if self.found.answers.iter().all(|answer| answer.seed.is_some()) {
+        if self
+            .found
+            .answers
+            .iter()
+            .all(|answer| answer.seed.is_some())
+        {
             table = table.whole("seed", |(answer, _)| answer.seed.unwrap_or_default());
         }
         let table = table
-            .with(self.found.question.axis.path.clone(), Kind::Real, |(_, value)| *value)
+            .with(
+                self.found.question.axis.path.clone(),
+                Kind::Real,
+                |(_, value)| *value,
+            )
             .whole("crossings", |(answer, _)| answer.crossings.len() as u64)
             .whole("at_least", |(answer, _)| u64::from(answer.may_miss))
             .real("least", |(answer, _)| answer.reachable.map(|ends| ends.0))

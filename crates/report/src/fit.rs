@@ -53,22 +53,40 @@ impl Report for FitReport<'_> {
             ));
         }
         sheet.heading(&format!("Curve {title}"));
-        curve.statements.iter().chain(&fit.assumptions).for_each(|sentence| sheet.paragraph(sentence));
+        curve
+            .statements
+            .iter()
+            .chain(&fit.assumptions)
+            .for_each(|sentence| sheet.paragraph(sentence));
         sheet.heading(&format!("Fit of {}", fit.document.title()));
-        let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
+        let quantity =
+            |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
         let header = ["", "value", "95 % interval", "standard error", "start"];
         let row = |one: &FittedParameter| {
             [
-                format!("{} {}", one.parameter.row().term, one.parameter.row().symbol),
+                format!(
+                    "{} {}",
+                    one.parameter.row().term,
+                    one.parameter.row().symbol
+                ),
                 one.text(one.value),
-                format!("{} to {}", one.text(one.interval.0), one.text(one.interval.1)),
+                format!(
+                    "{} to {}",
+                    one.text(one.interval.0),
+                    one.text(one.interval.1)
+                ),
                 quantity(one, one.noise_error),
                 quantity(one, one.start),
             ]
         };
         let rows = fit.parameters.iter().map(row);
-        sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
-        let [residual, noise] = [fit.residual, curve.noise].map(|force| format_quantity(force, "N"));
+        sheet.table(
+            &std::iter::once(header.map(String::from))
+                .chain(rows)
+                .collect::<Vec<_>>(),
+        );
+        let [residual, noise] =
+            [fit.residual, curve.noise].map(|force| format_quantity(force, "N"));
         sheet.heading(&format!(
             "Residual {residual}, {} times the noise of {noise}; {} of the points deviate by more than 5 times the noise. {} \
              curves were computed.",
@@ -93,15 +111,26 @@ impl Report for FitReport<'_> {
                 let work = format_quantity(work, "J/m²");
                 format!("; by itself, for any E* and k, it gives γ = F/(1.5πR) = {work}")
             });
-            sheet.paragraph(&format!("Pull-off force of the curve {}{work}.", format_quantity(force, "N")));
+            sheet.paragraph(&format!(
+                "Pull-off force of the curve {}{work}.",
+                format_quantity(force, "N")
+            ));
         }
         if let Some(number) = fit.tabor {
-            sheet.paragraph(&format!("Tabor number μ = {}.", format_quantity(number, "1")));
+            sheet.paragraph(&format!(
+                "Tabor number μ = {}.",
+                format_quantity(number, "1")
+            ));
         }
-        let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
+        let strongest = fit
+            .correlations
+            .iter()
+            .max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
         if let Some((one, other, value)) = strongest {
             let (one, other) = (one.row().symbol, other.row().symbol);
-            sheet.paragraph(&format!("Largest correlation: {one} and {other}, {value:.2}."));
+            sheet.paragraph(&format!(
+                "Largest correlation: {one} and {other}, {value:.2}."
+            ));
         }
         let is_bound = |pair: &&(Parameter, Parameter)| {
             fit.work_at_most.is_some() && **pair == (Parameter::Work, Parameter::Work)
@@ -133,16 +162,28 @@ impl Report for FitReport<'_> {
     fn table(&self) -> Option<Table<'_>> {
         let FitReport { curve, fit, .. } = *self;
         let (force, model) = (&curve.force, &fit.model);
-        let table = Table::of(|| 0..force.len()).real("displacement", |&point| curve.displacement[point]);
-        let table = table.real("force", |&point| force[point]).real("model", |&point| model[point]);
+        let table =
+            Table::of(|| 0..force.len()).real("displacement", |&point| curve.displacement[point]);
+        let table = table
+            .real("force", |&point| force[point])
+            .real("model", |&point| model[point]);
         let table = table.real("residual", |&point| force[point] - model[point]);
-        Some(table.whole("segment", |&point| curve.segment[point] as u64).done())
+        Some(
+            table
+                .whole("segment", |&point| curve.segment[point] as u64)
+                .done(),
+        )
     }
 
     fn figure(&self) -> Option<Figure> {
         let FitReport { title, curve, fit } = *self;
         let points = |force: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
-            curve.displacement.iter().enumerate().map(|(index, at)| (*at, force(index))).collect()
+            curve
+                .displacement
+                .iter()
+                .enumerate()
+                .map(|(index, at)| (*at, force(index)))
+                .collect()
         };
         let measured = points(&|index| curve.force[index]);
         let residuals = points(&|index| (curve.force[index] - fit.model[index]) / curve.noise);
@@ -151,23 +192,50 @@ impl Report for FitReport<'_> {
         let x = Span::around(measured.iter().map(|point| point.0), 0.03);
         let x = || ChartAxis::new(AxisScale::Linear, x, "displacement", "D", "m");
         let force = ChartAxis::new(AxisScale::Linear, span(&measured), "force", "F", "N");
-        let rest = ChartAxis::new(AxisScale::Linear, span(&residuals), "residual over noise", "", "1");
+        let rest = ChartAxis::new(
+            AxisScale::Linear,
+            span(&residuals),
+            "residual over noise",
+            "",
+            "1",
+        );
         let layers = vec![
-            Layer::new("measured".into(), Ink::Kept, Shape::signs(measured, Sign::Dot)),
-            Layer::new("model".into(), Ink::Contact, Shape::line(model, Stroke::Solid)),
+            Layer::new(
+                "measured".into(),
+                Ink::Kept,
+                Shape::signs(measured, Sign::Dot),
+            ),
+            Layer::new(
+                "model".into(),
+                Ink::Contact,
+                Shape::line(model, Stroke::Solid),
+            ),
         ];
         let rests = vec![
             Layer::unnamed(Ink::Quiet, Shape::Level(0.0)),
-            Layer::new("measured".into(), Ink::Kept, Shape::signs(residuals, Sign::Dot)),
+            Layer::new(
+                "measured".into(),
+                Ink::Kept,
+                Shape::signs(residuals, Sign::Dot),
+            ),
         ];
         let found = fit.parameters.iter().map(|one| {
             let [value, half] =
                 [one.value, 0.5 * (one.interval.1 - one.interval.0)].map(|value| one.text(value));
             format!("{} = {value} ± {half}", one.parameter.row().symbol).replace(' ', "\u{a0}")
         });
-        let notes = vec![Label::plain(&format!("95 % intervals: {}", found.collect::<Vec<_>>().join(", ")))];
+        let notes = vec![Label::plain(&format!(
+            "95 % intervals: {}",
+            found.collect::<Vec<_>>().join(", ")
+        ))];
         let charts = vec![Chart::new(x(), force, layers), Chart::new(x(), rest, rests)];
-        Some(Figure { title: title.to_owned(), notes, charts, size: Figure::SMALL, ..Figure::default() })
+        Some(Figure {
+            title: title.to_owned(),
+            notes,
+            charts,
+            size: Figure::SMALL,
+            ..Figure::default()
+        })
     }
 }
 
@@ -177,7 +245,10 @@ impl FitReport<'_> {
     pub(super) fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
         let radius = scene.form.as_ref()?.sphere_radius()?;
-        scene.roughness.is_none().then_some(force / (1.5 * PI * radius))
+        scene
+            .roughness
+            .is_none()
+            .then_some(force / (1.5 * PI * radius))
     }
 }
 

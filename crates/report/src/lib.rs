@@ -48,7 +48,8 @@ pub use measured_face::{MeasuredFace, SurfaceFile};
 pub use parameters::parameter_lines;
 pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 pub use provenance::{
-    check_measured_files, entries, files_provenance, named_from, scene_provenance, scenes_provenance,
+    check_measured_files, entries, files_provenance, named_from, scene_provenance,
+    scenes_provenance,
 };
 pub use reference::{ReferenceProgress, ReferenceReport, square_loops_words};
 pub use report::{Format, Json, Report, check_extension, write};

@@ -2,7 +2,9 @@
 
 use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
-use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
+use asperity_plot::{
+    Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
+};
 use asperity_scene::Outcome;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 
@@ -62,15 +64,23 @@ struct Quantity {
 
 impl Quantity {
     fn symbol_and_unit(&self) -> (String, &'static str) {
-        let Quantity { symbol, unit, over, .. } = *self;
-        over.map_or_else(|| (symbol.to_owned(), unit), |(_, over)| (format!("{symbol}/{over}"), "1"))
+        let Quantity {
+            symbol, unit, over, ..
+        } = *self;
+        over.map_or_else(
+            || (symbol.to_owned(), unit),
+            |(_, over)| (format!("{symbol}/{over}"), "1"),
+        )
     }
 }
 
 impl LoopUnits {
     /// Returns these quantities with axes in SI units.
     pub fn si(quantities: LoopQuantities) -> LoopUnits {
-        LoopUnits { quantities, ..LoopUnits::default() }
+        LoopUnits {
+            quantities,
+            ..LoopUnits::default()
+        }
     }
 
     /// Returns these quantities for a chart of a computed scene. If `normalised` is true, the indentation is in units of the rms
@@ -80,7 +90,12 @@ impl LoopUnits {
         LoopUnits {
             stiffness: outcome.instrument.map(|instrument| instrument.stiffness),
             quantities,
-            indentation: positive(outcome.governing.amplitude.map(|amplitude| amplitude.rms_height)),
+            indentation: positive(
+                outcome
+                    .governing
+                    .amplitude
+                    .map(|amplitude| amplitude.rms_height),
+            ),
             force: positive(outcome.ideal_adhesion_force),
             length: positive(Some(outcome.line.length)),
         }
@@ -89,20 +104,25 @@ impl LoopUnits {
     /// Returns the numbers on the horizontal and the vertical axis at a point of a force curve.
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
         let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
-        let [x, y] =
-            self.quantities().map(|one| (one.of)(point, stiffness) / one.over.map_or(1.0, |(over, _)| over));
+        let [x, y] = self
+            .quantities()
+            .map(|one| (one.of)(point, stiffness) / one.over.map_or(1.0, |(over, _)| over));
         (x, y)
     }
 
     /// Returns a force, given in N, as text in the unit of the chart.
     pub fn force_in_words(&self, force: f64) -> String {
-        self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
+        self.force.map_or_else(
+            || format_rounded(force, 3, "N"),
+            |unit| format_rounded(force / unit, 3, "1"),
+        )
     }
 
     /// Returns true if a chart of these quantities shows this kind of marked point. A chart of the force over the displacement of
     /// the instrument has no [`Mark::JumpIn`] and [`Mark::JumpOut`]; any other chart shows all kinds.
     pub fn shows(&self, mark: Mark) -> bool {
-        self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
+        self.quantities != LoopQuantities::ForceDisplacement
+            || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
 
     /// Returns the indentation in m at the number `x` on the horizontal axis; `None` if this axis shows another quantity.
@@ -116,7 +136,10 @@ impl LoopUnits {
 
     /// Returns true if the vertical axis is the force.
     pub fn shows_force(&self) -> bool {
-        matches!(self.quantities, LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement)
+        matches!(
+            self.quantities,
+            LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement
+        )
     }
 
     /// Returns the symbols of the horizontal and the vertical quantity: `d` and `F`, or `d/h` and `F/F_a,max`.
@@ -126,15 +149,45 @@ impl LoopUnits {
     }
 
     fn quantities(&self) -> [Quantity; 2] {
-        let one = |name, symbol, unit, over, of| Quantity { name, symbol, unit, over, of };
+        let one = |name, symbol, unit, over, of| Quantity {
+            name,
+            symbol,
+            unit,
+            over,
+            of,
+        };
         let over = |value: Option<f64>, symbol| value.map(|value| (value, symbol));
-        let indentation =
-            one("indentation", "d", "m", over(self.indentation, "h"), |point, _| point.indentation);
-        let displacement =
-            one("displacement", "D", "m", over(self.indentation, "h"), CurvePoint::displacement);
-        let force = one("force", "F", "N", over(self.force, "F_a,max"), |point, _| point.force);
-        let length = one("contact length", "l", "m", over(self.length, "L"), |point, _| point.contact_length);
-        let patches = one("contact patches", "n", "1", None, |point, _| point.fragments as f64);
+        let indentation = one(
+            "indentation",
+            "d",
+            "m",
+            over(self.indentation, "h"),
+            |point, _| point.indentation,
+        );
+        let displacement = one(
+            "displacement",
+            "D",
+            "m",
+            over(self.indentation, "h"),
+            CurvePoint::displacement,
+        );
+        let force = one(
+            "force",
+            "F",
+            "N",
+            over(self.force, "F_a,max"),
+            |point, _| point.force,
+        );
+        let length = one(
+            "contact length",
+            "l",
+            "m",
+            over(self.length, "L"),
+            |point, _| point.contact_length,
+        );
+        let patches = one("contact patches", "n", "1", None, |point, _| {
+            point.fragments as f64
+        });
         match self.quantities {
             LoopQuantities::ForceIndentation => [indentation, force],
             LoopQuantities::ForceDisplacement => [displacement, force],
@@ -152,7 +205,10 @@ impl LoopUnits {
         [(x, across), (Span { low, ..y }, up)].map(|(span, one)| {
             let (symbol, unit) = one.symbol_and_unit();
             let axis = ChartAxis::new(AxisScale::Linear, span, one.name, &symbol, unit);
-            ChartAxis { counts: one.symbol == "n", ..axis }
+            ChartAxis {
+                counts: one.symbol == "n",
+                ..axis
+            }
         })
     }
 }
@@ -184,29 +240,53 @@ type Places = Vec<(f64, f64)>;
 impl<'a> ForceLoop<'a> {
     /// Creates the loop of the loading stages of a history, with the marked points of the history and a rigid instrument.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
-        let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
-        ForceLoop { curves, marks: Mark::all(legs), ..ForceLoop::default() }
+        let curves = legs
+            .iter()
+            .map(|leg| (leg.direction, leg.curve.as_slice()))
+            .collect();
+        ForceLoop {
+            curves,
+            marks: Mark::all(legs),
+            ..ForceLoop::default()
+        }
     }
 
     /// Creates the loop of a computed scene, with the marked points of its history and the instrument of the scene.
     pub fn of_outcome(outcome: &'a Outcome) -> ForceLoop<'a> {
         let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
-        ForceLoop { stiffness, ..ForceLoop::new(&outcome.history.legs) }
+        ForceLoop {
+            stiffness,
+            ..ForceLoop::new(&outcome.history.legs)
+        }
     }
 
     /// Returns the lines of the curves with their directions, and true for a jump of the instrument.
     fn lines(&self, units: LoopUnits) -> Vec<(Direction, Places, bool)> {
-        let units = LoopUnits { stiffness: self.stiffness.or(units.stiffness), ..units };
+        let units = LoopUnits {
+            stiffness: self.stiffness.or(units.stiffness),
+            ..units
+        };
         let mut lines = Vec::new();
         for &(direction, curve) in &self.curves {
-            match self.stiffness.filter(|_| units.quantities == LoopQuantities::ForceDisplacement) {
-                None => {
-                    lines.push((direction, curve.iter().map(|point| units.place(point)).collect(), false))
-                }
+            match self
+                .stiffness
+                .filter(|_| units.quantities == LoopQuantities::ForceDisplacement)
+            {
+                None => lines.push((
+                    direction,
+                    curve.iter().map(|point| units.place(point)).collect(),
+                    false,
+                )),
                 Some(stiffness) => {
                     let curve = DisplacementCurve::new(direction, curve, stiffness);
-                    let place = |&DisplacementPoint { indentation, force, .. }: &DisplacementPoint| {
-                        units.place(&CurvePoint { indentation, force, ..CurvePoint::default() })
+                    let place = |&DisplacementPoint {
+                                     indentation, force, ..
+                                 }: &DisplacementPoint| {
+                        units.place(&CurvePoint {
+                            indentation,
+                            force,
+                            ..CurvePoint::default()
+                        })
                     };
                     let line = |part: &[DisplacementPoint], jumps| {
                         (direction, part.iter().map(place).collect(), jumps)
@@ -222,22 +302,43 @@ impl<'a> ForceLoop<'a> {
     fn layers(&self, units: LoopUnits) -> Vec<Layer> {
         let mut layers = Vec::new();
         // One sample in the legend is enough for a loop with a name.
-        let unloads = self.curves.iter().any(|(direction, _)| *direction == Direction::Unloading);
-        let named = if unloads { Direction::Unloading } else { Direction::Loading };
+        let unloads = self
+            .curves
+            .iter()
+            .any(|(direction, _)| *direction == Direction::Unloading);
+        let named = if unloads {
+            Direction::Unloading
+        } else {
+            Direction::Loading
+        };
         for (direction, name, ink, stroke) in [
             (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
-            (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),
+            (
+                Direction::Unloading,
+                "unloading",
+                Ink::Unloading,
+                Stroke::Solid,
+            ),
         ] {
             let name = match &self.name {
                 None => Label::plain(name),
                 Some(name) if direction == named => name.clone(),
                 Some(_) => Label::default(),
             };
-            let own = self.stroke.or(self.unloading.filter(|_| direction == Direction::Unloading));
+            let own = self
+                .stroke
+                .or(self.unloading.filter(|_| direction == Direction::Unloading));
             let (ink, stroke) = (self.ink.unwrap_or(ink), own.unwrap_or(stroke));
-            for (_, points, jumps) in self.lines(units).into_iter().filter(|line| line.0 == direction) {
-                let (name, stroke) =
-                    if jumps { (Label::default(), Stroke::Dashed) } else { (name.clone(), stroke) };
+            for (_, points, jumps) in self
+                .lines(units)
+                .into_iter()
+                .filter(|line| line.0 == direction)
+            {
+                let (name, stroke) = if jumps {
+                    (Label::default(), Stroke::Dashed)
+                } else {
+                    (name.clone(), stroke)
+                };
                 layers.push(Layer::new(name, ink, Shape::line(points, stroke)));
             }
         }
@@ -268,35 +369,59 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 /// Returns a figure with one chart of the force curves of computed scenes, which are given with their titles.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
-        return Figure::of_chart(title, loop_chart(&[ForceLoop::new(&outcome.history.legs)], units));
+        return Figure::of_chart(
+            title,
+            loop_chart(&[ForceLoop::new(&outcome.history.legs)], units),
+        );
     }
-    let loops = scenes.iter().enumerate().map(|(number, (title, outcome))| ForceLoop {
-        name: Some(Label::plain(title)),
-        ink: Some(Ink::Series(number)),
-        unloading: Some([Stroke::Solid, Stroke::Dashed, Stroke::DashDotted][number % 3]),
-        ..ForceLoop::new(&outcome.history.legs)
-    });
+    let loops = scenes
+        .iter()
+        .enumerate()
+        .map(|(number, (title, outcome))| ForceLoop {
+            name: Some(Label::plain(title)),
+            ink: Some(Ink::Series(number)),
+            unloading: Some([Stroke::Solid, Stroke::Dashed, Stroke::DashDotted][number % 3]),
+            ..ForceLoop::new(&outcome.history.legs)
+        });
     let loops: Vec<ForceLoop<'_>> = loops.collect();
     let mut chart = loop_chart(&loops, units);
     let is_marked = |mark: &Mark| {
-        units.shows(*mark) && loops.iter().flat_map(|one| &one.marks).any(|(other, _)| other == mark)
+        units.shows(*mark)
+            && loops
+                .iter()
+                .flat_map(|one| &one.marks)
+                .any(|(other, _)| other == mark)
     };
-    let signs = [Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut].into_iter().filter(is_marked);
+    let signs = [Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut]
+        .into_iter()
+        .filter(is_marked);
     let explained = signs.map(|mark| (mark.name(), Shape::signs(Vec::new(), sign(mark))));
     let loading = ("loading", Shape::line(Vec::new(), Stroke::Dotted));
     let explained = [loading].into_iter().chain(explained);
-    chart.layers.extend(explained.map(|(name, shape)| Layer::new(name.into(), Ink::Text, shape)));
+    chart
+        .layers
+        .extend(explained.map(|(name, shape)| Layer::new(name.into(), Ink::Text, shape)));
     Figure::of_chart("", chart)
 }
 
 /// Returns a figure with a chart for the force curve of each computed scene. The scenes are given with their titles.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let figure = |(title, outcome): &(&str, &Outcome)| {
-        let one = ForceLoop { without_forces: true, ..ForceLoop::new(&outcome.history.legs) };
-        let force = outcome.figures.adhesion_force.map(|force| value_label("", "F_a", "N", force));
+        let one = ForceLoop {
+            without_forces: true,
+            ..ForceLoop::new(&outcome.history.legs)
+        };
+        let force = outcome
+            .figures
+            .adhesion_force
+            .map(|force| value_label("", "F_a", "N", force));
         let chart = loop_chart(&[one], LoopUnits::default());
         let notes = force.into_iter().collect();
-        Figure { notes, size: Figure::SMALL, ..Figure::of_chart(title, chart) }
+        Figure {
+            notes,
+            size: Figure::SMALL,
+            ..Figure::of_chart(title, chart)
+        }
     };
     Figure::of_panels(scenes.iter().map(figure).collect())
 }
@@ -317,7 +442,9 @@ fn mark_name(mark: Mark, force: f64) -> Label {
         Mark::PullOff => ("F_a", -force),
         Mark::JumpIn | Mark::JumpOut => ("F", force),
     };
-    Label::plain(mark.name()).then(" ").join(&value_label("", symbol, "N", value))
+    Label::plain(mark.name())
+        .then(" ")
+        .join(&value_label("", symbol, "N", value))
 }
 
 #[cfg(test)]
@@ -330,24 +457,47 @@ mod tests {
         let document = open("jkr-sphere").unwrap();
         let outcome = asperity_scene::run(&document).unwrap();
         let figure = force_figure(&[("Rough <&>", &outcome)], LoopUnits::default());
-        let named: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
+        let named: Vec<String> = figure
+            .legend()
+            .iter()
+            .map(|entry| entry.name.to_string())
+            .collect();
         assert_eq!(named[..2], ["loading", "unloading"]);
-        assert!(named.iter().any(|name| name.starts_with("preload F_n = ")), "{named:?}");
+        assert!(
+            named.iter().any(|name| name.starts_with("preload F_n = ")),
+            "{named:?}"
+        );
         let figures = &outcome.figures;
         let point = |mark: Mark| {
-            let layer = figure.charts[0].layers.iter().find(|layer| match layer.shape {
-                Shape::Curve { sign: Some(one), stroke: None, .. } => one == sign(mark),
-                _ => false,
-            });
+            let layer = figure.charts[0]
+                .layers
+                .iter()
+                .find(|layer| match layer.shape {
+                    Shape::Curve {
+                        sign: Some(one),
+                        stroke: None,
+                        ..
+                    } => one == sign(mark),
+                    _ => false,
+                });
             match &layer.unwrap().shape {
                 Shape::Curve { points, .. } => points[0],
                 other => panic!("{other:?}"),
             }
         };
-        assert_eq!(point(Mark::Preload), (figures.preload_indentation.unwrap(), figures.preload.unwrap()));
+        assert_eq!(
+            point(Mark::Preload),
+            (
+                figures.preload_indentation.unwrap(),
+                figures.preload.unwrap()
+            )
+        );
         assert_eq!(
             point(Mark::PullOff),
-            (figures.pull_off_indentation.unwrap(), -figures.adhesion_force.unwrap())
+            (
+                figures.pull_off_indentation.unwrap(),
+                -figures.adhesion_force.unwrap()
+            )
         );
     }
 }

@@ -16,23 +16,30 @@ impl Report for Grid {
             let cells = self.cells.iter().enumerate();
             cells.filter_map(|(index, cell)| Some((index, cell.as_ref()?.as_ref().ok()?)))
         });
-        table = table.with(self.across.path.clone(), Kind::Real, move |(index, _): &(usize, &GridCell)| {
-            self.across.values[index % columns]
-        });
+        table = table.with(
+            self.across.path.clone(),
+            Kind::Real,
+            move |(index, _): &(usize, &GridCell)| self.across.values[index % columns],
+        );
         if let Some(up) = &self.up {
-            table = table.with(up.path.clone(), Kind::Real, move |(index, _)| up.values[index / columns]);
+            table = table.with(up.path.clone(), Kind::Real, move |(index, _)| {
+                up.values[index / columns]
+            });
         }
         table = table.whole("lines", |(_, cell)| cell.regimes[0].profiles() as u64);
         for of in Quantity::REGIMES {
-            table = table.with(of.name(), Kind::Text(Regime::LONGEST_NAME), move |(_, cell)| {
-                cell.regimes_of(of).most().map(|(regime, _)| regime.name())
-            });
+            table = table.with(
+                of.name(),
+                Kind::Text(Regime::LONGEST_NAME),
+                move |(_, cell)| cell.regimes_of(of).most().map(|(regime, _)| regime.name()),
+            );
         }
         for (place, layer) in self.layers.iter().enumerate() {
             for (ending, of) in Statistics::COLUMNS {
                 let name = format!("{}_{ending}", layer.quantity.name());
-                table = table
-                    .with(name, Kind::Real, move |(_, cell)| cell.statistics[place].as_ref().and_then(of));
+                table = table.with(name, Kind::Real, move |(_, cell)| {
+                    cell.statistics[place].as_ref().and_then(of)
+                });
             }
         }
         Some(table.done())

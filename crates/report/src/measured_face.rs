@@ -48,7 +48,11 @@ impl SurfaceFile {
             path,
             name: surface.name.clone(),
             format: surface.format,
-            lengths: points.iter().zip(spacing).map(|(count, distance)| *count as f64 * distance).collect(),
+            lengths: points
+                .iter()
+                .zip(spacing)
+                .map(|(count, distance)| *count as f64 * distance)
+                .collect(),
             cropped: surface.cropped.counts()[..points.len()].to_vec(),
             points,
             interpolated: surface.interpolated(),
@@ -58,34 +62,63 @@ impl SurfaceFile {
 
     /// Returns the name of the file, with the name of the measurement if the file contains several.
     fn name(&self) -> String {
-        let name = if self.name.is_empty() { String::new() } else { format!(" {:?}", printable(&self.name)) };
+        let name = if self.name.is_empty() {
+            String::new()
+        } else {
+            format!(" {:?}", printable(&self.name))
+        };
         path_name(&self.path) + &name
     }
 
     /// Returns these facts about the surface and its file in one line of text.
     pub fn describe(&self) -> String {
-        let counts: Vec<String> = self.points.iter().map(|count| grouped(*count as u64)).collect();
-        let lengths: Vec<String> = self.lengths.iter().map(|length| format_quantity(*length, "m")).collect();
+        let counts: Vec<String> = self
+            .points
+            .iter()
+            .map(|count| grouped(*count as u64))
+            .collect();
+        let lengths: Vec<String> = self
+            .lengths
+            .iter()
+            .map(|length| format_quantity(*length, "m"))
+            .collect();
         let kind = if counts.len() > 1 { "map" } else { "profile" };
-        let shape = format!("{kind} of {} points, {}", counts.join(" × "), lengths.join(" × "));
+        let shape = format!(
+            "{kind} of {} points, {}",
+            counts.join(" × "),
+            lengths.join(" × ")
+        );
         let points: usize = self.points.iter().product();
         let interpolated = match self.interpolated {
             0 => String::new(),
-            some => format!(", {:.2} % interpolated", 100.0 * some as f64 / points as f64),
+            some => format!(
+                ", {:.2} % interpolated",
+                100.0 * some as f64 / points as f64
+            ),
         };
         let cropped = match self.cropped[..] {
             [0] | [0, 0] => String::new(),
             [points] => format!(", {points} missing at its ends left out"),
             ref counts => {
-                let empty = counts.iter().zip(["column", "row"]).filter(|(count, _)| **count > 0);
+                let empty = counts
+                    .iter()
+                    .zip(["column", "row"])
+                    .filter(|(count, _)| **count > 0);
                 let counted = empty.map(|(count, name)| {
                     let plural = if *count == 1 { "" } else { "s" };
                     format!("{count} empty {name}{plural}")
                 });
-                format!(", without {} at its border", counted.collect::<Vec<_>>().join(" and "))
+                format!(
+                    ", without {} at its border",
+                    counted.collect::<Vec<_>>().join(" and ")
+                )
             }
         };
-        format!("{} ({}): {shape}{cropped}{interpolated}", self.name(), self.format)
+        format!(
+            "{} ({}): {shape}{cropped}{interpolated}",
+            self.name(),
+            self.format
+        )
     }
 }
 
@@ -114,12 +147,19 @@ impl MeasuredFace {
         let mut warnings = Vec::new();
         for file in &self.files {
             for property in &file.warnings {
-                warnings.push(Warning::MeasuredFile { file: file.name(), property: property.clone() });
+                warnings.push(Warning::MeasuredFile {
+                    file: file.name(),
+                    property: property.clone(),
+                });
             }
         }
         warnings.extend(Warning::of_gradient(analysis.line.rms_gradient.value, true));
         warnings.extend(self.far_apart());
-        warnings.extend(analysis.displaced.map(|distance| Warning::DisplacedRows { distance }));
+        warnings.extend(
+            analysis
+                .displaced
+                .map(|distance| Warning::DisplacedRows { distance }),
+        );
         warnings.extend(Warning::of_long_waves_of_scan(analysis.long_wave_share()));
         if analysis.maps == 0 {
             warnings.extend(Warning::of_measured_profiles(analysis.profiles));
@@ -131,9 +171,15 @@ impl MeasuredFace {
             warnings.push(Warning::OffsetRows);
         }
         if analysis.apart > 0.0 {
-            warnings.push(Warning::WavesApart { share: analysis.apart });
+            warnings.push(Warning::WavesApart {
+                share: analysis.apart,
+            });
         }
-        warnings.extend(analysis.reliability_cutoff.map(|wavelength| Warning::TipArtefacts { wavelength }));
+        warnings.extend(
+            analysis
+                .reliability_cutoff
+                .map(|wavelength| Warning::TipArtefacts { wavelength }),
+        );
         warnings
     }
 }
@@ -146,6 +192,9 @@ mod tests {
     fn warnings_promise_what_the_documentation_states() {
         let [low, high] = Warning::BOUNDARY_FACTORS;
         let stated = format!("within a factor of {low} to {high}");
-        assert!(include_str!("../../../docs/surface-estimate.md").contains(&stated), "{stated}");
+        assert!(
+            include_str!("../../../docs/surface-estimate.md").contains(&stated),
+            "{stated}"
+        );
     }
 }

@@ -12,12 +12,22 @@ pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
     let line = |name: &str, chosen: &mut dyn Iterator<Item = &Statement>| {
         let labels = chosen.map(|one| statement(one.field.name, one.field.symbol, &one.value));
         let line = labels.reduce(|line, label| line.then(", ").join(&label))?;
-        Some(if name.is_empty() { line } else { Label::plain(name).then(": ").join(&line) })
+        Some(if name.is_empty() {
+            line
+        } else {
+            Label::plain(name).then(": ").join(&line)
+        })
     };
-    let common = all.first().and_then(|first| line("", &mut first.iter().filter(|one| is_common(one))));
-    let named = scenes.iter().zip(&all).filter(|((name, _), _)| !name.is_empty());
-    let own =
-        named.filter_map(|((name, _), scene)| line(name, &mut scene.iter().filter(|one| !is_common(one))));
+    let common = all
+        .first()
+        .and_then(|first| line("", &mut first.iter().filter(|one| is_common(one))));
+    let named = scenes
+        .iter()
+        .zip(&all)
+        .filter(|((name, _), _)| !name.is_empty());
+    let own = named.filter_map(|((name, _), scene)| {
+        line(name, &mut scene.iter().filter(|one| !is_common(one)))
+    });
     common.into_iter().chain(own).collect()
 }
 
@@ -31,12 +41,21 @@ mod tests {
         let scene = |name: &str| Scene::clone(open(name).unwrap().scene());
         let [one, other] = ["ideal-adhesion", "non-adhesive"].map(scene);
         let lines = |names: [&str; 2]| -> Vec<String> {
-            let scenes = [(names[0].to_owned(), one.clone()), (names[1].to_owned(), other.clone())];
-            parameter_lines(&scenes).iter().map(ToString::to_string).collect()
+            let scenes = [
+                (names[0].to_owned(), one.clone()),
+                (names[1].to_owned(), other.clone()),
+            ];
+            parameter_lines(&scenes)
+                .iter()
+                .map(ToString::to_string)
+                .collect()
         };
         let common = "E = 2 MPa, ν = 0.5, L = 100 µm, H = 0.7, h = 200 nm, k = 4 to 512, seed 5, \
                       loading 20 µN, separation";
-        assert_eq!(lines(["a", "b"]), [common, "a: κ = 0.8, N = 16 384", "b: κ = 10, N = 32 768"]);
+        assert_eq!(
+            lines(["a", "b"]),
+            [common, "a: κ = 0.8, N = 16 384", "b: κ = 10, N = 32 768"]
+        );
         assert_eq!(lines(["", ""]), [common]);
     }
 }

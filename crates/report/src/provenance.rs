@@ -42,9 +42,17 @@ pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
 
 /// Returns two entries of a JSON object from lines of [`scene_provenance`]: `program` with the version, and `command`.
 pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
-    let command = provenance.lines().find_map(|line| line.strip_prefix(COMMAND));
-    let program = provenance.lines().next().map(|program| ("program", program));
-    program.into_iter().chain(command.map(|command| ("command", command))).collect()
+    let command = provenance
+        .lines()
+        .find_map(|line| line.strip_prefix(COMMAND));
+    let program = provenance
+        .lines()
+        .next()
+        .map(|program| ("program", program));
+    program
+        .into_iter()
+        .chain(command.map(|command| ("command", command)))
+        .collect()
 }
 
 /// Returns the first lines of a table without a scene: version, command, and measured files with their SHA-256. `destination` is
@@ -52,7 +60,11 @@ pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
 ///
 /// # Errors
 /// Returns an error if a file cannot be read.
-pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
+pub fn files_provenance(
+    command: &str,
+    files: &[PathBuf],
+    destination: &Path,
+) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     head(command, &names, Path::new(""), destination)
@@ -60,18 +72,32 @@ pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) ->
 
 /// Returns lines with the version, the measured files with the SHA-256 of their contents, and the command. The name of a
 /// file is a RON string, which is always on one line.
-fn head(command: &str, files: &[&str], folder: &Path, destination: &Path) -> Result<String, String> {
+fn head(
+    command: &str,
+    files: &[&str],
+    folder: &Path,
+    destination: &Path,
+) -> Result<String, String> {
     let mut hashes = String::new();
     for file in files {
         let sha256 = hash_of(&folder.join(file))?;
-        hashes += &format!("{HASH}{sha256} {:?}\n", named_from(file, folder, destination));
+        hashes += &format!(
+            "{HASH}{sha256} {:?}\n",
+            named_from(file, folder, destination)
+        );
     }
     Ok(version_and_command(command, &hashes))
 }
 
 fn version_and_command(command: &str, hashes: &str) -> String {
-    let (version, command) = (env!("CARGO_PKG_VERSION"), command.replace(['\n', '\r'], " "));
-    format!("asperity {version}\n{hashes}{COMMAND}{}\n", printable(&command))
+    let (version, command) = (
+        env!("CARGO_PKG_VERSION"),
+        command.replace(['\n', '\r'], " "),
+    );
+    format!(
+        "asperity {version}\n{hashes}{COMMAND}{}\n",
+        printable(&command)
+    )
 }
 
 /// Checks that the measured files of a scene are the same as when the table with this scene was written.
@@ -88,7 +114,8 @@ pub fn check_measured_files(document: &Document) -> Result<(), String> {
         let path = document.resolve(&file);
         let found = hash_of(&path)?;
         if found != expected {
-            let [found, expected] = [&found, expected].map(|hash| hash.chars().take(12).collect::<String>());
+            let [found, expected] =
+                [&found, expected].map(|hash| hash.chars().take(12).collect::<String>());
             let (file, table) = (path_name(&path), printable(document.name()));
             return Err(format!(
                 "{file}: the measured file has changed: its SHA-256 is {found}…, {table} has {expected}…; allowed: the \

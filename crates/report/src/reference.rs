@@ -33,8 +33,13 @@ pub struct ReferenceReport<'a> {
 
 /// Writes the ratio of both models with its interval: `0.84 ± 0.05`.
 fn ratio(of: &Compared) -> String {
-    let decimals =
-        |value: f64| if value < 10.0 { format!("{value:.2}") } else { format_rounded(value, 2, "1") };
+    let decimals = |value: f64| {
+        if value < 10.0 {
+            format!("{value:.2}")
+        } else {
+            format_rounded(value, 2, "1")
+        }
+    };
     match of.error {
         Some(error) => format!("{} ± {}", decimals(of.ratio), decimals(error)),
         None => decimals(of.ratio),
@@ -64,7 +69,14 @@ pub struct ReferenceProgress {
 impl Default for ReferenceProgress {
     fn default() -> Self {
         let begun = Instant::now();
-        ReferenceProgress { begun, maps: 0, done: 0, lines_done: 0, share: 0.0, seconds: 0.0 }
+        ReferenceProgress {
+            begun,
+            maps: 0,
+            done: 0,
+            lines_done: 0,
+            share: 0.0,
+            seconds: 0.0,
+        }
     }
 }
 
@@ -73,16 +85,32 @@ impl ReferenceProgress {
     /// announces a comparison of at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
-            ReferenceEvent::Begins { maps, threads, bytes, seconds } => {
-                *self = ReferenceProgress { maps, seconds, ..ReferenceProgress::default() };
+            ReferenceEvent::Begins {
+                maps,
+                threads,
+                bytes,
+                seconds,
+            } => {
+                *self = ReferenceProgress {
+                    maps,
+                    seconds,
+                    ..ReferenceProgress::default()
+                };
                 let time = in_words(seconds);
-                let (squares, threads) = (counted(maps, "square"), counted(threads as u64, "thread"));
+                let (squares, threads) =
+                    (counted(maps, "square"), counted(threads as u64, "thread"));
                 let memory = memory_size(bytes);
-                (format!("{squares} on {threads}: about {time} and {memory} of memory"), seconds >= LONG)
+                (
+                    format!("{squares} on {threads}: about {time} and {memory} of memory"),
+                    seconds >= LONG,
+                )
             }
             ReferenceEvent::Profiles { count, lines } => {
                 self.lines_done += count;
-                (format!("lines: {} %", 100 * self.lines_done / lines.max(1)), false)
+                (
+                    format!("lines: {} %", 100 * self.lines_done / lines.max(1)),
+                    false,
+                )
             }
             ReferenceEvent::ProfilesEnd { .. } => {
                 self.begun = Instant::now();
@@ -110,14 +138,23 @@ impl ReferenceProgress {
             self.begun.elapsed().as_secs_f64() * (1.0 - share) / share
         };
         let squares = counted(self.maps, "square");
-        format!("{} of {squares}, {:.0} %, {} left", self.done, 100.0 * share, in_words(left))
+        format!(
+            "{} of {squares}, {:.0} %, {} left",
+            self.done,
+            100.0 * share,
+            in_words(left)
+        )
     }
 
     /// Returns in words how many finished squares are lost if the comparison is stopped now.
     pub fn lost(&self) -> String {
         match self.maps {
             0 => "stopped before the first square".to_owned(),
-            maps => format!("stopped after {} of {}, which are lost", self.done, counted(maps, "square")),
+            maps => format!(
+                "stopped after {} of {}, which are lost",
+                self.done,
+                counted(maps, "square")
+            ),
         }
     }
 }
@@ -127,19 +164,32 @@ fn in_words(seconds: f64) -> String {
 }
 
 fn counted(count: u64, noun: &str) -> String {
-    format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
+    format!(
+        "{} {noun}{}",
+        grouped(count),
+        if count == 1 { "" } else { "s" }
+    )
 }
 
 /// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. After
 /// the first results the words have the ratio of the result with profiles to the result in three dimensions. The result is the
 /// adhesion force, or the indentation if `is_adhesive` is false.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
-    let SquareLoops { maps, curves, reference, share, .. } = loops;
+    let SquareLoops {
+        maps,
+        curves,
+        reference,
+        share,
+        ..
+    } = loops;
     let Some(compared) = loops.headline() else {
         if *maps == 0 {
             return "three dimensions: begins".to_owned();
         }
-        return format!("three dimensions: 0 of {maps} squares, {:.0} %", 100.0 * share);
+        return format!(
+            "three dimensions: 0 of {maps} squares, {:.0} %",
+            100.0 * share
+        );
     };
     let symbol = if is_adhesive { "F_a" } else { "d" };
     let rest = match reference {
@@ -154,7 +204,11 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
 /// `None` if the ratio is unknown.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
-    let quantity = if reference.adhesion_force.is_some() { "the adhesion force" } else { "the indentation" };
+    let quantity = if reference.adhesion_force.is_some() {
+        "the adhesion force"
+    } else {
+        "the indentation"
+    };
     let waves = omitted_waves(reference);
     let model = if reference.line_is_exact {
         "The model is exact for this body, so that the difference is an error of the grid of the squares."
@@ -184,7 +238,10 @@ pub fn difference_words(reference: &Reference) -> Option<String> {
     let waves = omitted_waves(reference);
     Some(match compared.error {
         Some(error) => {
-            format!("line against three dimensions, {sign}{difference} ± {}{waves}", percent(error))
+            format!(
+                "line against three dimensions, {sign}{difference} ± {}{waves}",
+                percent(error)
+            )
         }
         None => format!("line against three dimensions, {sign}{difference} %{waves}"),
     })
@@ -197,7 +254,11 @@ pub fn model_words(reference: &Reference) -> String {
     }
     match reference.budget.model {
         Some(model) if model > 0.0 => {
-            format!("at least {}, beyond sample and grid{}", percent(model), omitted_waves(reference))
+            format!(
+                "at least {}, beyond sample and grid{}",
+                percent(model),
+                omitted_waves(reference)
+            )
         }
         Some(_) => "not distinguished from sample and grid".to_owned(),
         None if reference.budget.grid.is_none() => {
@@ -212,7 +273,11 @@ pub fn omitted_waves(reference: &Reference) -> String {
     match (reference.waves, reference.omitted) {
         (Some((first, last)), Some(whole)) => {
             let first = grouped(first);
-            format!(", of waves {first} to {} of {first} to {}", grouped(last), grouped(whole))
+            format!(
+                ", of waves {first} to {} of {first} to {}",
+                grouped(last),
+                grouped(whole)
+            )
         }
         _ => String::new(),
     }
@@ -229,7 +294,12 @@ fn percent_or_unknown(share: Option<f64>) -> String {
 impl ReferenceReport<'_> {
     /// Returns sentences on what is compared.
     fn compared(&self) -> String {
-        let Reference { options, waves, omitted, .. } = self.reference;
+        let Reference {
+            options,
+            waves,
+            omitted,
+            ..
+        } = self.reference;
         let cells = options.cells;
         let Some((first, last)) = waves else {
             return format!("A square of {cells} × {cells} cells and a line, both smooth.");
@@ -264,21 +334,29 @@ impl ReferenceReport<'_> {
                 }
                 _ => format_rounded(reference.preload, 3, "N"),
             };
-            sentences =
-                format!("The last loop of the loading is compared: from separation to {turn}, and back.");
+            sentences = format!(
+                "The last loop of the loading is compared: from separation to {turn}, and back."
+            );
         }
         sentences
     }
 
     /// Adds a table of the roughness of lines and squares.
     fn roughness(&self, sheet: &mut Sheet) {
-        let Some(roughness) = self.reference.roughness else { return };
+        let Some(roughness) = self.reference.roughness else {
+            return;
+        };
         let row = |name: &str, line: String, half_space: String, ratio: f64| {
             [name.to_owned(), line, half_space, format!("{ratio:.2}")]
         };
         let both = |name: &str, value: fn(&ComparedRoughness) -> f64, unit: &str| {
             let (line, half_space) = (value(&roughness.line), value(&roughness.half_space));
-            row(name, format_rounded(line, 3, unit), format_rounded(half_space, 3, unit), line / half_space)
+            row(
+                name,
+                format_rounded(line, 3, unit),
+                format_rounded(half_space, 3, unit),
+                line / half_space,
+            )
         };
         let mut rows = vec![
             header(),
@@ -287,12 +365,19 @@ impl ReferenceReport<'_> {
             both("elastic energy e_el", |of| of.elastic_energy, "J/m²"),
         ];
         let mut scaled = String::new();
-        if let (Some(adhesive), Some(work)) = (roughness.adhesive_half_space, self.reference.work_of_adhesion)
-        {
+        if let (Some(adhesive), Some(work)) = (
+            roughness.adhesive_half_space,
+            self.reference.work_of_adhesion,
+        ) {
             let line = roughness.line.elastic_energy / work;
             let half_space = adhesive.elastic_energy / work;
             let ratio = |value: f64| format_rounded(value, 3, "1");
-            rows.push(row("e_el/γ with adhesion", ratio(line), ratio(half_space), line / half_space));
+            rows.push(row(
+                "e_el/γ with adhesion",
+                ratio(line),
+                ratio(half_space),
+                line / half_space,
+            ));
             let factor = adhesive.rms_height / roughness.half_space.rms_height;
             scaled = format!(
                 "With adhesion the heights of the squares are multiplied by {factor:.3}, so that e_el/γ is the same."
@@ -331,8 +416,13 @@ impl ReferenceReport<'_> {
             None => percent_or_unknown(share),
         };
         let is_random = self.reference.waves.is_some();
-        let sample = if is_random { with_waves(budget.sample) } else { "none: nothing is random".to_owned() };
-        let difference = difference_words(self.reference).unwrap_or_else(|| percent_or_unknown(None));
+        let sample = if is_random {
+            with_waves(budget.sample)
+        } else {
+            "none: nothing is random".to_owned()
+        };
+        let difference =
+            difference_words(self.reference).unwrap_or_else(|| percent_or_unknown(None));
         let rows = vec![
             ("solver", format!("{:.0e} of the rms height", budget.solver)),
             ("grid of the squares", with_waves(budget.grid)),
@@ -348,7 +438,8 @@ impl ReferenceReport<'_> {
                 )
             }
             ("sample", _) => {
-                "The largest is the sample of squares and lines: --maps takes more of them.".to_owned()
+                "The largest is the sample of squares and lines: --maps takes more of them."
+                    .to_owned()
             }
             ("grid", _) => "The largest is the grid of the squares: --grid refines it.".to_owned(),
             _ => "The largest known error is the residual of the solver.".to_owned(),
@@ -408,13 +499,27 @@ impl Report for ReferenceReport<'_> {
         let row = |name: String, compared: &Compared, unit: &str| {
             let mean = |all: &Statistics| format_rounded(all.mean, 3, unit);
             let grid = percent_or_unknown(compared.grid);
-            vec![name, mean(&compared.line), mean(&compared.half_space), ratio(compared), grid]
+            vec![
+                name,
+                mean(&compared.line),
+                mean(&compared.half_space),
+                ratio(compared),
+                grid,
+            ]
         };
         let mut rows = vec![header.clone()];
         for loaded in &reference.loading {
             let force = format_rounded(loaded.force, 3, "N");
-            rows.push(row(format!("indentation at {force}"), &loaded.indentation, "m"));
-            rows.push(row(format!("stiffness at {force}"), &loaded.stiffness, "N/m"));
+            rows.push(row(
+                format!("indentation at {force}"),
+                &loaded.indentation,
+                "m",
+            ));
+            rows.push(row(
+                format!("stiffness at {force}"),
+                &loaded.stiffness,
+                "N/m",
+            ));
         }
         sheet.heading(
             "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
@@ -427,12 +532,20 @@ impl Report for ReferenceReport<'_> {
         }
         let adhesive = [
             ("adhesion force F_a", &reference.adhesion_force, "N"),
-            ("at first touch F_a(d=0)", &reference.first_touch_adhesion_force, "N"),
+            (
+                "at first touch F_a(d=0)",
+                &reference.first_touch_adhesion_force,
+                "N",
+            ),
             ("dissipated energy", &reference.dissipated_energy, "J"),
         ];
         let mut rows = vec![header];
         for (name, compared, unit) in adhesive {
-            rows.extend(compared.as_ref().map(|compared| row(name.to_owned(), compared, unit)));
+            rows.extend(
+                compared
+                    .as_ref()
+                    .map(|compared| row(name.to_owned(), compared, unit)),
+            );
         }
         if rows.len() > 1 {
             let preload = format_quantity(reference.preload, "N");
@@ -443,9 +556,12 @@ impl Report for ReferenceReport<'_> {
         }
         let (rows, largest) = self.errors();
         sheet.heading("Errors of the comparison by their sources");
-        rows.into_iter().for_each(|(name, words)| sheet.row(name, words));
+        rows.into_iter()
+            .for_each(|(name, words)| sheet.row(name, words));
         sheet.paragraph(&largest);
-        let [lines, squares] = reference.seconds.map(|seconds| format_quantity(seconds, "s"));
+        let [lines, squares] = reference
+            .seconds
+            .map(|seconds| format_quantity(seconds, "s"));
         sheet.heading(&format!(
             "Time: {lines} for the lines; {squares} and {} convolutions for the squares.",
             grouped(reference.convolutions)
@@ -455,7 +571,8 @@ impl Report for ReferenceReport<'_> {
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let reference = self.reference;
-        let ratio = |of: &Compared| object! { "value": of.ratio, "error": of.error, "grid": of.grid };
+        let ratio =
+            |of: &Compared| object! { "value": of.ratio, "error": of.error, "grid": of.grid };
         let roughness = reference.roughness;
         let line = roughness.map(|roughness| roughness.line);
         let half_space = roughness.map(|roughness| roughness.half_space);
@@ -496,13 +613,21 @@ impl Report for ReferenceReport<'_> {
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);
         let table = Table::of(rows)
             .real("force", |loaded| Some(loaded.force))
-            .real("indentation_line", move |loaded| Some(mean(&loaded.indentation).0))
-            .real("indentation_half_space", move |loaded| Some(mean(&loaded.indentation).1))
+            .real("indentation_line", move |loaded| {
+                Some(mean(&loaded.indentation).0)
+            })
+            .real("indentation_half_space", move |loaded| {
+                Some(mean(&loaded.indentation).1)
+            })
             .real("indentation_ratio", |loaded| Some(loaded.indentation.ratio))
             .real("indentation_ratio_error", |loaded| loaded.indentation.error)
             .real("indentation_grid", |loaded| loaded.indentation.grid)
-            .real("stiffness_line", move |loaded| Some(mean(&loaded.stiffness).0))
-            .real("stiffness_half_space", move |loaded| Some(mean(&loaded.stiffness).1))
+            .real("stiffness_line", move |loaded| {
+                Some(mean(&loaded.stiffness).0)
+            })
+            .real("stiffness_half_space", move |loaded| {
+                Some(mean(&loaded.stiffness).1)
+            })
             .real("stiffness_ratio", |loaded| Some(loaded.stiffness.ratio))
             .real("stiffness_ratio_error", |loaded| loaded.stiffness.error)
             .real("stiffness_grid", |loaded| loaded.stiffness.grid)
@@ -515,33 +640,54 @@ impl Report for ReferenceReport<'_> {
         let loading = &self.reference.loading;
         let force = |loaded: &Loaded| loaded.force;
         let of = |name: &str, ink: Ink, sign: Sign, all: fn(&Loaded) -> Statistics| {
-            let points: Vec<(f64, f64)> =
-                loading.iter().map(|loaded| (force(loaded), all(loaded).mean)).collect();
+            let points: Vec<(f64, f64)> = loading
+                .iter()
+                .map(|loaded| (force(loaded), all(loaded).mean))
+                .collect();
             let band = loading.iter().map(|loaded| {
                 let [low, _, high] = all(loaded).quartiles;
                 (force(loaded), low, high)
             });
             [
-                Layer { name: "".into(), ink, shape: Shape::Band(band.collect()) },
+                Layer {
+                    name: "".into(),
+                    ink,
+                    shape: Shape::Band(band.collect()),
+                },
                 Layer {
                     name: format!("{name}, mean and quartiles").as_str().into(),
                     ink,
-                    shape: Shape::Curve { points, stroke: Some(Stroke::Solid), sign: Some(sign) },
+                    shape: Shape::Curve {
+                        points,
+                        stroke: Some(Stroke::Solid),
+                        sign: Some(sign),
+                    },
                 },
             ]
         };
         let layers = [
-            of("line", Ink::Series(0), Sign::Dot, |loaded| loaded.indentation.line),
-            of("three dimensions", Ink::Series(1), Sign::Diamond, |loaded| loaded.indentation.half_space),
+            of("line", Ink::Series(0), Sign::Dot, |loaded| {
+                loaded.indentation.line
+            }),
+            of(
+                "three dimensions",
+                Ink::Series(1),
+                Sign::Diamond,
+                |loaded| loaded.indentation.half_space,
+            ),
         ];
         let axis = |values: &mut dyn Iterator<Item = f64>, name: &str, symbol: &str, unit: &str| {
-            let span = Span::around(values.map(|value| AxisScale::Logarithmic.coordinate(value)), 0.05);
+            let span = Span::around(
+                values.map(|value| AxisScale::Logarithmic.coordinate(value)),
+                0.05,
+            );
             ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
         };
         let x = axis(&mut loading.iter().map(force), "force", "F", "N");
         let ends = loading.iter().flat_map(|loaded| {
             let both = [loaded.indentation.line, loaded.indentation.half_space];
-            both.into_iter().flat_map(|all| [all.quartiles[0], all.quartiles[2], all.mean])
+            both.into_iter()
+                .flat_map(|all| [all.quartiles[0], all.quartiles[2], all.mean])
         });
         let y = axis(&mut { ends }, "indentation", "d", "m");
         let chart = Chart::new(x, y, layers.into_iter().flatten().collect());
@@ -560,15 +706,41 @@ mod tests {
     #[test]
     fn the_figure_has_both_models() {
         let document = open("jkr-sphere").unwrap();
-        let options = ReferenceOptions { cells: 32, maps: 1, lines: 1 };
+        let options = ReferenceOptions {
+            cells: 32,
+            maps: 1,
+            lines: 1,
+        };
         let simulation = Simulation::default();
-        let found = Reference::of(document.scene(), options, simulation, 1, &|| false, &mut |_| ()).unwrap();
-        let report =
-            ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found, warnings: &[] };
+        let found = Reference::of(
+            document.scene(),
+            options,
+            simulation,
+            1,
+            &|| false,
+            &mut |_| (),
+        )
+        .unwrap();
+        let report = ReferenceReport {
+            title: "A sphere",
+            scene: document.scene(),
+            reference: &found,
+            warnings: &[],
+        };
         let figure = report.figure().unwrap();
         assert_eq!(figure.size, Figure::WIDE);
-        let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(legend, ["line, mean and quartiles", "three dimensions, mean and quartiles"]);
+        let legend: Vec<String> = figure
+            .legend()
+            .iter()
+            .map(|entry| entry.name.to_string())
+            .collect();
+        assert_eq!(
+            legend,
+            [
+                "line, mean and quartiles",
+                "three dimensions, mean and quartiles"
+            ]
+        );
         assert_eq!(figure.charts[0].layers.len(), 4);
     }
 
@@ -576,25 +748,54 @@ mod tests {
     #[test]
     fn what_is_left_out_is_said() {
         let document = open("pressure-sensitive").unwrap();
-        let options = ReferenceOptions { cells: 64, maps: 2, lines: 32 };
+        let options = ReferenceOptions {
+            cells: 64,
+            maps: 2,
+            lines: 32,
+        };
         let simulation = Simulation::default();
-        let found = Reference::of(document.scene(), options, simulation, 2, &|| false, &mut |_| ()).unwrap();
-        let report =
-            ReferenceReport { title: "Rough", scene: document.scene(), reference: &found, warnings: &[] };
+        let found = Reference::of(
+            document.scene(),
+            options,
+            simulation,
+            2,
+            &|| false,
+            &mut |_| (),
+        )
+        .unwrap();
+        let report = ReferenceReport {
+            title: "Rough",
+            scene: document.scene(),
+            reference: &found,
+            warnings: &[],
+        };
         let waves = ", of waves 4 to 8 of 4 to 512";
         let (rows, _) = report.errors();
         for (name, words) in &rows[1..4] {
             assert!(words.ends_with(waves), "{name}: {words}");
         }
-        assert!(rows[3].1.starts_with("line against three dimensions, "), "{rows:?}");
+        assert!(
+            rows[3].1.starts_with("line against three dimensions, "),
+            "{rows:?}"
+        );
         let text = report.text().unwrap();
-        assert!(text.contains("rms height h") && text.contains("e_el/γ with adhesion"), "{text}");
-        assert_eq!(text.contains("Left out are forces"), !found.left_out.is_empty(), "{text}");
+        assert!(
+            text.contains("rms height h") && text.contains("e_el/γ with adhesion"),
+            "{text}"
+        );
+        assert_eq!(
+            text.contains("Left out are forces"),
+            !found.left_out.is_empty(),
+            "{text}"
+        );
         let scene = document.scene();
         let outcome = asperity_scene::run(&document).unwrap();
         let budget = Budget::default();
         let rows = crate::trust::error_rows(scene, &outcome, None, &budget, None, Some(&found));
-        let row = rows.iter().find(|(name, _)| *name == "three dimensions").unwrap();
+        let row = rows
+            .iter()
+            .find(|(name, _)| *name == "three dimensions")
+            .unwrap();
         assert!(row.1.ends_with(waves), "{row:?}");
         let model = rows.iter().find(|(name, _)| *name == "model").unwrap();
         assert_eq!(model.1, model_words(&found));
@@ -606,32 +807,77 @@ mod tests {
     #[test]
     fn a_sphere_has_no_error_of_the_model() {
         let document = open("jkr-sphere").unwrap().set("length", "4.2e-5").unwrap();
-        let options = ReferenceOptions { cells: 64, maps: 1, lines: 1 };
+        let options = ReferenceOptions {
+            cells: 64,
+            maps: 1,
+            lines: 1,
+        };
         let simulation = Simulation::default();
-        let found = Reference::of(document.scene(), options, simulation, 1, &|| false, &mut |_| ()).unwrap();
-        let report =
-            ReferenceReport { title: "A sphere", scene: document.scene(), reference: &found, warnings: &[] };
+        let found = Reference::of(
+            document.scene(),
+            options,
+            simulation,
+            1,
+            &|| false,
+            &mut |_| (),
+        )
+        .unwrap();
+        let report = ReferenceReport {
+            title: "A sphere",
+            scene: document.scene(),
+            reference: &found,
+            warnings: &[],
+        };
         let (rows, largest) = report.errors();
         assert!(largest.starts_with("The largest is the grid"), "{largest}");
-        assert!(rows.contains(&("model", "none: the line is exact for this body of revolution".to_owned())));
-        assert!(rows.contains(&("sample", "none: nothing is random".to_owned())), "{rows:?}");
+        assert!(rows.contains(&(
+            "model",
+            "none: the line is exact for this body of revolution".to_owned()
+        )));
+        assert!(
+            rows.contains(&("sample", "none: nothing is random".to_owned())),
+            "{rows:?}"
+        );
         assert!(!model_sentence(&found).unwrap().contains("at least"));
     }
 
     #[test]
     fn there_is_progress_before_the_first_square() {
         let mut progress = ReferenceProgress::default();
-        let begins = ReferenceEvent::Begins { maps: 4, threads: 2, bytes: 1 << 20, seconds: 7200.0 };
+        let begins = ReferenceEvent::Begins {
+            maps: 4,
+            threads: 2,
+            bytes: 1 << 20,
+            seconds: 7200.0,
+        };
         let (words, is_long) = progress.words(&begins);
-        assert!(is_long && words.starts_with("4 squares on 2 threads: about 2 h"), "{words}");
-        let lines = progress.words(&ReferenceEvent::Profiles { count: 16, lines: 64 }).0;
+        assert!(
+            is_long && words.starts_with("4 squares on 2 threads: about 2 h"),
+            "{words}"
+        );
+        let lines = progress
+            .words(&ReferenceEvent::Profiles {
+                count: 16,
+                lines: 64,
+            })
+            .0;
         assert_eq!(lines, "lines: 25 %");
-        let begun = progress.words(&ReferenceEvent::ProfilesEnd { lines: Vec::new() }).0;
+        let begun = progress
+            .words(&ReferenceEvent::ProfilesEnd { lines: Vec::new() })
+            .0;
         assert!(begun.starts_with("0 of 4 squares, 0 %, 2 h"), "{begun}");
         let loaded = progress.words(&ReferenceEvent::Loaded { share: 0.05 }).0;
         assert!(loaded.starts_with("0 of 4 squares, 5 %, "), "{loaded}");
-        let square = ReferenceEvent::Square { curve: Vec::new(), headline: 1.0 };
-        assert!(progress.words(&square).0.starts_with("1 of 4 squares, 25 %, "));
+        let square = ReferenceEvent::Square {
+            curve: Vec::new(),
+            headline: 1.0,
+        };
+        assert!(
+            progress
+                .words(&square)
+                .0
+                .starts_with("1 of 4 squares, 25 %, ")
+        );
         for _ in 0..30 {
             progress.words(&ReferenceEvent::Loaded { share: 0.05 });
         }

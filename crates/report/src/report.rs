@@ -49,14 +49,20 @@ impl<T: Serialize> Json for T {
 impl Report for Figure {
     /// Returns a table with a row for each point of each curve of the chart; `None` for a figure of several charts.
     fn table(&self) -> Option<Table<'_>> {
-        let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
-        let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
+        let [Chart { x, y, layers, .. }] = &self.charts[..] else {
+            return None;
+        };
+        let names = layers
+            .iter()
+            .map(|layer| layer.name.to_string().chars().count());
         let column = |axis: &ChartAxis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
         let rows = || {
             let points = |layer: &Layer| layer.shape.points();
-            layers
-                .iter()
-                .flat_map(move |layer| points(layer).into_iter().map(|at| (layer.name.to_string(), at)))
+            layers.iter().flat_map(move |layer| {
+                points(layer)
+                    .into_iter()
+                    .map(|at| (layer.name.to_string(), at))
+            })
         };
         let table = Table::of(rows).with("curve", Kind::Text(names.max()?), |row| row.0.clone());
         let table = table.with(column(x), Kind::Real, |row| row.1.0);
@@ -83,12 +89,25 @@ pub fn write(
     let missing = || io::Error::other(format!("this result has no {} form", format.name()));
     match format {
         Format::Text => out.write_all(report.text().ok_or_else(missing)?.as_bytes()),
-        Format::Json => report.json().ok_or_else(missing)?.write_json(out, &entries(provenance)),
-        Format::Csv => report.table().ok_or_else(missing)?.write_csv(out, provenance),
+        Format::Json => report
+            .json()
+            .ok_or_else(missing)?
+            .write_json(out, &entries(provenance)),
+        Format::Csv => report
+            .table()
+            .ok_or_else(missing)?
+            .write_csv(out, provenance),
         Format::Npy => report.table().ok_or_else(missing)?.write_npy(out),
         Format::Svg => {
             let figure = report.figure().ok_or_else(missing)?;
-            out.write_all(Figure { origin: provenance.to_owned(), ..figure }.svg().as_bytes())
+            out.write_all(
+                Figure {
+                    origin: provenance.to_owned(),
+                    ..figure
+                }
+                .svg()
+                .as_bytes(),
+            )
         }
         Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
         Format::Pdf => out.write_all(&report.figure().ok_or_else(missing)?.pdf()?),
@@ -118,8 +137,15 @@ pub enum Format {
 
 impl Format {
     /// All formats, of which a given result may lack some.
-    pub const ALL: [Format; 7] =
-        [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
+    pub const ALL: [Format; 7] = [
+        Format::Text,
+        Format::Json,
+        Format::Csv,
+        Format::Npy,
+        Format::Svg,
+        Format::Png,
+        Format::Pdf,
+    ];
 
     /// Returns the name of the format on the command line, such as `csv`.
     pub fn name(self) -> &'static str {
@@ -128,7 +154,11 @@ impl Format {
 
     /// Returns the extension of a file of this format, without the dot.
     pub fn extension(self) -> &'static str {
-        if self == Format::Text { "txt" } else { self.name() }
+        if self == Format::Text {
+            "txt"
+        } else {
+            self.name()
+        }
     }
 
     /// Returns true for CSV and NPY, the formats of tables.
@@ -153,9 +183,13 @@ impl Format {
         usual: Format,
     ) -> Result<Format, String> {
         if let Some(format) = chosen.filter(|chosen| !formats.contains(chosen)) {
-            let (format, allowed) =
-                (format.name(), alternatives("", formats.iter().map(|format| format.name())));
-            return Err(format!("--format {format}: this result has no such format; use {allowed}"));
+            let (format, allowed) = (
+                format.name(),
+                alternatives("", formats.iter().map(|format| format.name())),
+            );
+            return Err(format!(
+                "--format {format}: this result has no such format; use {allowed}"
+            ));
         }
         let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
         let file = file.unwrap_or(Path::new(""));
@@ -178,12 +212,20 @@ impl Format {
 /// # Errors
 /// Returns an error if the extension is not in `allowed`.
 pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
-    let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
+    let Some(extension) = file
+        .extension()
+        .map(|extension| extension.to_string_lossy())
+    else {
         return Ok(None);
     };
-    let place = allowed.iter().position(|one| extension.eq_ignore_ascii_case(one));
+    let place = allowed
+        .iter()
+        .position(|one| extension.eq_ignore_ascii_case(one));
     place.map(Some).ok_or_else(|| {
-        let (extension, allowed) = (printable(&extension), alternatives(".", allowed.iter().copied()));
+        let (extension, allowed) = (
+            printable(&extension),
+            alternatives(".", allowed.iter().copied()),
+        );
         format!("unsupported file extension .{extension}; use {allowed}")
     })
 }
@@ -204,7 +246,9 @@ mod tests {
     #[test]
     fn the_format_follows_the_extension() {
         let formats = [Format::Text, Format::Json, Format::Svg];
-        let of = |path: &str, chosen| Format::of_file(Some(Path::new(path)), chosen, &formats, Format::Text);
+        let of = |path: &str, chosen| {
+            Format::of_file(Some(Path::new(path)), chosen, &formats, Format::Text)
+        };
         for (path, chosen, expected) in [
             ("a.json", None, Format::Json),
             ("a.SVG", None, Format::Svg),
@@ -221,7 +265,8 @@ mod tests {
             assert_eq!(of(path, None), Err(expected.clone()));
             assert_eq!(of(path, Some(Format::Json)), Err(expected));
         }
-        let expected = "a.svg: the extension contradicts --format text; use .txt, or leave out --format";
+        let expected =
+            "a.svg: the extension contradicts --format text; use .txt, or leave out --format";
         assert_eq!(of("a.svg", Some(Format::Text)), Err(expected.to_owned()));
         let expected = "--format csv: this result has no such format; use text, json or svg";
         assert_eq!(of("a", Some(Format::Csv)), Err(expected.to_owned()));
@@ -243,15 +288,28 @@ mod tests {
         let rough = [few, ("roughness.modes", "(1, 64)")];
         for (name, overrides) in [
             ("jkr-sphere", &[few][..]),
-            ("jkr-sphere", &[few, ("adhesion", "None"), ("loading", "[ToTouch]")]),
+            (
+                "jkr-sphere",
+                &[few, ("adhesion", "None"), ("loading", "[ToTouch]")],
+            ),
             ("pressure-sensitive", &rough),
             (
                 "pressure-sensitive",
-                &[few, ("roughness", "None"), ("adhesion", "(work: 0.05)"), ("title", "\"a <&> b\"")],
+                &[
+                    few,
+                    ("roughness", "None"),
+                    ("adhesion", "(work: 0.05)"),
+                    ("title", "\"a <&> b\""),
+                ],
             ),
         ] {
-            let overrides = overrides.iter().map(|(path, value)| (path.to_string(), value.to_string()));
-            let document = open(name).unwrap().set_all(&overrides.collect::<Vec<_>>()).unwrap();
+            let overrides = overrides
+                .iter()
+                .map(|(path, value)| (path.to_string(), value.to_string()));
+            let document = open(name)
+                .unwrap()
+                .set_all(&overrides.collect::<Vec<_>>())
+                .unwrap();
             let (scene, title) = (document.scene(), document.title());
             let mut simulation = Simulation::default();
             let mut sets = ContactSets::new(true);
@@ -262,7 +320,11 @@ mod tests {
             let outcome = simulation.run(scene, &|| false, &mut observe).unwrap();
             let spectra = SceneSpectra::new(scene, &outcome, &mut simulation).unwrap();
             let line = simulation.make_line(scene).unwrap().0.clone();
-            let compared = |outcome| ComparedScene { document: &document, outcome, ensemble: None };
+            let compared = |outcome| ComparedScene {
+                document: &document,
+                outcome,
+                ensemble: None,
+            };
             let scenes = [outcome.clone(), outcome.clone()].map(compared);
             let mut figures = vec![
                 RunReport {
@@ -276,26 +338,53 @@ mod tests {
                 }
                 .figure()
                 .unwrap(),
-                ScenesReport { scenes: &scenes, panels: false }.figure().unwrap(),
-                ScenesReport { scenes: &scenes, panels: true }.figure().unwrap(),
+                ScenesReport {
+                    scenes: &scenes,
+                    panels: false,
+                }
+                .figure()
+                .unwrap(),
+                ScenesReport {
+                    scenes: &scenes,
+                    panels: true,
+                }
+                .figure()
+                .unwrap(),
                 sets.profile_figure(title, &outcome, &line),
                 sets.patches_figure(title, &outcome),
                 Figure::of_chart(title, spectra.spectra.chart()),
             ];
             if let Ok(map) = simulation.reversal_map(scene, None, 16, &|| false) {
-                let preloads = Axis::of_preloads((0.0, 1e-5), 8, asperity_data::AxisScale::Linear).unwrap();
+                let preloads =
+                    Axis::of_preloads((0.0, 1e-5), 8, asperity_data::AxisScale::Linear).unwrap();
                 let record = &Results::OF_PRELOADS;
-                let results = Results::of_scene(scene, Path::new(""), record, 1, Some(&preloads), 1).unwrap();
-                let staircase = Staircase::find(scene, &preloads, &mut simulation, &|| false, &mut |_| ());
+                let results =
+                    Results::of_scene(scene, Path::new(""), record, 1, Some(&preloads), 1).unwrap();
+                let staircase =
+                    Staircase::find(scene, &preloads, &mut simulation, &|| false, &mut |_| ());
                 let staircase = staircase.ok();
                 let (preloads, staircase) = (Some(&results), staircase.as_ref());
-                let report = ReversalReport { title, scene, map: &map, preloads, staircase, warnings: &[] };
+                let report = ReversalReport {
+                    title,
+                    scene,
+                    map: &map,
+                    preloads,
+                    staircase,
+                    warnings: &[],
+                };
                 figures.extend(report.figure());
-                let report =
-                    PreloadReport { title, choice: None, results: &results, staircase, curves: false };
+                let report = PreloadReport {
+                    title,
+                    choice: None,
+                    results: &results,
+                    staircase,
+                    curves: false,
+                };
                 figures.extend(report.figure());
             }
-            figures.iter().for_each(|figure| check_picture(&figure.svg()));
+            figures
+                .iter()
+                .for_each(|figure| check_picture(&figure.svg()));
         }
     }
 }

@@ -40,19 +40,33 @@ impl Report for ReversalReport<'_> {
         let mut sheet = Sheet::default();
         sheet.paragraph(&scene.title);
         let reversals = &map.reversals;
-        let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
-        sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
+        let (count, springs) = (
+            grouped(reversals.len() as u64),
+            grouped(scene.numerics.points),
+        );
+        sheet.heading(&format!(
+            "{count} reversals of one loading, {springs} springs"
+        ));
         let shown = thinned(reversals.iter(), MOST_ROWS);
         let shown = shown.map(|one| {
             let [at, pull_off] = [one.turn, one.smallest].map(|point| Some(point.indentation));
-            [Some(one.turn.force), at, one.adhesion_force(), pull_off, Some(one.dissipated_energy)]
+            [
+                Some(one.turn.force),
+                at,
+                one.adhesion_force(),
+                pull_off,
+                Some(one.dissipated_energy),
+            ]
         });
         unloadings(&mut sheet, ["force at turn", "turning at"], shown);
         sheet.heading("Map");
         sheet.quantity("step of indentations", map.step(), "m");
         let points = 0..map.points.len();
-        let all = (0..reversals.len()).flat_map(|turn| points.clone().map(move |point| (turn, point)));
-        let everett = all.filter_map(|(turn, point)| map.everett(turn, point)).reduce(f64::max);
+        let all =
+            (0..reversals.len()).flat_map(|turn| points.clone().map(move |point| (turn, point)));
+        let everett = all
+            .filter_map(|(turn, point)| map.everett(turn, point))
+            .reduce(f64::max);
         sheet.quantity("largest Everett value", everett, "N");
         warnings_section(&mut sheet, self.warnings);
         Some(sheet.into_text())
@@ -60,9 +74,18 @@ impl Report for ReversalReport<'_> {
 
     /// Returns, for each turning point, the force and the Everett function at the indentations up to this turning point.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let ReversalReport { scene, map, preloads, .. } = *self;
+        let ReversalReport {
+            scene,
+            map,
+            preloads,
+            ..
+        } = *self;
         let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
-            let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
+            let row = |turn: usize| {
+                (0..=map.below + turn)
+                    .map(|point| value(turn, point))
+                    .collect()
+            };
             (0..map.reversals.len()).map(row).collect()
         };
         Some(Box::new(object! {
@@ -91,8 +114,16 @@ impl Report for ReversalReport<'_> {
             heading: Label::quantity("adhesion force", "F_a"),
             ..preload_chart(staircase, &[], true)
         });
-        let charts = adhesion.into_iter().chain([everett_chart(self.map)]).collect();
-        Some(Figure { title: self.title.to_owned(), charts, size: Figure::SMALL, ..Figure::default() })
+        let charts = adhesion
+            .into_iter()
+            .chain([everett_chart(self.map)])
+            .collect();
+        Some(Figure {
+            title: self.title.to_owned(),
+            charts,
+            size: Figure::SMALL,
+            ..Figure::default()
+        })
     }
 }
 
@@ -111,19 +142,32 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
 /// [`ReversalReport`] defines the function.
 pub fn everett_chart(map: &ReversalMap) -> Chart {
     // A subset of the points of a fine map: the eye cannot distinguish more cells.
-    let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();
+    let every = |count: usize| {
+        (0..count)
+            .step_by(count.div_ceil(MOST_CELLS).max(1))
+            .collect::<Vec<_>>()
+    };
     let (columns, rows) = (every(map.points.len()), every(map.reversals.len()));
-    let values: Vec<Option<f64>> =
-        rows.iter().flat_map(|&turn| columns.iter().map(move |&point| map.everett(turn, point))).collect();
+    let values: Vec<Option<f64>> = rows
+        .iter()
+        .flat_map(|&turn| columns.iter().map(move |&point| map.everett(turn, point)))
+        .collect();
     let key = Span::around(values.iter().flatten().copied(), 0.0);
     let of = |indices: &[usize], offset: usize| {
-        indices.iter().map(|&index| map.points[offset + index]).collect::<Vec<f64>>()
+        indices
+            .iter()
+            .map(|&index| map.points[offset + index])
+            .collect::<Vec<f64>>()
     };
     let (columns, rows) = (of(&columns, 0), of(&rows, map.below));
     let scale = AxisScale::Linear;
-    let axis =
-        |values: &[f64], name, symbol| ChartAxis::new(scale, HeatMap::span(scale, values), name, symbol, "m");
-    let (x, y) = (axis(&columns, "indentation", "d"), axis(&rows, "turning point", "d_r"));
+    let axis = |values: &[f64], name, symbol| {
+        ChartAxis::new(scale, HeatMap::span(scale, values), name, symbol, "m")
+    };
+    let (x, y) = (
+        axis(&columns, "indentation", "d"),
+        axis(&rows, "turning point", "d_r"),
+    );
     let map = HeatMap {
         columns,
         rows,
@@ -135,5 +179,8 @@ pub fn everett_chart(map: &ReversalMap) -> Chart {
         contour: None,
     };
     let layers = vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))];
-    Chart { heading: Label::quantity("Everett function", "E"), ..Chart::new(x, y, layers) }
+    Chart {
+        heading: Label::quantity("Everett function", "E"),
+        ..Chart::new(x, y, layers)
+    }
 }

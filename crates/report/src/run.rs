@@ -37,7 +37,11 @@ pub struct RunReport<'a> {
 impl RunReport<'_> {
     /// Returns the estimate of the error; `None` if a premise does not hold, so that no error is known.
     fn known_estimate(&self) -> Option<&Estimate> {
-        let is_known = !self.outcome.warnings.iter().any(Warning::leaves_errors_unknown);
+        let is_known = !self
+            .outcome
+            .warnings
+            .iter()
+            .any(Warning::leaves_errors_unknown);
         self.estimate.filter(|_| is_known)
     }
 }
@@ -55,10 +59,25 @@ impl Report for RunReport<'_> {
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let RunReport { scene, outcome, choice, ensemble, .. } = *self;
+        let RunReport {
+            scene,
+            outcome,
+            choice,
+            ensemble,
+            ..
+        } = *self;
         let estimate = self.known_estimate();
-        let Outcome { line, governing, figures, history, .. } = outcome;
-        let fragments = scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice());
+        let Outcome {
+            line,
+            governing,
+            figures,
+            history,
+            ..
+        } = outcome;
+        let fragments = scene
+            .observe
+            .contains(&Observer::Fragments)
+            .then_some(outcome.fragments.as_slice());
         Some(Box::new(object! {
             "scene": scene,
             "choice"?: choice,
@@ -114,23 +133,34 @@ impl Report for RunReport<'_> {
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let stiffness = self.outcome.instrument.map(|instrument| instrument.stiffness);
+        let stiffness = self
+            .outcome
+            .instrument
+            .map(|instrument| instrument.stiffness);
         let legs = || self.outcome.history.legs.iter().zip(0_u64..);
         let table = curve(move || {
             legs().flat_map(move |(leg, number)| {
                 let displacements = displacements(leg, stiffness.unwrap_or(f64::INFINITY));
-                leg.curve.iter().zip(displacements).map(move |(point, at)| (number, point, at))
+                leg.curve
+                    .iter()
+                    .zip(displacements)
+                    .map(move |(point, at)| (number, point, at))
             })
         });
         Some(match stiffness {
-            Some(_) => table.real("displacement", |(.., displacement)| *displacement).done(),
+            Some(_) => table
+                .real("displacement", |(.., displacement)| *displacement)
+                .done(),
             None => table.done(),
         })
     }
 
     fn figure(&self) -> Option<Figure> {
         let figure = force_figure(&[(self.title, self.outcome)], LoopUnits::default());
-        Some(Figure { notes: self.ensemble.and_then(caption).into_iter().collect(), ..figure })
+        Some(Figure {
+            notes: self.ensemble.and_then(caption).into_iter().collect(),
+            ..figure
+        })
     }
 }
 
@@ -149,19 +179,29 @@ pub struct PathReport<'a> {
 
 impl Report for PathReport<'_> {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let scene = Scene { loading: self.loading.to_vec(), ..self.scene.clone() };
-        Some(Box::new(object! { "scene": scene, "loading": self.loading, "curve": self.table() }))
+        let scene = Scene {
+            loading: self.loading.to_vec(),
+            ..self.scene.clone()
+        };
+        Some(Box::new(
+            object! { "scene": scene, "loading": self.loading, "curve": self.table() },
+        ))
     }
 
     fn table(&self) -> Option<Table<'_>> {
         let points = || self.stages.iter().zip(self.path);
-        Some(curve(move || points().map(|(stage, point)| (*stage as u64, point, point.indentation))).done())
+        Some(
+            curve(move || points().map(|(stage, point)| (*stage as u64, point, point.indentation)))
+                .done(),
+        )
     }
 }
 
 /// Returns the table of a force curve in SI units: points, index of the loading stage of each point, and displacement of
 /// the instrument.
-fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, CurveRow<'a>> {
+fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(
+    rows: impl Fn() -> I + 'a,
+) -> TableOf<'a, CurveRow<'a>> {
     Table::of(rows)
         .whole("leg", |(number, ..)| *number)
         .real("indentation", |(_, point, _)| point.indentation)
@@ -177,7 +217,16 @@ type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 /// A profile can be written as a table: a row has the position x and the height z of a spring in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
-        let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));
-        Some(Table::of(points).real("x", |point| point.0).real("z", |point| point.1).done())
+        let points = || {
+            self.heights()
+                .enumerate()
+                .map(|(index, height)| (self.position(index), height))
+        };
+        Some(
+            Table::of(points)
+                .real("x", |point| point.0)
+                .real("z", |point| point.1)
+                .done(),
+        )
     }
 }

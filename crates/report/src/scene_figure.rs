@@ -39,21 +39,36 @@ pub struct ContactSets {
 impl ContactSets {
     /// Begins a collection without patches. [`Self::patches_figure`] needs `over_indentation` to be true.
     pub fn new(over_indentation: bool) -> ContactSets {
-        ContactSets { over_indentation, ..ContactSets::default() }
+        ContactSets {
+            over_indentation,
+            ..ContactSets::default()
+        }
     }
 
     /// Adds the patches of a loading stage that was just computed. `record` has the force curve of this stage, and `leg` returns
     /// the patches at any indentation of this stage.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
-        let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
-        let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
+        let at = |indentation: f64| Patches {
+            indentation,
+            patches: leg.patches(indentation),
+        };
+        let larger = |point: &CurvePoint| {
+            self.preload
+                .as_ref()
+                .is_none_or(|(force, _)| point.force > *force)
+        };
         let preload = Branch::preload(slice::from_ref(record)).map(|(_, point)| point);
         if let Some(point) = preload.filter(larger) {
             self.preload = Some((point.force, at(point.indentation)));
         }
-        let touching = record.curve.iter().filter(|point| point.springs > 0).map(|point| point.indentation);
-        let (low, high) =
-            touching.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, d| (ends.0.min(d), ends.1.max(d)));
+        let touching = record
+            .curve
+            .iter()
+            .filter(|point| point.springs > 0)
+            .map(|point| point.indentation);
+        let (low, high) = touching.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, d| {
+            (ends.0.min(d), ends.1.max(d))
+        });
         if !self.over_indentation || low >= high {
             return;
         }
@@ -62,25 +77,53 @@ impl ContactSets {
             return;
         }
         let step = (high - low) / ROWS as f64;
-        let rows = (0..ROWS).map(|row| at(low + step * (row as f64 + 0.5))).collect();
+        let rows = (0..ROWS)
+            .map(|row| at(low + step * (row as f64 + 0.5)))
+            .collect();
         self.stages.push((record.direction, rows));
     }
 
     /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic surface over the position
     /// along the profile.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
-        let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
-        let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
+        let separated = (
+            0.0,
+            Patches {
+                indentation: 0.0,
+                patches: Vec::new(),
+            },
+        );
+        let (
+            force,
+            Patches {
+                indentation,
+                patches,
+            },
+        ) = self.preload.as_ref().unwrap_or(&separated);
         let (force, indentation) = (*force, *indentation);
-        let contact = SectionContact { gaps: &line.gaps, summit: line.summit, indentation, patches };
+        let contact = SectionContact {
+            gaps: &line.gaps,
+            summit: line.summit,
+            indentation,
+            patches,
+        };
         let section = contact.section(Part::drawn(0, line.gaps.len()), &mut LineColumns::default());
         let (low, high) = section.heights;
-        let z = Span::around([low, high, section.level.min(high + 0.5 * (high - low))].into_iter(), 0.05);
+        let z = Span::around(
+            [low, high, section.level.min(high + 0.5 * (high - low))].into_iter(),
+            0.05,
+        );
         let mut chart = section.chart(outcome.line, z);
         chart.x = position(outcome);
-        let at = Label::plain("largest force: ").join(&value_label("", "F", "N", force)).then(", ");
+        let at = Label::plain("largest force: ")
+            .join(&value_label("", "F", "N", force))
+            .then(", ");
         let notes = vec![at.join(&value_label("", "d", "m", indentation))];
-        Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
+        Figure {
+            notes,
+            size: Figure::LOW,
+            ..Figure::of_chart(title, chart)
+        }
     }
 
     /// Returns the figure that shows at which positions along the profile there is contact at each indentation, with a chart for
@@ -88,27 +131,59 @@ impl ContactSets {
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;
-        let ends = self.stages.iter().flat_map(|(_, rows)| rows).map(|row| row.indentation);
-        let d = ChartAxis::new(AxisScale::Linear, Span::around(ends, 0.02), "indentation", "d", "m");
+        let ends = self
+            .stages
+            .iter()
+            .flat_map(|(_, rows)| rows)
+            .map(|row| row.indentation);
+        let d = ChartAxis::new(
+            AxisScale::Linear,
+            Span::around(ends, 0.02),
+            "indentation",
+            "d",
+            "m",
+        );
         let chart = |(direction, rows): &(Direction, Vec<Patches>)| {
-            let half = rows.get(..2).map_or(0.0, |pair| 0.5 * (pair[1].indentation - pair[0].indentation));
+            let half = rows.get(..2).map_or(0.0, |pair| {
+                0.5 * (pair[1].indentation - pair[0].indentation)
+            });
             let mut boxes = Vec::new();
-            for Patches { indentation, patches } in rows {
+            for Patches {
+                indentation,
+                patches,
+            } in rows
+            {
                 let mut open: Option<(f64, f64)> = None;
                 for patch in patches {
                     let [from, to] = [patch.first, patch.last + 1]
                         .map(|spring| (facts.first + spring) as f64 * facts.spacing);
                     match &mut open {
                         Some((_, end)) if from - *end < least => *end = to.max(*end),
-                        _ => boxes.extend(open.replace((from, to)).map(|ends| (ends, *indentation))),
+                        _ => {
+                            boxes.extend(open.replace((from, to)).map(|ends| (ends, *indentation)))
+                        }
                     }
                 }
                 boxes.extend(open.map(|ends| (ends, *indentation)));
             }
-            let boxes = boxes.into_iter().map(|(x, d)| (x, (d - half, d + half))).collect();
-            let heading = if *direction == Direction::Loading { "loading" } else { "unloading" };
-            let layers = vec![Layer::new("contact".into(), Ink::Contact, Shape::Boxes(boxes))];
-            Chart { heading: heading.into(), ..Chart::new(position(outcome), d.clone(), layers) }
+            let boxes = boxes
+                .into_iter()
+                .map(|(x, d)| (x, (d - half, d + half)))
+                .collect();
+            let heading = if *direction == Direction::Loading {
+                "loading"
+            } else {
+                "unloading"
+            };
+            let layers = vec![Layer::new(
+                "contact".into(),
+                Ink::Contact,
+                Shape::Boxes(boxes),
+            )];
+            Chart {
+                heading: heading.into(),
+                ..Chart::new(position(outcome), d.clone(), layers)
+            }
         };
         let mut charts: Vec<Chart> = self.stages.iter().map(chart).collect();
         if charts.is_empty() {
@@ -118,15 +193,27 @@ impl ContactSets {
             (0, _) => vec![Label::plain("nothing comes into contact")],
             (_, 0) => Vec::new(),
             (drawn, rest) => {
-                vec![Label::plain(&format!("the first {drawn} of {} loading stages", drawn + rest))]
+                vec![Label::plain(&format!(
+                    "the first {drawn} of {} loading stages",
+                    drawn + rest
+                ))]
             }
         };
-        Figure { title: title.to_owned(), notes, charts, size: PATCHES, ..Figure::default() }
+        Figure {
+            title: title.to_owned(),
+            notes,
+            charts,
+            size: PATCHES,
+            ..Figure::default()
+        }
     }
 }
 
 fn position(outcome: &Outcome) -> ChartAxis {
-    let span = Span { low: 0.0, high: outcome.line.length };
+    let span = Span {
+        low: 0.0,
+        high: outcome.line.length,
+    };
     ChartAxis::new(AxisScale::Linear, span, "position", "x", "m")
 }
 
@@ -147,9 +234,14 @@ mod tests {
 )";
 
     fn computed(overrides: &[(&str, &str)]) -> (Outcome, ContactSets, Line) {
-        let overrides: Vec<_> =
-            overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
-        let document = Document::parse(SCENE, "test").unwrap().set_all(&overrides).unwrap();
+        let overrides: Vec<_> = overrides
+            .iter()
+            .map(|(path, value)| (path.to_string(), value.to_string()))
+            .collect();
+        let document = Document::parse(SCENE, "test")
+            .unwrap()
+            .set_all(&overrides)
+            .unwrap();
         let mut simulation = Simulation::default();
         let mut sets = ContactSets::new(true);
         let outcome = simulation
@@ -163,7 +255,11 @@ mod tests {
     }
 
     fn names(figure: &Figure) -> Vec<String> {
-        figure.legend().iter().map(|entry| entry.name.to_string()).collect()
+        figure
+            .legend()
+            .iter()
+            .map(|entry| entry.name.to_string())
+            .collect()
     }
 
     #[test]
@@ -171,9 +267,15 @@ mod tests {
         let (outcome, sets, line) = computed(&[]);
         let figure = sets.profile_figure("", &outcome, &line);
         assert_eq!(names(&figure), ["surface", "profile", "contact"]);
-        let Shape::Envelope { columns, .. } = &figure.charts[0].layers[2].shape else { panic!() };
+        let Shape::Envelope { columns, .. } = &figure.charts[0].layers[2].shape else {
+            panic!()
+        };
         let preload = outcome.history.legs[0].largest;
-        assert_eq!(columns.iter().flatten().count() as u64, preload.springs, "one column for each spring");
+        assert_eq!(
+            columns.iter().flatten().count() as u64,
+            preload.springs,
+            "one column for each spring"
+        );
         assert_eq!(columns.len(), line.gaps.len());
         let (outcome, sets, line) = computed(&[("loading", "[ToTouch]"), ("adhesion", "None")]);
         let note = sets.profile_figure("", &outcome, &line).notes[0].to_string();
@@ -184,18 +286,28 @@ mod tests {
     fn patches_cover_the_contact_length() {
         let (outcome, sets, _) = computed(&[]);
         let figure = sets.patches_figure("", &outcome);
-        let headings: Vec<String> = figure.charts.iter().map(|chart| chart.heading.to_string()).collect();
+        let headings: Vec<String> = figure
+            .charts
+            .iter()
+            .map(|chart| chart.heading.to_string())
+            .collect();
         assert_eq!(headings, ["loading", "unloading"]);
         for (chart, (_, rows)) in figure.charts.iter().zip(&sets.stages) {
-            let Shape::Boxes(boxes) = &chart.layers[0].shape else { panic!() };
+            let Shape::Boxes(boxes) = &chart.layers[0].shape else {
+                panic!()
+            };
             let drawn: f64 = boxes.iter().map(|((from, to), _)| to - from).sum();
-            let springs: usize =
-                rows.iter().flat_map(|row| &row.patches).map(|patch| patch.springs().len()).sum();
+            let springs: usize = rows
+                .iter()
+                .flat_map(|row| &row.patches)
+                .map(|patch| patch.springs().len())
+                .sum();
             // Gaps of one spring are wider than the merged ones.
             assert!((drawn / (springs as f64 * outcome.line.spacing) - 1.0).abs() < 1e-9);
             assert_eq!(rows.len(), ROWS);
         }
-        let many = "[ToForce(1e-5), ToZeroForce, ToForce(1e-5), ToZeroForce, ToForce(1e-5), ToSeparation]";
+        let many =
+            "[ToForce(1e-5), ToZeroForce, ToForce(1e-5), ToZeroForce, ToForce(1e-5), ToSeparation]";
         let (outcome, sets, _) = computed(&[("loading", many)]);
         let figure = sets.patches_figure("", &outcome);
         assert_eq!(
@@ -203,6 +315,9 @@ mod tests {
             (4, "the first 4 of 6 loading stages")
         );
         let (outcome, sets, _) = computed(&[("loading", "[ToTouch]"), ("adhesion", "None")]);
-        assert_eq!(sets.patches_figure("", &outcome).notes[0].to_string(), "nothing comes into contact");
+        assert_eq!(
+            sets.patches_figure("", &outcome).notes[0].to_string(),
+            "nothing comes into contact"
+        );
     }
 }

@@ -45,15 +45,23 @@ impl SceneSpectra {
         });
         let faces: Vec<&Analysis> = analyses.iter().collect();
         let mut spectra = Spectra::of_faces(&faces);
-        let equivalent = EquivalentLine { faces: faces.iter().map(|face| face.isotropic.clone()).collect() };
+        let equivalent = EquivalentLine {
+            faces: faces.iter().map(|face| face.isotropic.clone()).collect(),
+        };
         let equivalent = Some(equivalent).filter(|_| !faces.is_empty());
         spectra.line = expected(scene, outcome, equivalent.as_ref());
         spectra.heights = of_heights(scene, line).unwrap_or_else(|error| {
             missing.get_or_insert(error);
             Vec::new()
         });
-        let moments = equivalent.filter(|_| !scene.measured_as_line()).map(|line| line.moments());
-        Ok(SceneSpectra { spectra, moments, missing })
+        let moments = equivalent
+            .filter(|_| !scene.measured_as_line())
+            .map(|line| line.moments());
+        Ok(SceneSpectra {
+            spectra,
+            moments,
+            missing,
+        })
     }
 }
 
@@ -65,21 +73,40 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
 }
 
 /// Returns the intended spectrum of the profile at some of its modes: A²L/4 for a mode with the amplitude A.
-fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine>) -> Vec<SpectrumPoint> {
-    let Some((first, last)) = outcome.line.modes else { return Vec::new() };
+fn expected(
+    scene: &Scene,
+    outcome: &Outcome,
+    equivalent: Option<&EquivalentLine>,
+) -> Vec<SpectrumPoint> {
+    let Some((first, last)) = outcome.line.modes else {
+        return Vec::new();
+    };
     let length = outcome.line.length;
     let power: Box<dyn Fn(u64) -> f64> = match scene.spectrum() {
         Some(spectrum) => {
-            let height = outcome.governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
+            let height = outcome
+                .governing
+                .amplitude
+                .map_or(0.0, |amplitude| amplitude.rms_height);
             let scale = 0.25 * length * (height / spectrum.relative_rms()).powi(2);
             Box::new(move |mode| scale * spectrum.relative_amplitude(mode).powi(2))
         }
-        None => Box::new(|mode| equivalent.map_or(0.0, |line| line.power(TAU * mode as f64 / length))),
+        None => {
+            Box::new(|mode| equivalent.map_or(0.0, |line| line.power(TAU * mode as f64 / length)))
+        }
     };
-    let modes = |step: u32| (first as f64 * 10.0_f64.powf(f64::from(step) / PER_DECADE)).round() as u64;
-    let mut shown: Vec<u64> = (0..).map(modes).take_while(|mode| *mode < last).chain([last]).collect();
+    let modes =
+        |step: u32| (first as f64 * 10.0_f64.powf(f64::from(step) / PER_DECADE)).round() as u64;
+    let mut shown: Vec<u64> = (0..)
+        .map(modes)
+        .take_while(|mode| *mode < last)
+        .chain([last])
+        .collect();
     shown.dedup();
-    shown.into_iter().map(|mode| (TAU * mode as f64 / length, power(mode))).collect()
+    shown
+        .into_iter()
+        .map(|mode| (TAU * mode as f64 / length, power(mode)))
+        .collect()
 }
 
 /// Returns the spectrum of the heights of the profile without its form. A measured profile that is itself pressed is not
@@ -88,17 +115,32 @@ fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> 
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());
     }
-    let no_room = |_| format!("not enough memory for the spectrum of {} springs", line.points);
+    let no_room = |_| {
+        format!(
+            "not enough memory for the spectrum of {} springs",
+            line.points
+        )
+    };
     check_room(BYTES * line.points as u64).map_err(no_room)?;
     let axis = Form::spring_on_axis(line.points as u64) as f64;
     let depth = |index: usize| {
         let distance = (index as f64 - axis) * line.spacing;
-        scene.form.as_ref().map_or(0.0, |form| form.mdr_profile(distance))
+        scene
+            .form
+            .as_ref()
+            .map_or(0.0, |form| form.mdr_profile(distance))
     };
-    let heights: Vec<f64> = line.heights().enumerate().map(|(index, z)| z + depth(index)).collect();
-    let bins =
-        line_spectrum(&heights, line.spacing, scene.measured_as_line()).map_err(|error| error.to_string())?;
-    Ok(bins.into_iter().map(|bin| (bin.wave_number, bin.power)).collect())
+    let heights: Vec<f64> = line
+        .heights()
+        .enumerate()
+        .map(|(index, z)| z + depth(index))
+        .collect();
+    let bins = line_spectrum(&heights, line.spacing, scene.measured_as_line())
+        .map_err(|error| error.to_string())?;
+    Ok(bins
+        .into_iter()
+        .map(|bin| (bin.wave_number, bin.power))
+        .collect())
 }
 
 #[cfg(test)]
@@ -113,7 +155,9 @@ mod tests {
         );
         let document = Document::parse(&text, "test").unwrap();
         let mut simulation = Simulation::default();
-        let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = simulation
+            .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         SceneSpectra::new(document.scene(), &outcome, &mut simulation).unwrap()
     }
 
@@ -123,17 +167,30 @@ mod tests {
         for form in ["None", "Paraboloid(radius: 1.0e-4)"] {
             let found = spectra(roughness, form).spectra;
             // Each of the first bins has one mode, with the power of the spectrum.
-            let single = |q: f64| found.line.iter().find(|(at, _)| (at / q - 1.0).abs() < 1e-9);
-            let both: Vec<_> =
-                found.heights.iter().filter_map(|(q, power)| Some((power, single(*q)?.1))).collect();
+            let single = |q: f64| {
+                found
+                    .line
+                    .iter()
+                    .find(|(at, _)| (at / q - 1.0).abs() < 1e-9)
+            };
+            let both: Vec<_> = found
+                .heights
+                .iter()
+                .filter_map(|(q, power)| Some((power, single(*q)?.1)))
+                .collect();
             assert!(both.len() >= 4, "{:?}", found.heights);
             assert!(
-                both[..4].iter().all(|(power, expected)| (*power / expected - 1.0).abs() < 1e-6),
+                both[..4]
+                    .iter()
+                    .all(|(power, expected)| (*power / expected - 1.0).abs() < 1e-6),
                 "{both:?}"
             );
             let ends = [found.line[0].0, found.line[found.line.len() - 1].0];
             let modes = ends.map(|q| q * 1e-4 / TAU);
-            assert!((modes[0] - 2.0).abs() < 1e-9 && (modes[1] - 200.0).abs() < 1e-9, "{modes:?}");
+            assert!(
+                (modes[0] - 2.0).abs() < 1e-9 && (modes[1] - 200.0).abs() < 1e-9,
+                "{modes:?}"
+            );
         }
     }
 

@@ -34,14 +34,28 @@ pub struct ScenesReport<'a> {
 type Row = (&'static str, &'static str, fn(&Outcome) -> Option<f64>);
 
 const ROWS: [Row; 8] = [
-    ("work of adhesion γ", "J/m²", |outcome| outcome.governing.work_of_adhesion),
-    ("κ = √(h⟨∇z⟩E*/γ)", "1", |outcome| outcome.governing.kappa),
-    ("e_el/γ", "1", |outcome| outcome.governing.elastic_energy_ratio),
+    ("work of adhesion γ", "J/m²", |outcome| {
+        outcome.governing.work_of_adhesion
+    }),
+    ("κ = √(h⟨∇z⟩E*/γ)", "1", |outcome| {
+        outcome.governing.kappa
+    }),
+    ("e_el/γ", "1", |outcome| {
+        outcome.governing.elastic_energy_ratio
+    }),
     ("preload F_n", "N", |outcome| outcome.figures.preload),
-    ("adhesion force F_a", "N", |outcome| outcome.figures.adhesion_force),
-    ("at first touch F_a(d=0)", "N", |outcome| outcome.first_touch_adhesion_force),
-    ("pull-off at", "m", |outcome| outcome.figures.pull_off_indentation),
-    ("dissipated energy", "J", |outcome| outcome.figures.dissipated_energy),
+    ("adhesion force F_a", "N", |outcome| {
+        outcome.figures.adhesion_force
+    }),
+    ("at first touch F_a(d=0)", "N", |outcome| {
+        outcome.first_touch_adhesion_force
+    }),
+    ("pull-off at", "m", |outcome| {
+        outcome.figures.pull_off_indentation
+    }),
+    ("dissipated energy", "J", |outcome| {
+        outcome.figures.dissipated_energy
+    }),
 ];
 
 /// Returns the letter that names a scene in the table and the legend.
@@ -56,13 +70,19 @@ fn row(name: &str, shown: impl Fn(f64) -> String, values: &[Option<f64>]) -> Opt
     // A position may lie on either side of first touch, where a ratio means nothing.
     let first = values.first()?.filter(|first| *first > 0.0);
     let cell = |(number, value): (usize, &Option<f64>)| {
-        let Some(value) = value else { return "-".to_owned() };
-        let ratio =
-            first.filter(|_| number > 0 && *value > 0.0).map(|first| format_quantity(value / first, "1"));
+        let Some(value) = value else {
+            return "-".to_owned();
+        };
+        let ratio = first
+            .filter(|_| number > 0 && *value > 0.0)
+            .map(|first| format_quantity(value / first, "1"));
         shown(*value) + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
     };
     let cells = || values.iter().enumerate().map(cell);
-    values.iter().any(Option::is_some).then(|| std::iter::once(name.to_owned()).chain(cells()).collect())
+    values
+        .iter()
+        .any(Option::is_some)
+        .then(|| std::iter::once(name.to_owned()).chain(cells()).collect())
 }
 
 impl ScenesReport<'_> {
@@ -73,9 +93,16 @@ impl ScenesReport<'_> {
             false => scene.document.title().to_owned(),
         };
         let titles: Vec<String> = self.scenes.iter().enumerate().map(title).collect();
-        let scenes: Vec<_> =
-            titles.iter().zip(self.scenes).map(|(title, scene)| (title.as_str(), &scene.outcome)).collect();
-        if self.panels { force_panels(&scenes) } else { force_figure(&scenes, LoopUnits::default()) }
+        let scenes: Vec<_> = titles
+            .iter()
+            .zip(self.scenes)
+            .map(|(title, scene)| (title.as_str(), &scene.outcome))
+            .collect();
+        if self.panels {
+            force_panels(&scenes)
+        } else {
+            force_figure(&scenes, LoopUnits::default())
+        }
     }
 
     /// Returns the warnings of all scenes, each with the letter of its scene.
@@ -87,7 +114,11 @@ impl ScenesReport<'_> {
                 Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
                 None => warning_texts(&scene.outcome.warnings),
             };
-            sentences.extend(of_scene.iter().map(|sentence| format!("{letter}: {sentence}")));
+            sentences.extend(
+                of_scene
+                    .iter()
+                    .map(|sentence| format!("{letter}: {sentence}")),
+            );
         }
         sentences
     }
@@ -99,11 +130,17 @@ impl ScenesReport<'_> {
         if ensembles().flatten().next().is_none() {
             return Vec::new();
         }
-        let median = |quantity| move |ensemble: &Ensemble| Some(ensemble.statistics(quantity)?.quartiles[1]);
-        let medians = |quantity| ensembles().map(|one| one.and_then(median(quantity))).collect::<Vec<_>>();
+        let median =
+            |quantity| move |ensemble: &Ensemble| Some(ensemble.statistics(quantity)?.quartiles[1]);
+        let medians = |quantity| {
+            ensembles()
+                .map(|one| one.and_then(median(quantity)))
+                .collect::<Vec<_>>()
+        };
         let numbers = NAMES.iter().zip(Ensemble::NUMBERS);
-        let mut rows: Vec<_> =
-            numbers.filter_map(|(name, of)| row(name, |value| rounded(of, value, 4), &medians(of))).collect();
+        let mut rows: Vec<_> = numbers
+            .filter_map(|(name, of)| row(name, |value| rounded(of, value, 4), &medians(of)))
+            .collect();
         let quartiles = |ensemble: Option<&Ensemble>| {
             let all = ensemble.and_then(|ensemble| ensemble.statistics(Quantity::AdhesionForce));
             all.map_or_else(
@@ -113,7 +150,9 @@ impl ScenesReport<'_> {
         };
         rows.insert(
             1.min(rows.len()),
-            std::iter::once("quartiles of F_a".to_owned()).chain(ensembles().map(quartiles)).collect(),
+            std::iter::once("quartiles of F_a".to_owned())
+                .chain(ensembles().map(quartiles))
+                .collect(),
         );
         rows
     }
@@ -129,37 +168,68 @@ impl Report for ScenesReport<'_> {
             sheet.paragraph(&format!("{} {}", letter(number), scene.document.title()));
         }
         for (number, scene) in self.scenes.iter().enumerate().skip(1) {
-            let changes: Vec<String> =
-                first.changes_to(scene.document).iter().map(ToString::to_string).collect();
-            let changes = if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") };
-            sheet.heading(&format!("Different from A to {}: {changes}", letter(number)));
+            let changes: Vec<String> = first
+                .changes_to(scene.document)
+                .iter()
+                .map(ToString::to_string)
+                .collect();
+            let changes = if changes.is_empty() {
+                "nothing".to_owned()
+            } else {
+                changes.join(", ")
+            };
+            sheet.heading(&format!(
+                "Different from A to {}: {changes}",
+                letter(number)
+            ));
         }
         let letters = (0..self.scenes.len()).map(letter);
         let head: Vec<String> = std::iter::once(String::new()).chain(letters).collect();
         let medians = self.medians();
-        let several = self.scenes.iter().flat_map(|scene| &scene.ensemble).map(Ensemble::profiles).max();
+        let several = self
+            .scenes
+            .iter()
+            .flat_map(|scene| &scene.ensemble)
+            .map(Ensemble::profiles)
+            .max();
         let mut heading = "Results".to_owned();
         if !medians.is_empty() {
             let profiles = several.unwrap_or(1);
-            sheet.heading(&format!("Medians over {profiles} random profiles; a fixed profile has none"));
-            sheet.table(&std::iter::once(head.clone()).chain(medians).collect::<Vec<_>>());
+            sheet.heading(&format!(
+                "Medians over {profiles} random profiles; a fixed profile has none"
+            ));
+            sheet.table(
+                &std::iter::once(head.clone())
+                    .chain(medians)
+                    .collect::<Vec<_>>(),
+            );
             heading = "Results on the own profile of each scene".to_owned();
         }
         let of_scenes = |of: fn(&Outcome) -> Option<f64>| {
-            self.scenes.iter().map(|scene| of(&scene.outcome)).collect::<Vec<_>>()
+            self.scenes
+                .iter()
+                .map(|scene| of(&scene.outcome))
+                .collect::<Vec<_>>()
         };
         let mut table = vec![head];
-        table.extend(
-            ROWS.iter().filter_map(|(name, unit, of)| {
-                row(name, |value| format_quantity(value, unit), &of_scenes(*of))
-            }),
+        table.extend(ROWS.iter().filter_map(|(name, unit, of)| {
+            row(name, |value| format_quantity(value, unit), &of_scenes(*of))
+        }));
+        let regime =
+            |scene: &ComparedScene<'_>| scene.outcome.regime.map_or("-", Regime::name).to_owned();
+        table.push(
+            std::iter::once("regime".to_owned())
+                .chain(self.scenes.iter().map(regime))
+                .collect(),
         );
-        let regime = |scene: &ComparedScene<'_>| scene.outcome.regime.map_or("-", Regime::name).to_owned();
-        table.push(std::iter::once("regime".to_owned()).chain(self.scenes.iter().map(regime)).collect());
         sheet.heading(&heading);
         sheet.table(&table);
         sentences_section(&mut sheet, &self.warnings());
-        Some(format!("{}\n{}", sheet.into_text(), figure_text(&self.drawn(true), WIDTH, Colours::None)))
+        Some(format!(
+            "{}\n{}",
+            sheet.into_text(),
+            figure_text(&self.drawn(true), WIDTH, Colours::None)
+        ))
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -178,23 +248,46 @@ mod tests {
         let second = first.set("adhesion.work", "0.1").unwrap();
         let compared = |document| {
             let outcome = asperity_scene::run(document).unwrap();
-            ComparedScene { document, outcome, ensemble: None }
+            ComparedScene {
+                document,
+                outcome,
+                ensemble: None,
+            }
         };
         let scenes = [&first, &second, &first].map(compared);
-        let report = ScenesReport { scenes: &scenes, panels: false };
+        let report = ScenesReport {
+            scenes: &scenes,
+            panels: false,
+        };
         let text = report.text().unwrap();
-        assert!(text.starts_with(&format!("A {}\nB ", first.title())), "{text}");
-        assert!(text.contains("Different from A to B: γ 50 mJ/m² → 100 mJ/m²\n"), "{text}");
+        assert!(
+            text.starts_with(&format!("A {}\nB ", first.title())),
+            "{text}"
+        );
+        assert!(
+            text.contains("Different from A to B: γ 50 mJ/m² → 100 mJ/m²\n"),
+            "{text}"
+        );
         assert!(text.contains("Different from A to C: nothing\n"), "{text}");
         // The pull-off force of a sphere is proportional to the work of adhesion.
-        assert!(text.contains("adhesion force F_a       23.56 µN              47.12 µN (×2)\n"), "{text}");
-        let named: Vec<String> =
-            report.drawn(true).legend().iter().map(|entry| entry.name.to_string()).collect();
+        assert!(
+            text.contains("adhesion force F_a       23.56 µN              47.12 µN (×2)\n"),
+            "{text}"
+        );
+        let named: Vec<String> = report
+            .drawn(true)
+            .legend()
+            .iter()
+            .map(|entry| entry.name.to_string())
+            .collect();
         let titles = [first.title(), "jkr-sphere, changed", first.title()];
         assert_eq!(
             named[..3],
             [0, 1, 2].map(|number| format!("{}: {}", ["A", "B", "C"][number], titles[number]))
         );
-        assert_eq!(named[3..], ["loading", "jump-in", "preload", "pull-off", "jump-out"]);
+        assert_eq!(
+            named[3..],
+            ["loading", "jump-in", "preload", "pull-off", "jump-out"]
+        );
     }
 }

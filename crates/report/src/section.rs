@@ -83,7 +83,10 @@ impl Section {
             layer("contact", Ink::Contact, |column| column.contact),
         ];
         let axis = |span, name, symbol| ChartAxis::new(AxisScale::Linear, span, name, symbol, "m");
-        let x = Span { low: x.0, high: x.1 };
+        let x = Span {
+            low: x.0,
+            high: x.1,
+        };
         Chart::new(axis(x, "position", "x"), axis(z, "height", "z"), layers)
     }
 }
@@ -92,19 +95,28 @@ impl Part {
     /// Returns the part that begins at the index `first` and has this number of springs, with as many columns as a picture in a
     /// file shows.
     pub fn drawn(first: usize, springs: usize) -> Part {
-        Part { first, springs, columns: springs.min(DRAWN) }
+        Part {
+            first,
+            springs,
+            columns: springs.min(DRAWN),
+        }
     }
 
     /// Returns the part that begins at the index `first` and has this number of springs, with one column of the chart for each
     /// spring.
     pub fn listed(first: usize, springs: usize) -> Part {
-        Part { first, springs, columns: springs }
+        Part {
+            first,
+            springs,
+            columns: springs,
+        }
     }
 
     /// Returns the indices of the springs that the column with this number, from 0, shows.
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let start = |column: usize| {
-            self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
+            self.first
+                + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
         };
         let from = start(column);
         from..start(column + 1).max(from + 1)
@@ -124,38 +136,63 @@ impl SectionContact<'_> {
 
     /// Returns the index ranges of neighbouring springs in contact within the range `springs`.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-        let begun = self.patches.partition_point(|patch| patch.last < springs.start);
-        let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);
-        touching.map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
+        let begun = self
+            .patches
+            .partition_point(|patch| patch.last < springs.start);
+        let touching = self.patches[begun..]
+            .iter()
+            .take_while(move |patch| patch.first < springs.end);
+        touching
+            .map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
     /// Reduces a part of the profile and its contact to the columns of a chart. Each profile needs its own `line`, which stores
     /// heights for the next call.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
-        let Part { first, springs, columns } = part;
+        let Part {
+            first,
+            springs,
+            columns,
+        } = part;
         if line.part != part {
             let heights = (0..columns).map(|column| self.heights(part.springs_of(column)));
-            *line = LineColumns { part, heights: heights.collect() };
+            *line = LineColumns {
+                part,
+                heights: heights.collect(),
+            };
         }
         let of = |(column, &heights)| self.column(part.springs_of(column), heights);
         let columns = line.heights.iter().enumerate().map(of).collect();
         // A hidden chart has no columns.
         let heights = line.heights.iter().copied().reduce(wider);
         let heights = heights.unwrap_or_else(|| self.heights(first..first + springs));
-        Section { first, springs, heights, level: self.level(), columns }
+        Section {
+            first,
+            springs,
+            heights,
+            level: self.level(),
+            columns,
+        }
     }
 
     /// Returns the lowest and the highest point of a range of springs, m.
     fn heights(&self, springs: Range<usize>) -> (f64, f64) {
         let height = |gap: &f64| (self.summit - gap, self.summit - gap);
-        self.gaps[springs].iter().map(height).fold((f64::INFINITY, f64::NEG_INFINITY), wider)
+        self.gaps[springs]
+            .iter()
+            .map(height)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), wider)
     }
 
     fn column(&self, springs: Range<usize>, line: (f64, f64)) -> Column {
         let (mut free, mut contact) = (springs.len(), None);
         for touching in self.within(springs.clone()) {
             free -= touching.len();
-            let heights = if touching == springs { line } else { self.heights(touching) };
+            let heights = if touching == springs {
+                line
+            } else {
+                self.heights(touching)
+            };
             contact = Some(contact.map_or(heights, |contact| wider(contact, heights)));
         }
         let level = (self.level(), self.level());
@@ -164,7 +201,11 @@ impl SectionContact<'_> {
             Some(contact) => wider(contact, level),
             None => level,
         };
-        Column { line, surface, contact }
+        Column {
+            line,
+            surface,
+            contact,
+        }
     }
 }
 

@@ -66,8 +66,13 @@ struct Side<'a> {
 
 impl Side<'_> {
     fn name(&self) -> Label {
-        let Some(Influence { axis, .. }) = self.influence else { return PROFILES.into() };
-        let short = axis.name.replace("force of ", "").replace("indentation of ", "");
+        let Some(Influence { axis, .. }) = self.influence else {
+            return PROFILES.into();
+        };
+        let short = axis
+            .name
+            .replace("force of ", "")
+            .replace("indentation of ", "");
         Label::symbol_or_name(axis.symbol, &short)
     }
 
@@ -89,17 +94,33 @@ impl Side<'_> {
 /// Returns both changes of at most `most` numbers, with the largest influence on a result first. The range over the
 /// profiles follows.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
-    let numbers = sensitivity.ordered(result).into_iter().take(most).flat_map(|influence| {
-        [0, 1].map(|side| {
-            let changed = &influence.sides[side].1;
-            let changes = changed.as_ref().map(|changed| sensitivity.changes(&changed.medians));
-            let range = changed.as_ref().and_then(|changed| changed.range[0]);
-            Side { influence: Some(influence), side, changes, range }
-        })
-    });
+    let numbers = sensitivity
+        .ordered(result)
+        .into_iter()
+        .take(most)
+        .flat_map(|influence| {
+            [0, 1].map(|side| {
+                let changed = &influence.sides[side].1;
+                let changes = changed
+                    .as_ref()
+                    .map(|changed| sensitivity.changes(&changed.medians));
+                let range = changed.as_ref().and_then(|changed| changed.range[0]);
+                Side {
+                    influence: Some(influence),
+                    side,
+                    changes,
+                    range,
+                }
+            })
+        });
     let profiles = sensitivity.range.iter().flat_map(|ends| {
         let changes = |side: usize| Some(sensitivity.changes(&ends[side]));
-        [0, 1].map(|side| Side { influence: None, side, changes: changes(side), range: None })
+        [0, 1].map(|side| Side {
+            influence: None,
+            side,
+            changes: changes(side),
+            range: None,
+        })
     });
     numbers.chain(profiles).collect()
 }
@@ -110,22 +131,64 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
-        [name, value, change, result(0), range.to_owned(), result(1), result(2)]
+        [
+            name,
+            value,
+            change,
+            result(0),
+            range.to_owned(),
+            result(1),
+            result(2),
+        ]
     };
     let results = Sensitivity::RESULTS;
-    let several = if sensitivity.range.is_some() { "single profiles" } else { "" };
-    let head = row(["number", "value", "change"], several, &|result| results[result].symbol().to_owned());
-    let scene = row([if several.is_empty() { "this scene" } else { "median" }, "", ""], "", &|result| {
-        let value = sensitivity.present[result];
-        value.map_or_else(|| "-".to_owned(), |value| format_quantity(value, results[result].unit()))
+    let several = if sensitivity.range.is_some() {
+        "single profiles"
+    } else {
+        ""
+    };
+    let head = row(["number", "value", "change"], several, &|result| {
+        results[result].symbol().to_owned()
     });
+    let scene = row(
+        [
+            if several.is_empty() {
+                "this scene"
+            } else {
+                "median"
+            },
+            "",
+            "",
+        ],
+        "",
+        &|result| {
+            let value = sensitivity.present[result];
+            value.map_or_else(
+                || "-".to_owned(),
+                |value| format_quantity(value, results[result].unit()),
+            )
+        },
+    );
     let changes = sides(sensitivity, 0, most).into_iter().map(|side| {
-        let value = side.influence.map(|one| format_quantity(one.value, one.axis.unit)).unwrap_or_default();
+        let value = side
+            .influence
+            .map(|one| format_quantity(one.value, one.axis.unit))
+            .unwrap_or_default();
         let (name, step) = (side.name().to_string(), side.step());
-        let named = if side.side == 0 { [name.as_str(), &value] } else { [""; 2] };
-        let range = side.range.map(|(least, most)| one_unit([least, most].map(change_text)));
+        let named = if side.side == 0 {
+            [name.as_str(), &value]
+        } else {
+            [""; 2]
+        };
+        let range = side
+            .range
+            .map(|(least, most)| one_unit([least, most].map(change_text)));
         let not_allowed = side.changes.is_none().then(|| NOT_ALLOWED.to_owned());
-        row([named[0], named[1], &step], &range.or(not_allowed).unwrap_or_default(), &|of| side.text(of))
+        row(
+            [named[0], named[1], &step],
+            &range.or(not_allowed).unwrap_or_default(),
+            &|of| side.text(of),
+        )
     });
     [head, scene].into_iter().chain(changes).collect()
 }
@@ -136,27 +199,54 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
     let numbers = shown.iter().filter(|side| side.influence.is_some());
-    let end = 1.05 * numbers.filter_map(percent).map(f64::abs).fold(LEAST, f64::max);
+    let end = 1.05
+        * numbers
+            .filter_map(percent)
+            .map(f64::abs)
+            .fold(LEAST, f64::max);
     // Nothing falls by more than all of itself.
-    let span = Span { low: -end.min(105.0), high: end };
-    let (mut bars, mut names, mut beyond) =
-        ([const { Vec::new() }; 3], Vec::new(), [const { Vec::new() }; 2]);
+    let span = Span {
+        low: -end.min(105.0),
+        high: end,
+    };
+    let (mut bars, mut names, mut beyond) = (
+        [const { Vec::new() }; 3],
+        Vec::new(),
+        [const { Vec::new() }; 2],
+    );
     // The lowest bar is at 0.
     for (row, side) in (0..).map(f64::from).zip(shown.iter().rev()) {
-        names.push(side.name().then(&format!(", {}: {}", side.step(), side.text(result))));
-        let Some(change) = percent(side) else { continue };
+        names.push(
+            side.name()
+                .then(&format!(", {}: {}", side.step(), side.text(result))),
+        );
+        let Some(change) = percent(side) else {
+            continue;
+        };
         let bar = ((change.min(0.0), change.max(0.0)), (row - HALF, row + HALF));
         bars[side.influence.map_or(2, |_| side.side)].push(bar);
         if change < span.low || change > span.high {
             beyond[usize::from(change > 0.0)].push((change.clamp(span.low, span.high), row));
         }
     }
-    let bars = [Ink::Surface, Ink::Contact, Ink::Kept].into_iter().zip(bars.map(Shape::Boxes));
+    let bars = [Ink::Surface, Ink::Contact, Ink::Kept]
+        .into_iter()
+        .zip(bars.map(Shape::Boxes));
     let ends = beyond.into_iter().zip([Sign::Left, Sign::Right]);
     let ends = ends.map(|(points, sign)| (Ink::Text, Shape::signs(points, sign)));
-    let layers = std::iter::once((Ink::Quiet, Shape::Upright(0.0))).chain(bars).chain(ends);
-    let layers = layers.map(|(ink, shape)| Layer::unnamed(ink, shape)).collect();
-    let x = ChartAxis::new(AxisScale::Linear, span, "change of", Sensitivity::RESULTS[result].symbol(), "%");
+    let layers = std::iter::once((Ink::Quiet, Shape::Upright(0.0)))
+        .chain(bars)
+        .chain(ends);
+    let layers = layers
+        .map(|(ink, shape)| Layer::unnamed(ink, shape))
+        .collect();
+    let x = ChartAxis::new(
+        AxisScale::Linear,
+        span,
+        "change of",
+        Sensitivity::RESULTS[result].symbol(),
+        "%",
+    );
     Chart::new(x, ChartAxis::of_names(names), layers)
 }
 
@@ -173,8 +263,11 @@ impl SensitivityReport<'_> {
             ),
             None => Ensemble::FIXED.to_owned(),
         };
-        let has_wavelengths =
-            self.sensitivity.influences.iter().any(|one| one.axis.path.starts_with("roughness.wavelengths"));
+        let has_wavelengths = self
+            .sensitivity
+            .influences
+            .iter()
+            .any(|one| one.axis.path.starts_with("roughness.wavelengths"));
         let waves = if has_wavelengths {
             " A wavelength changes so that whole waves fit on the length. Where the length changes, the numbers of waves on it \
              stay."
@@ -188,7 +281,11 @@ impl SensitivityReport<'_> {
 /// Returns a sentence on the numbers of a scene with this adhesion that stay constant while one of them changes.
 pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
     let by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
-    let follows = if by_parameter { ", and the work of adhesion follows from them" } else { "" };
+    let follows = if by_parameter {
+        ", and the work of adhesion follows from them"
+    } else {
+        ""
+    };
     format!("All other numbers of the scene stay{follows}.")
 }
 
@@ -198,8 +295,14 @@ impl Report for SensitivityReport<'_> {
         sheet.paragraph(self.title);
         if self.sensitivity.missing().is_none() {
             let springs = grouped(self.scene.numerics.points);
-            let of = if self.sensitivity.range.is_some() { "medians" } else { "results" };
-            sheet.heading(&format!("Changes of the {of} where one number changes, {springs} springs"));
+            let of = if self.sensitivity.range.is_some() {
+                "medians"
+            } else {
+                "results"
+            };
+            sheet.heading(&format!(
+                "Changes of the {of} where one number changes, {springs} springs"
+            ));
             sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
@@ -249,22 +352,36 @@ impl Report for SensitivityReport<'_> {
         let rows = || {
             let all = self.sensitivity.influences.iter();
             let sides = all.flat_map(|one| {
-                let row =
-                    |side: &(f64, Option<Changed>)| Some((one.axis.path.as_str(), Some(side.0), side.1?));
+                let row = |side: &(f64, Option<Changed>)| {
+                    Some((one.axis.path.as_str(), Some(side.0), side.1?))
+                };
                 one.sides.iter().filter_map(row).collect::<Vec<_>>()
             });
-            let present = Changed { medians: self.sensitivity.present, ..Changed::default() };
+            let present = Changed {
+                medians: self.sensitivity.present,
+                ..Changed::default()
+            };
             std::iter::once(("", None, present)).chain(sides)
         };
-        let longest = self.sensitivity.influences.iter().map(|one| one.axis.path.len()).max().unwrap_or(0);
+        let longest = self
+            .sensitivity
+            .influences
+            .iter()
+            .map(|one| one.axis.path.len())
+            .max()
+            .unwrap_or(0);
         let mut table = Table::of(rows).with("path", Kind::Text(longest), |row| row.0);
         table = table.real("value", |row| row.1);
         for (index, quantity) in Sensitivity::RESULTS.iter().enumerate() {
             let name = quantity.name();
             table = table.real(name, move |row| row.2.medians[index]);
             let change = |end| format!("{name}_{end}_change");
-            table = table.with(change("least"), Kind::Real, move |row| row.2.range[index].map(|ends| ends.0));
-            table = table.with(change("most"), Kind::Real, move |row| row.2.range[index].map(|ends| ends.1));
+            table = table.with(change("least"), Kind::Real, move |row| {
+                row.2.range[index].map(|ends| ends.0)
+            });
+            table = table.with(change("most"), Kind::Real, move |row| {
+                row.2.range[index].map(|ends| ends.1)
+            });
         }
         Some(table.done())
     }
@@ -276,9 +393,13 @@ mod tests {
 
     #[test]
     fn changes_are_short() {
-        for (change, text) in
-            [(-0.081, "-8.1 %"), (0.123, "+12 %"), (1e-5, "0 %"), (3.2, "×4.2"), (-0.5, "-50 %")]
-        {
+        for (change, text) in [
+            (-0.081, "-8.1 %"),
+            (0.123, "+12 %"),
+            (1e-5, "0 %"),
+            (3.2, "×4.2"),
+            (-0.5, "-50 %"),
+        ] {
             assert_eq!(change_text(change), text);
         }
     }
@@ -290,23 +411,37 @@ mod tests {
         let scene = asperity_scene::open("jkr-sphere").unwrap().scene().clone();
         let influence = |path: &str, value: f64, sides| {
             let axis =
-                asperity_study::Axis::new(path, asperity_study::Spacing::List, Vec::new(), &scene).unwrap();
+                asperity_study::Axis::new(path, asperity_study::Spacing::List, Vec::new(), &scene)
+                    .unwrap();
             Influence { axis, value, sides }
         };
         let force = |force: f64| {
             let range = [Some((-0.1, 3.0)), None, None];
-            Some(Changed { medians: [Some(force), None, Some(1.0)], range })
+            Some(Changed {
+                medians: [Some(force), None, Some(1.0)],
+                range,
+            })
         };
         let sensitivity = Sensitivity {
             present: [Some(2e-6), None, Some(1.0)],
             influences: vec![
-                influence("material.poisson_ratio", 0.5, [(0.45, force(1.8e-6)), (0.55, None)]),
-                influence("roughness.modes.0", 4.0, [(3.0, force(3e-6)), (5.0, force(2.5e-6))]),
+                influence(
+                    "material.poisson_ratio",
+                    0.5,
+                    [(0.45, force(1.8e-6)), (0.55, None)],
+                ),
+                influence(
+                    "roughness.modes.0",
+                    4.0,
+                    [(3.0, force(3e-6)), (5.0, force(2.5e-6))],
+                ),
             ],
             profiles: 16,
             range: Some([[Some(1e-6), None, Some(1.0)], [Some(8e-6), None, Some(1.0)]]),
         };
-        let rows = sensitivity_table(&sensitivity, 9).into_iter().map(|row| row.join("|"));
+        let rows = sensitivity_table(&sensitivity, 9)
+            .into_iter()
+            .map(|row| row.join("|"));
         let expected = [
             "number|value|change|F_a|single profiles|F_a(d=0)|ΔW",
             "median|||2 µN||-|1 J",
@@ -322,16 +457,35 @@ mod tests {
         let names: Vec<String> = chart.y.names.iter().map(Label::to_string).collect();
         assert_eq!(
             names,
-            ["profiles, most: ×4", "profiles, least: -50 %", "k_min, +1: +25 %", "k_min, -1: +50 %"]
+            [
+                "profiles, most: ×4",
+                "profiles, least: -50 %",
+                "k_min, +1: +25 %",
+                "k_min, -1: +50 %"
+            ]
         );
         let arrows = |sign| {
-            let is_arrow =
-                |layer: &&Layer| matches!(&layer.shape, Shape::Curve { sign: Some(one), .. } if *one == sign);
-            chart.layers.iter().find(is_arrow).map(|layer| layer.shape.points().len())
+            let is_arrow = |layer: &&Layer| matches!(&layer.shape, Shape::Curve { sign: Some(one), .. } if *one == sign);
+            chart
+                .layers
+                .iter()
+                .find(is_arrow)
+                .map(|layer| layer.shape.points().len())
         };
-        assert_eq!((arrows(Sign::Right), arrows(Sign::Left)), (Some(1), Some(0)));
-        let none = Sensitivity { present: [Some(0.0), None, None], ..sensitivity };
-        let report = SensitivityReport { title: "None", scene: &scene, sensitivity: &none, warnings: &[] };
+        assert_eq!(
+            (arrows(Sign::Right), arrows(Sign::Left)),
+            (Some(1), Some(0))
+        );
+        let none = Sensitivity {
+            present: [Some(0.0), None, None],
+            ..sensitivity
+        };
+        let report = SensitivityReport {
+            title: "None",
+            scene: &scene,
+            sensitivity: &none,
+            warnings: &[],
+        };
         assert!(report.text().unwrap().contains("no pull-off"));
     }
 }

@@ -33,7 +33,8 @@ impl Sheet {
 
     /// Adds a heading, after an empty line unless the heading is the first.
     pub fn heading(&mut self, heading: &str) {
-        self.text.push_str(if self.text.is_empty() { "" } else { "\n" });
+        self.text
+            .push_str(if self.text.is_empty() { "" } else { "\n" });
         self.paragraph(heading);
     }
 
@@ -56,7 +57,10 @@ impl Sheet {
 
     /// Adds a row of a label and a number, given in the SI unit `unit` and written with a prefix. `None` adds nothing.
     pub fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
-        self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
+        self.row_of(
+            label,
+            value.into().map(|value| format_quantity(value, unit)),
+        );
     }
 
     /// Adds a row of a label and a value. `None` adds nothing.
@@ -69,16 +73,31 @@ impl Sheet {
     /// Adds a table with aligned columns.
     pub fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
-        let length = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());
-        let width = |column: usize| rows.iter().map(|row| length(row, column)).max().unwrap_or(0);
+        let length = |row: &R, column: usize| {
+            row.as_ref()
+                .get(column)
+                .map_or(0, |cell| cell.chars().count())
+        };
+        let width = |column: usize| {
+            rows.iter()
+                .map(|row| length(row, column))
+                .max()
+                .unwrap_or(0)
+        };
         let widths: Vec<usize> = (0..columns).map(width).collect();
         let mut next = columns.min(1);
         loop {
-            let (begin, mut room) = (next, WIDTH.saturating_sub(widths.first().map_or(0, |width| width + 2)));
+            let (begin, mut room) = (
+                next,
+                WIDTH.saturating_sub(widths.first().map_or(0, |width| width + 2)),
+            );
             while next < columns {
                 // Only the last column holds sentences, which continue on further lines.
-                let needed =
-                    if next + 1 == columns { widths[next].min(FEWEST_IN_LAST) } else { widths[next] };
+                let needed = if next + 1 == columns {
+                    widths[next].min(FEWEST_IN_LAST)
+                } else {
+                    widths[next]
+                };
                 if needed > room && next > begin {
                     break;
                 }
@@ -87,8 +106,14 @@ impl Sheet {
             }
             for row in rows {
                 let cells: Vec<_> = row.as_ref().iter().enumerate().collect();
-                let shown = cells.iter().filter(|(column, _)| *column == 0 || (begin..next).contains(column));
-                self.cells(&shown.map(|(column, cell)| (widths[*column], cell.as_str())).collect::<Vec<_>>());
+                let shown = cells
+                    .iter()
+                    .filter(|(column, _)| *column == 0 || (begin..next).contains(column));
+                self.cells(
+                    &shown
+                        .map(|(column, cell)| (widths[*column], cell.as_str()))
+                        .collect::<Vec<_>>(),
+                );
             }
             if next >= columns {
                 return;
@@ -100,8 +125,13 @@ impl Sheet {
     /// Adds a line of cells, each with the width of its column. The last cell begins on the next line if it has too little
     /// room.
     fn cells(&mut self, cells: &[(usize, &str)]) {
-        let Some(((_, last), others)) = cells.split_last() else { return };
-        let mut before: String = others.iter().map(|(width, cell)| padded(cell, width + 2)).collect();
+        let Some(((_, last), others)) = cells.split_last() else {
+            return;
+        };
+        let mut before: String = others
+            .iter()
+            .map(|(width, cell)| padded(cell, width + 2))
+            .collect();
         let mut room = WIDTH.saturating_sub(before.chars().count());
         if room < FEWEST_IN_LAST && last.chars().count() > room {
             self.line(&before);
@@ -123,7 +153,10 @@ impl Sheet {
 
 /// Returns at most `most` evenly spaced rows of a table, always with the last one.
 pub(crate) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
-    let (last, stride) = (rows.len().saturating_sub(1), rows.len().div_ceil(most).max(1));
+    let (last, stride) = (
+        rows.len().saturating_sub(1),
+        rows.len().div_ceil(most).max(1),
+    );
     rows.skip(last % stride).step_by(stride)
 }
 
@@ -145,7 +178,8 @@ mod tests {
     #[test]
     fn columns_are_as_wide_as_their_cells() {
         let lines = lines(
-            &[["a", "b", &"c ".repeat(60)], ["aaa", "", "d"]].map(|row| row.map(String::from).to_vec()),
+            &[["a", "b", &"c ".repeat(60)], ["aaa", "", "d"]]
+                .map(|row| row.map(String::from).to_vec()),
         );
         assert_eq!(lines.len(), 3, "{lines:?}");
         assert!(lines[0].starts_with("a    b  c c"), "{lines:?}");
@@ -158,11 +192,19 @@ mod tests {
     fn columns_that_do_not_fit_are_a_further_table() {
         let row = |first: &str| {
             let others = (1..8).map(|column| format!("{column}{}", "x".repeat(13)));
-            std::iter::once(first.to_owned()).chain(others).collect::<Vec<_>>()
+            std::iter::once(first.to_owned())
+                .chain(others)
+                .collect::<Vec<_>>()
         };
         let lines = lines(&[row("setting"), row("16")]);
-        let starts: Vec<String> = lines.iter().map(|line| line.chars().take(10).collect()).collect();
-        assert_eq!(starts, ["setting  1", "16       1", "", "setting  5", "16       5"]);
+        let starts: Vec<String> = lines
+            .iter()
+            .map(|line| line.chars().take(10).collect())
+            .collect();
+        assert_eq!(
+            starts,
+            ["setting  1", "16       1", "", "setting  5", "16       5"]
+        );
         assert!(lines.iter().all(|line| line.len() <= WIDTH));
     }
 }

@@ -42,17 +42,28 @@ pub(crate) fn spectrum_name(face: usize, direction: Along) -> &'static str {
 /// Returns logarithmically spaced wave numbers, about `per_decade` per decade.
 pub(crate) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
-    (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
+    (0..=pieces as u32)
+        .map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
 }
 
 fn measured(faces: &[&Analysis]) -> Vec<Layer> {
     let spectra = faces.iter().enumerate().flat_map(|(face, analysis)| {
-        analysis.spectra.iter().map(move |(direction, bins)| (spectrum_name(face, *direction), bins))
+        analysis
+            .spectra
+            .iter()
+            .map(move |(direction, bins)| (spectrum_name(face, *direction), bins))
     });
     let layer = |(number, (name, bins)): (usize, (&str, &Vec<Bin>))| {
-        let points = bins.iter().map(|bin| (bin.wave_number, bin.power)).collect();
+        let points = bins
+            .iter()
+            .map(|bin| (bin.wave_number, bin.power))
+            .collect();
         let name = Label::plain(&format!("measured, {name}"));
-        Layer::new(name, Ink::Series(number), Shape::signs(points, Sign::of_series(number)))
+        Layer::new(
+            name,
+            Ink::Series(number),
+            Shape::signs(points, Sign::of_series(number)),
+        )
     };
     spectra.enumerate().map(layer).collect()
 }
@@ -63,14 +74,29 @@ impl Spectra {
         let isotropic = &analysis.isotropic;
         let range = isotropic.range();
         let over = |spectrum: &dyn Fn(f64) -> f64| {
-            wave_numbers(range, PER_DECADE).map(|q| (q, spectrum(q))).collect::<Vec<_>>()
+            wave_numbers(range, PER_DECADE)
+                .map(|q| (q, spectrum(q)))
+                .collect::<Vec<_>>()
         };
         let fit = analysis.power_law;
         let continues = matches!(analysis.end, End::Continues(_));
         let limits = [
-            (fit.and_then(|fit| fit.roll_off).map(|roll_off| roll_off.value), "roll-off", Ink::Surface),
-            (continues.then(|| isotropic.last_node()), "last resolved wave", Ink::Quiet),
-            (analysis.reliability_cutoff.map(|length| TAU / length), "reliability cut-off", Ink::Contact),
+            (
+                fit.and_then(|fit| fit.roll_off)
+                    .map(|roll_off| roll_off.value),
+                "roll-off",
+                Ink::Surface,
+            ),
+            (
+                continues.then(|| isotropic.last_node()),
+                "last resolved wave",
+                Ink::Quiet,
+            ),
+            (
+                analysis.reliability_cutoff.map(|length| TAU / length),
+                "reliability cut-off",
+                Ink::Contact,
+            ),
         ];
         let limit = |(at, name, ink): (Option<f64>, &str, Ink)| {
             Some(Layer::new(name.into(), ink, Shape::Upright(at?)))
@@ -78,13 +104,21 @@ impl Spectra {
         let mut layers: Vec<Layer> = limits.into_iter().filter_map(limit).collect();
         layers.extend(measured(&[analysis]));
         let line = |name, points, stroke| Layer::new(name, Ink::Text, Shape::line(points, stroke));
-        layers.push(line("fit".into(), over(&|q| isotropic.cut(q)), Stroke::Solid));
+        layers.push(line(
+            "fit".into(),
+            over(&|q| isotropic.cut(q)),
+            Stroke::Solid,
+        ));
         layers.extend(fit.map(|fit| {
             let name = Label::plain("self-affine fit, ").join(&Label::symbol("H"));
             let name = name.then(&format!(" = {:.2}", fit.hurst.value));
             line(name, over(&|q| fit.cut(q, range)), SELF_AFFINE)
         }));
-        Spectra { measured: layers, line: over(&|q| isotropic.line(q)), heights: Vec::new() }
+        Spectra {
+            measured: layers,
+            line: over(&|q| isotropic.line(q)),
+            heights: Vec::new(),
+        }
     }
 
     /// Returns the spectra of one rough body, or of both bodies in contact, with one [`Analysis`] for each body. [`Self::line`]
@@ -95,9 +129,17 @@ impl Spectra {
             [face] => return Spectra::of_analysis(face),
             _ => {}
         }
-        let line = EquivalentLine { faces: faces.iter().map(|face| face.isotropic.clone()).collect() };
-        let line = wave_numbers(line.range(), PER_DECADE).map(|q| (q, line.power(q))).collect();
-        Spectra { measured: measured(faces), line, heights: Vec::new() }
+        let line = EquivalentLine {
+            faces: faces.iter().map(|face| face.isotropic.clone()).collect(),
+        };
+        let line = wave_numbers(line.range(), PER_DECADE)
+            .map(|q| (q, line.power(q)))
+            .collect();
+        Spectra {
+            measured: measured(faces),
+            line,
+            heights: Vec::new(),
+        }
     }
 
     /// Returns the chart of all spectra over the wave number.
@@ -109,22 +151,41 @@ impl Spectra {
         }
         if !self.heights.is_empty() {
             let shape = Shape::signs(self.heights.clone(), Sign::Cross);
-            layers.push(Layer::new("heights of the profile".into(), Ink::Manual, shape));
+            layers.push(Layer::new(
+                "heights of the profile".into(),
+                Ink::Manual,
+                shape,
+            ));
         }
         let measured = self.measured.iter().flat_map(|layer| match &layer.shape {
-            Shape::Curve { points, stroke, .. } if *stroke != Some(SELF_AFFINE) => points.as_slice(),
+            Shape::Curve { points, stroke, .. } if *stroke != Some(SELF_AFFINE) => {
+                points.as_slice()
+            }
             _ => &[],
         });
-        let all: Vec<_> = measured.chain(&self.line).chain(&self.heights).copied().collect();
+        let all: Vec<_> = measured
+            .chain(&self.line)
+            .chain(&self.heights)
+            .copied()
+            .collect();
         // Besides the waves of the line, heights contain only rounding errors.
         let without_heights = all.len() - self.heights.len();
-        let shown = if without_heights > 0 { &all[..without_heights] } else { &all[..] };
+        let shown = if without_heights > 0 {
+            &all[..without_heights]
+        } else {
+            &all[..]
+        };
         let x = Span::around(all.iter().map(|(q, _)| q.log10()), 0.03);
         let powers = shown.iter().map(|(_, power)| *power);
         let y = Span::of_values(AxisScale::Logarithmic, powers, MOST_DECADES).widened(0.04);
-        let axis =
-            |span, name, symbol, unit| ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit);
-        Chart::new(axis(x, "wave number", "q", "rad/m"), axis(y, "power spectral density", "C", "m³"), layers)
+        let axis = |span, name, symbol, unit| {
+            ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
+        };
+        Chart::new(
+            axis(x, "wave number", "q", "rad/m"),
+            axis(y, "power spectral density", "C", "m³"),
+            layers,
+        )
     }
 }
 
@@ -133,25 +194,59 @@ mod tests {
     use super::*;
     use asperity_plot::Figure;
     use asperity_plot::judge::check_picture;
-    use asperity_surface::{AnalysisOptions, ReadOptions, SelfAffineFit, ValueWithError, analyse, parse};
+    use asperity_surface::{
+        AnalysisOptions, ReadOptions, SelfAffineFit, ValueWithError, analyse, parse,
+    };
 
     fn analysis(end: End) -> Analysis {
-        let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+        let height = |i: u32| {
+            (1..60)
+                .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k))
+                .sum::<f64>()
+        };
         let rows: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
-        let surface = parse(format!("x [um] z [nm]\n{rows}").as_bytes(), &ReadOptions::default()).unwrap();
-        analyse(&[surface], &AnalysisOptions { end, tip_radius: Some(1e-3), ..AnalysisOptions::default() })
-            .unwrap()
+        let surface = parse(
+            format!("x [um] z [nm]\n{rows}").as_bytes(),
+            &ReadOptions::default(),
+        )
+        .unwrap();
+        analyse(
+            &[surface],
+            &AnalysisOptions {
+                end,
+                tip_radius: Some(1e-3),
+                ..AnalysisOptions::default()
+            },
+        )
+        .unwrap()
     }
 
     #[test]
     fn a_chart_names_all_that_it_shows() {
         let mut analysis = analysis(End::Continues(1e7));
-        let half = ValueWithError { value: 0.5, error: 0.1 };
-        let level = ValueWithError { value: analysis.isotropic.c2d(1e5), error: 0.0 };
-        analysis.power_law = Some(SelfAffineFit { hurst: half, roll_off: None, level });
-        let spectra = Spectra { heights: vec![(1e5, 1e-22)], ..Spectra::of_analysis(&analysis) };
+        let half = ValueWithError {
+            value: 0.5,
+            error: 0.1,
+        };
+        let level = ValueWithError {
+            value: analysis.isotropic.c2d(1e5),
+            error: 0.0,
+        };
+        analysis.power_law = Some(SelfAffineFit {
+            hurst: half,
+            roll_off: None,
+            level,
+        });
+        let spectra = Spectra {
+            heights: vec![(1e5, 1e-22)],
+            ..Spectra::of_analysis(&analysis)
+        };
         let figure = Figure::of_chart("a & b", spectra.chart());
-        let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
+        let legend: Vec<String> = figure
+            .legend()
+            .iter()
+            .map(|entry| entry.name.to_string())
+            .collect();
         for name in [
             "measured, 1D PSD along x",
             "fit",
@@ -160,9 +255,15 @@ mod tests {
             "heights of the profile",
             "last resolved wave",
         ] {
-            assert!(legend.iter().any(|entry| entry == name), "{name}: {legend:?}");
+            assert!(
+                legend.iter().any(|entry| entry == name),
+                "{name}: {legend:?}"
+            );
         }
-        assert_eq!(legend.contains(&"reliability cut-off".to_owned()), analysis.reliability_cutoff.is_some());
+        assert_eq!(
+            legend.contains(&"reliability cut-off".to_owned()),
+            analysis.reliability_cutoff.is_some()
+        );
         check_picture(&figure.svg());
         check_picture(&Figure::of_chart("", Spectra::default().chart()).svg());
     }
@@ -173,8 +274,15 @@ mod tests {
         // At the largest likelihood the mean over the waves of powers over their means is 1; wave 1 is not fitted.
         let bins = &analysis.spectra[0].1[2..];
         let fit = |q: f64| analysis.isotropic.cut(q);
-        let sum: f64 = bins.iter().map(|bin| bin.waves as f64 * bin.power / fit(bin.wave_number)).sum();
+        let sum: f64 = bins
+            .iter()
+            .map(|bin| bin.waves as f64 * bin.power / fit(bin.wave_number))
+            .sum();
         let waves: u64 = bins.iter().map(|bin| bin.waves).sum();
-        assert!((0.8..1.25).contains(&(sum / waves as f64)), "{}", sum / waves as f64);
+        assert!(
+            (0.8..1.25).contains(&(sum / waves as f64)),
+            "{}",
+            sum / waves as f64
+        );
     }
 }

@@ -9,9 +9,27 @@ use asperity_scene::stages::{PlannedStage, Workload};
 /// reason why the step runs or is skipped.
 pub fn stages_text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
-    let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };
-    for PlannedStage { stage, runs, because, passes, springs_touched, bytes } in &plan.stages {
-        let memory = if *bytes > 0 { memory_size(*bytes) } else { String::new() };
+    let count = |count: u64| {
+        if count > 0 {
+            grouped(count)
+        } else {
+            String::new()
+        }
+    };
+    for PlannedStage {
+        stage,
+        runs,
+        because,
+        passes,
+        springs_touched,
+        bytes,
+    } in &plan.stages
+    {
+        let memory = if *bytes > 0 {
+            memory_size(*bytes)
+        } else {
+            String::new()
+        };
         let passes = match *passes {
             _ if !runs => "skipped".to_owned(),
             None => "per stage".to_owned(),
@@ -19,7 +37,13 @@ pub fn stages_text(plan: &Workload) -> String {
             Some(passes) => grouped(passes),
         };
         let touched = springs_touched.map_or_else(String::new, count);
-        rows.push([stage.name().into(), passes, touched, memory, (*because).into()]);
+        rows.push([
+            stage.name().into(),
+            passes,
+            touched,
+            memory,
+            (*because).into(),
+        ]);
     }
     let mut sheet = Sheet::default();
     sheet.table(&rows);

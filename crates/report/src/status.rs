@@ -23,13 +23,28 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
     ));
     if status.failed > 0 {
         let failed = grouped(status.failed);
-        sheet.paragraph(&format!("{failed} records cannot be computed; a merge states the reasons."));
+        sheet.paragraph(&format!(
+            "{failed} records cannot be computed; a merge states the reasons."
+        ));
     }
     if status.damaged > 0 {
-        sheet.paragraph(&format!("{} torn or damaged lines are left out.", grouped(status.damaged)));
+        sheet.paragraph(&format!(
+            "{} torn or damaged lines are left out.",
+            grouped(status.damaged)
+        ));
     }
-    let mut rows =
-        vec![["shard", "there", "of", "machine", "process", "wrote", "per second"].map(String::from)];
+    let mut rows = vec![
+        [
+            "shard",
+            "there",
+            "of",
+            "machine",
+            "process",
+            "wrote",
+            "per second",
+        ]
+        .map(String::from),
+    ];
     for shard in &status.shards {
         for (index, attempt) in shard.attempts.iter().enumerate() {
             let first = |text: String| if index == 0 { text } else { String::new() };
@@ -40,7 +55,9 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
                 attempt.host.chars().take(LONGEST_HOST).collect(),
                 attempt.process.to_string(),
                 grouped(attempt.records),
-                attempt.rate.map_or_else(String::new, |rate| format!("{rate:.2}")),
+                attempt
+                    .rate
+                    .map_or_else(String::new, |rate| format!("{rate:.2}")),
             ]);
         }
     }
@@ -51,8 +68,17 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
 /// Returns the progress of a running study in one line: results computed so far and in all, results per second, and
 /// estimated time left.
 pub fn progress_text(progress: &StudyProgress) -> String {
-    let StudyProgress { done, before, total, .. } = *progress;
-    let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };
+    let StudyProgress {
+        done,
+        before,
+        total,
+        ..
+    } = *progress;
+    let share = if total == 0 {
+        100.0
+    } else {
+        100.0 * done as f64 / total as f64
+    };
     let mut text = format!("{done} of {total} records, {share:.1} %");
     if let Some(rate) = progress.rate().filter(|_| done > before) {
         let decimals = if rate >= 100.0 { 0 } else { 2 };
@@ -86,12 +112,29 @@ mod tests {
     fn progress_is_one_line() {
         let at = |done, before, seconds| {
             let elapsed = Duration::from_secs(seconds);
-            progress_text(&StudyProgress { done, before, total: 4000, elapsed })
+            progress_text(&StudyProgress {
+                done,
+                before,
+                total: 4000,
+                elapsed,
+            })
         };
         assert_eq!(at(0, 0, 0), "0 of 4000 records, 0.0 %");
-        assert_eq!(at(1000, 1000, 0), "1000 of 4000 records, 25.0 % were there before");
-        assert_eq!(at(2000, 1000, 10), "2000 of 4000 records, 50.0 %, 100 per second, 20 s left");
-        assert_eq!(at(1001, 1000, 10), "1001 of 4000 records, 25.0 %, 0.10 per second, 8 h 19 min left");
-        assert_eq!(at(4000, 0, 10), "4000 of 4000 records, 100.0 %, 400 per second");
+        assert_eq!(
+            at(1000, 1000, 0),
+            "1000 of 4000 records, 25.0 % were there before"
+        );
+        assert_eq!(
+            at(2000, 1000, 10),
+            "2000 of 4000 records, 50.0 %, 100 per second, 20 s left"
+        );
+        assert_eq!(
+            at(1001, 1000, 10),
+            "1001 of 4000 records, 25.0 %, 0.10 per second, 8 h 19 min left"
+        );
+        assert_eq!(
+            at(4000, 0, 10),
+            "4000 of 4000 records, 100.0 %, 400 per second"
+        );
     }
 }

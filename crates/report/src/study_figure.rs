@@ -2,8 +2,8 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{
-    Chart, ChartAxis, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span, Stroke,
-    value_label,
+    Chart, ChartAxis, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign,
+    Span, Stroke, value_label,
 };
 use asperity_scene::Regime;
 use asperity_study::maps::Grid;
@@ -35,7 +35,13 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
     let (title, notes) = (title.into(), fixed.into_iter().collect());
-    Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
+    Figure {
+        title,
+        notes,
+        charts,
+        size: Figure::SMALL,
+        ..Figure::default()
+    }
 }
 
 /// Returns a heat map with the two axes of `grid`. Its values are means of a quantity over the random profiles. `None` if
@@ -50,12 +56,17 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     let ends = ends.map_or_else(Vec::new, |(low, high)| vec![low, high]);
     // Both signs of a quantity have colours of their own, unless one of them is rare.
     let (shades, range) = match ends.as_slice() {
-        [low, high] if -low > LEAST_OF_A_SIGN * high && *high > -LEAST_OF_A_SIGN * low => {
-            (Shades::Diverging, Span::around([-low, *low, *high, -high].into_iter(), 0.0))
-        }
-        _ => (Shades::Sequential, Span::of_values(scale, ends.into_iter(), MOST_DECADES_OF_MAP)),
+        [low, high] if -low > LEAST_OF_A_SIGN * high && *high > -LEAST_OF_A_SIGN * low => (
+            Shades::Diverging,
+            Span::around([-low, *low, *high, -high].into_iter(), 0.0),
+        ),
+        _ => (
+            Shades::Sequential,
+            Span::of_values(scale, ends.into_iter(), MOST_DECADES_OF_MAP),
+        ),
     };
-    let class = |regime: &Option<Regime>| REGIMES.iter().position(|(one, ..)| Some(*one) == *regime);
+    let class =
+        |regime: &Option<Regime>| REGIMES.iter().position(|(one, ..)| Some(*one) == *regime);
     // The axis of a regime names its protocol; beside other quantities letters show the regime from first touch.
     let letters_of = match quantity.is_regime() {
         true => String::new(),
@@ -94,7 +105,9 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
 /// logarithmic vertical axis follows.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
-    let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);
+    let scale = grid
+        .layer(quantity)
+        .map_or(AxisScale::Linear, |layer| layer.scale);
     let estimates = grid.statistics(quantity, false);
     let places = coordinates(across);
     let layers = layers(grid, quantity, &estimates);
@@ -102,18 +115,33 @@ pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let chart = |scale: AxisScale| {
         let x = axis_over(across, Span::around(places.iter().copied(), 0.03));
         let y = axis_of(quantity, scale, range(grid, quantity, &estimates, scale));
-        let scale = if is_small && scale == AxisScale::Logarithmic { ", logarithmic scale" } else { "" };
-        Chart { heading: heading(quantity).then(scale), ..Chart::new(x, y, layers.clone()) }
+        let scale = if is_small && scale == AxisScale::Logarithmic {
+            ", logarithmic scale"
+        } else {
+            ""
+        };
+        Chart {
+            heading: heading(quantity).then(scale),
+            ..Chart::new(x, y, layers.clone())
+        }
     };
-    std::iter::once(chart(scale)).chain(is_small.then(|| chart(AxisScale::Logarithmic))).collect()
+    std::iter::once(chart(scale))
+        .chain(is_small.then(|| chart(AxisScale::Logarithmic)))
+        .collect()
 }
 
 fn means(estimates: &[Option<Statistics>]) -> Vec<Option<f64>> {
-    estimates.iter().map(|estimate| Some((*estimate)?.mean)).collect()
+    estimates
+        .iter()
+        .map(|estimate| Some((*estimate)?.mean))
+        .collect()
 }
 
 fn coordinates(axis: &asperity_study::Axis) -> Vec<f64> {
-    axis.values.iter().map(|value| axis.scale().coordinate(*value)).collect()
+    axis.values
+        .iter()
+        .map(|value| axis.scale().coordinate(*value))
+        .collect()
 }
 
 fn axis_over(axis: &asperity_study::Axis, span: Span) -> ChartAxis {
@@ -124,10 +152,15 @@ fn name(quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime {}", quantity.protocol());
     }
-    let hyphenated =
-        [("first touch", "first-touch"), ("zero force a", "zero-force a"), ("pull off", "pull-off")];
+    let hyphenated = [
+        ("first touch", "first-touch"),
+        ("zero force a", "zero-force a"),
+        ("pull off", "pull-off"),
+    ];
     let name = quantity.name().replace('_', " ");
-    hyphenated.iter().fold(name, |name, (words, word)| name.replace(words, word))
+    hyphenated
+        .iter()
+        .fold(name, |name, (words, word)| name.replace(words, word))
 }
 
 fn heading(quantity: Quantity) -> Label {
@@ -135,7 +168,11 @@ fn heading(quantity: Quantity) -> Label {
 }
 
 fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
-    let name = if quantity.symbol().is_empty() { name(quantity) } else { String::new() };
+    let name = if quantity.symbol().is_empty() {
+        name(quantity)
+    } else {
+        String::new()
+    };
     ChartAxis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
@@ -144,16 +181,28 @@ fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
     let own = shares.contains(&quantity).then_some(quantity);
-    own.or_else(|| shares.into_iter().find(|share| grid.layer(*share).is_some()))
+    own.or_else(|| {
+        shares
+            .into_iter()
+            .find(|share| grid.layer(*share).is_some())
+    })
 }
 
 /// Returns the name of the boundary in the legend: `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
-    let (force, ideal) = share.symbol().split_once('/').unwrap_or((share.symbol(), ""));
+    let (force, ideal) = share
+        .symbol()
+        .split_once('/')
+        .unwrap_or((share.symbol(), ""));
     Label::symbol(&format!("{force} = {} {ideal}", Regime::VANISHING_SHARE))
 }
 
-fn range(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>], scale: AxisScale) -> Span {
+fn range(
+    grid: &Grid,
+    quantity: Quantity,
+    estimates: &[Option<Statistics>],
+    scale: AxisScale,
+) -> Span {
     let known = || estimates.iter().flatten();
     let from = Span::of_values(scale, known().map(|estimate| estimate.mean), MOST_DECADES);
     let ends = known().flat_map(|one| {
@@ -165,12 +214,19 @@ fn range(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>], scal
     match scale {
         AxisScale::Linear if quantity.bounds().0 == 0.0 && from.low == 0.0 => {
             let high = all.high.min(MOST_OF_BAND * from.high);
-            Span { low: -0.03 * high, high: 1.05 * high }
+            Span {
+                low: -0.03 * high,
+                high: 1.05 * high,
+            }
         }
         AxisScale::Linear => all.widened(0.05),
         AxisScale::Logarithmic => {
             let most = from.high + MOST_OF_BAND.log10();
-            Span { high: all.high.clamp(from.high, most), ..from }.widened(0.05)
+            Span {
+                high: all.high.clamp(from.high, most),
+                ..from
+            }
+            .widened(0.05)
         }
     }
 }
@@ -192,29 +248,63 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
     let mut layers = Vec::new();
     let mut add = |name: Label, ink: Ink, sign: Sign, estimates: &[Option<Statistics>]| {
         let known = || places.iter().copied().zip(estimates);
-        if estimates.iter().flatten().any(|one| one.ends().0 < one.ends().1) {
-            let ends = |one: &Option<Statistics>| one.map_or((f64::NAN, f64::NAN), |one| one.ends());
-            let band = known().map(|(x, one)| (x, ends(one).0, ends(one).1)).collect();
-            layers.push(Layer::new("95 % confidence of the mean".into(), ink, Shape::Band(band)));
+        if estimates
+            .iter()
+            .flatten()
+            .any(|one| one.ends().0 < one.ends().1)
+        {
+            let ends =
+                |one: &Option<Statistics>| one.map_or((f64::NAN, f64::NAN), |one| one.ends());
+            let band = known()
+                .map(|(x, one)| (x, ends(one).0, ends(one).1))
+                .collect();
+            layers.push(Layer::new(
+                "95 % confidence of the mean".into(),
+                ink,
+                Shape::Band(band),
+            ));
         }
         let points = |of: fn(&Statistics) -> f64| {
-            known().map(move |(x, one)| (x, one.as_ref().map_or(f64::NAN, of))).collect::<Vec<_>>()
+            known()
+                .map(move |(x, one)| (x, one.as_ref().map_or(f64::NAN, of)))
+                .collect::<Vec<_>>()
         };
         if grid.up.is_none() && estimates.iter().flatten().any(|one| one.count > 1) {
-            let band = points(|one| one.quartiles[0]).into_iter().zip(points(|one| one.quartiles[2]));
-            let band = band.map(|((x, lower), (_, upper))| (x, lower, upper)).collect();
-            layers.push(Layer::new("quartiles of the profiles".into(), Ink::Quiet, Shape::Band(band)));
+            let band = points(|one| one.quartiles[0])
+                .into_iter()
+                .zip(points(|one| one.quartiles[2]));
+            let band = band
+                .map(|((x, lower), (_, upper))| (x, lower, upper))
+                .collect();
+            layers.push(Layer::new(
+                "quartiles of the profiles".into(),
+                Ink::Quiet,
+                Shape::Band(band),
+            ));
             let median = Shape::line(points(|one| one.quartiles[1]), Stroke::Dashed);
             layers.push(Layer::new("median".into(), Ink::Quiet, median));
         }
         let (points, stroke) = (points(|one| one.mean), Some(Stroke::Solid));
-        layers.push(Layer::new(name, ink, Shape::Curve { points, stroke, sign: Some(sign) }));
+        layers.push(Layer::new(
+            name,
+            ink,
+            Shape::Curve {
+                points,
+                stroke,
+                sign: Some(sign),
+            },
+        ));
     };
     match (&grid.up, curves.first()) {
         // Curves that are equal to the last bit do not depend on the axis up.
         (Some(up), Some(first)) if curves.iter().all(|curve| curve == first) => {
             let symbol = Label::symbol_or_name(up.symbol, &up.name);
-            add(Label::plain("any ").join(&symbol), Ink::Quiet, Sign::Dot, first);
+            add(
+                Label::plain("any ").join(&symbol),
+                Ink::Quiet,
+                Sign::Dot,
+                first,
+            );
         }
         (Some(up), _) => {
             for (number, (curve, value)) in curves.iter().zip(&up.values).enumerate() {
@@ -223,7 +313,9 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
             }
         }
         (None, first) => {
-            first.into_iter().for_each(|curve| add("mean".into(), Ink::Series(0), Sign::Dot, curve));
+            first
+                .into_iter()
+                .for_each(|curve| add("mean".into(), Ink::Series(0), Sign::Dot, curve));
         }
     }
     layers.extend(vanishing(grid, quantity).into_iter().flat_map(|share| {
@@ -247,7 +339,10 @@ fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     }
     let ends = places.windows(2).zip(first.unwrap_or_default().windows(2));
     ends.filter_map(|(x, value)| {
-        let (first, second) = (value[0]? - Regime::VANISHING_SHARE, value[1]? - Regime::VANISHING_SHARE);
+        let (first, second) = (
+            value[0]? - Regime::VANISHING_SHARE,
+            value[1]? - Regime::VANISHING_SHARE,
+        );
         let crosses = (first < 0.0) != (second < 0.0);
         crosses.then(|| x[0] + (x[1] - x[0]) * first / (first - second))
     })
@@ -271,11 +366,19 @@ mod tests {
     }
 
     fn axis(path: &str, spacing: Spacing, values: Vec<f64>) -> Axis {
-        Axis::new(path, spacing, values, open("pressure-sensitive").unwrap().scene()).unwrap()
+        Axis::new(
+            path,
+            spacing,
+            values,
+            open("pressure-sensitive").unwrap().scene(),
+        )
+        .unwrap()
     }
 
     fn kappas() -> Axis {
-        let values = (0..17).map(|index| 0.25 * 10_f64.powf(f64::from(index) / 10.0)).collect();
+        let values = (0..17)
+            .map(|index| 0.25 * 10_f64.powf(f64::from(index) / 10.0))
+            .collect();
         axis("adhesion.kappa", Spacing::Logarithmic, values)
     }
 
@@ -292,7 +395,11 @@ mod tests {
     }
 
     fn with_interval(mean: f64, confidence_interval: (f64, f64)) -> Statistics {
-        let spread = Spread { standard_deviation: 0.0, standard_error: 0.0, confidence_interval };
+        let spread = Spread {
+            standard_deviation: 0.0,
+            standard_error: 0.0,
+            confidence_interval,
+        };
         Statistics {
             spread: Some(spread),
             ..Statistics::of(vec![mean], Quantity::AdhesionForce.bounds()).unwrap()
@@ -307,7 +414,10 @@ mod tests {
             _ => Regime::NonAdhesive,
         };
         let regimes = RegimeCounts::of([Some(regime); 4].into_iter());
-        GridCell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regimes: [regimes; 2] }
+        GridCell {
+            statistics: values.map(|value| Some(estimate(value))).to_vec(),
+            regimes: [regimes; 2],
+        }
     }
 
     fn study(
@@ -316,41 +426,85 @@ mod tests {
         (across, up): (Axis, Option<Axis>),
         cells: Vec<Option<GridCell>>,
     ) -> Study {
-        let layer = |quantity| GridLayer { quantity, scale: AxisScale::Linear, range: Some((0.0, 1.0)) };
+        let layer = |quantity| GridLayer {
+            quantity,
+            scale: AxisScale::Linear,
+            range: Some((0.0, 1.0)),
+        };
         let cells = cells.into_iter().map(|cell| cell.map(Ok)).collect();
         let fixed = fixed.iter().map(ToString::to_string).collect();
-        let grid = Grid::new(across, up, fixed, [SHARE, COEFFICIENT].map(layer).to_vec(), cells);
-        Study { title: title.into(), grid }
+        let grid = Grid::new(
+            across,
+            up,
+            fixed,
+            [SHARE, COEFFICIENT].map(layer).to_vec(),
+            cells,
+        );
+        Study {
+            title: title.into(),
+            grid,
+        }
     }
 
     /// A map of two quantities over H and κ, with gaps.
     fn phase_map() -> Study {
         let hursts: Vec<f64> = (0..9).map(|index| f64::from(index + 1) / 10.0).collect();
         let places = kappas().values;
-        let places = places.iter().flat_map(|kappa| hursts.iter().map(|hurst| (*kappa, *hurst)));
-        let cells = places.map(|(kappa, hurst)| Some(cell(kappa, hurst))).enumerate();
-        let cells = cells.map(|(index, cell)| cell.filter(|_| ![3, 40, 41].contains(&index))).collect();
-        let axes = (axis("roughness.hurst", Spacing::Linear, hursts), Some(kappas()));
-        study("Phase diagram of adhesion", &["F_n/(E* h L) = 0.5"], axes, cells)
+        let places = places
+            .iter()
+            .flat_map(|kappa| hursts.iter().map(|hurst| (*kappa, *hurst)));
+        let cells = places
+            .map(|(kappa, hurst)| Some(cell(kappa, hurst)))
+            .enumerate();
+        let cells = cells
+            .map(|(index, cell)| cell.filter(|_| ![3, 40, 41].contains(&index)))
+            .collect();
+        let axes = (
+            axis("roughness.hurst", Spacing::Linear, hursts),
+            Some(kappas()),
+        );
+        study(
+            "Phase diagram of adhesion",
+            &["F_n/(E* h L) = 0.5"],
+            axes,
+            cells,
+        )
     }
 
     /// Curves of both quantities at H = 0.3, with a gap.
     fn sections() -> Study {
         let places = kappas().values;
-        let cells = places.iter().map(|kappa| Some(cell(*kappa, 0.3))).enumerate();
-        let cells = cells.map(|(index, cell)| cell.filter(|_| index != 4)).collect();
-        study("Sections at H = 0.3", &["H = 0.3", "F_n/(E* h L) = 0.5"], (kappas(), None), cells)
+        let cells = places
+            .iter()
+            .map(|kappa| Some(cell(*kappa, 0.3)))
+            .enumerate();
+        let cells = cells
+            .map(|(index, cell)| cell.filter(|_| index != 4))
+            .collect();
+        study(
+            "Sections at H = 0.3",
+            &["H = 0.3", "F_n/(E* h L) = 0.5"],
+            (kappas(), None),
+            cells,
+        )
     }
 
     fn figure(Study { title, grid }: &Study) -> Figure {
         let map = |quantity| study_map(grid, quantity, false);
-        let charts = |quantity| map(quantity).map_or_else(|| study_curves(grid, quantity), |map| vec![map]);
+        let charts =
+            |quantity| map(quantity).map_or_else(|| study_curves(grid, quantity), |map| vec![map]);
         study_figure(title, grid, [SHARE, COEFFICIENT].map(charts).concat())
     }
 
     /// Estimates of a quantity in all cells.
     fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Statistics>> {
-        study.grid.cells.iter_mut().flatten().flatten().map(move |cell| &mut cell.statistics[layer])
+        study
+            .grid
+            .cells
+            .iter_mut()
+            .flatten()
+            .flatten()
+            .map(move |cell| &mut cell.statistics[layer])
     }
 
     #[test]
@@ -391,7 +545,10 @@ mod tests {
         study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
         let shares: Vec<_> = estimates(&mut study, 0).map(|one| *one).collect();
         for (estimate, share) in estimates(&mut study, 1).zip(shares) {
-            *estimate = share.map(|one| Statistics { mean: 2.0 * one.mean, ..one });
+            *estimate = share.map(|one| Statistics {
+                mean: 2.0 * one.mean,
+                ..one
+            });
         }
         let later = upright(&study, Quantity::ZeroForceAdhesionShare);
         assert!(later.1 > own.1, "{later:?} {own:?}");
@@ -402,7 +559,10 @@ mod tests {
         let mut map = phase_map();
         map.grid.layers[0].quantity = Quantity::ZeroForceAdhesionShare;
         let legend = figure(&map).legend();
-        assert!(legend.iter().any(|entry| entry.name.to_string() == later.0), "{legend:?}");
+        assert!(
+            legend.iter().any(|entry| entry.name.to_string() == later.0),
+            "{legend:?}"
+        );
     }
 
     #[test]
@@ -418,7 +578,13 @@ mod tests {
             })
         }));
         let up = axis("loading.0.0", Spacing::List, vec![1e-3, 2e-3]);
-        let grid = Grid::new(kappas(), Some(up), Vec::new(), one.grid.layers.clone(), cells);
+        let grid = Grid::new(
+            kappas(),
+            Some(up),
+            Vec::new(),
+            one.grid.layers.clone(),
+            cells,
+        );
         let charts = [SHARE, COEFFICIENT].map(|quantity| study_curves(&grid, quantity));
         let legend = study_figure("", &grid, charts.concat()).legend();
         let names: Vec<String> = legend.iter().map(|entry| entry.name.to_string()).collect();
@@ -427,7 +593,13 @@ mod tests {
         let vanishing = "F_a(d=0) = 0.05 F_a,max".to_owned();
         assert_eq!(
             names,
-            [format!("any {stage}"), vanishing, one, two, "95 % confidence of the mean".into()]
+            [
+                format!("any {stage}"),
+                vanishing,
+                one,
+                two,
+                "95 % confidence of the mean".into()
+            ]
         );
     }
 
@@ -438,15 +610,38 @@ mod tests {
             check_picture(&figure(&study).svg());
             for value in [0.0, -2.0, 1e-300] {
                 for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
-                    let across = axis(&study.grid.across.path, study.grid.across.spacing, vec![0.5]);
+                    let across = axis(
+                        &study.grid.across.path,
+                        study.grid.across.spacing,
+                        vec![0.5],
+                    );
                     let one = Statistics::of(vec![value], SHARE.bounds());
-                    let cell = GridCell { statistics: vec![one; 2], regimes: Default::default() };
+                    let cell = GridCell {
+                        statistics: vec![one; 2],
+                        regimes: Default::default(),
+                    };
                     let rows = study.grid.size().1;
                     let range = Some((value, value));
-                    let layers = study.grid.layers.iter().map(|layer| GridLayer { scale, range, ..*layer });
+                    let layers = study.grid.layers.iter().map(|layer| GridLayer {
+                        scale,
+                        range,
+                        ..*layer
+                    });
                     let cells = vec![Some(Ok(cell)); rows];
-                    let grid = Grid::new(across, study.grid.up.clone(), Vec::new(), layers.collect(), cells);
-                    check_picture(&figure(&Study { title: String::new(), grid }).svg());
+                    let grid = Grid::new(
+                        across,
+                        study.grid.up.clone(),
+                        Vec::new(),
+                        layers.collect(),
+                        cells,
+                    );
+                    check_picture(
+                        &figure(&Study {
+                            title: String::new(),
+                            grid,
+                        })
+                        .svg(),
+                    );
                 }
             }
         }
@@ -462,10 +657,17 @@ mod tests {
                 let text = figure_text(&figure(&study), columns, Colours::None);
                 let widest = text.lines().map(|line| line.chars().count()).max();
                 assert!(widest <= Some(columns), "{columns}: {widest:?}\n{text}");
-                assert!(text.chars().all(|c| c == '\n' || !asperity_data::is_control(c)), "{text}");
+                assert!(
+                    text.chars()
+                        .all(|c| c == '\n' || !asperity_data::is_control(c)),
+                    "{text}"
+                );
             }
         }
         assert!(figure_text(&figure(&phase_map()), 80, Colours::All).contains("\x1b[38;2;"));
-        insta::assert_snapshot!("study_map", figure_text(&figure(&phase_map()), 80, Colours::None));
+        insta::assert_snapshot!(
+            "study_map",
+            figure_text(&figure(&phase_map()), 80, Colours::None)
+        );
     }
 }

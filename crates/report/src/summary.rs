@@ -62,7 +62,11 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     sheet.row("regime", regime(outcome));
     sheet.quantity("preload F_n", figures.preload, "N");
     sheet.row("adhesion force F_a", adhesion_force(outcome));
-    sheet.quantity("at first touch F_a(d=0)", outcome.first_touch_adhesion_force, "N");
+    sheet.quantity(
+        "at first touch F_a(d=0)",
+        outcome.first_touch_adhesion_force,
+        "N",
+    );
     dissipated_energy(&mut sheet, outcome);
     warnings_section(&mut sheet, &outcome.warnings);
     sheet.into_text()
@@ -75,7 +79,9 @@ fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
 fn line(sheet: &mut Sheet, outcome: &Outcome) {
     let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
     // The numbers from here on are those of one profile.
-    sheet.heading(&facts.seed.map_or("Profile".to_owned(), |seed| format!("Profile of seed {seed}")));
+    sheet.heading(&facts.seed.map_or("Profile".to_owned(), |seed| {
+        format!("Profile of seed {seed}")
+    }));
     sheet.row("springs N", grouped(facts.points as u64));
     let under_body = outcome.history.work.springs;
     if under_body != facts.points as u64 {
@@ -85,17 +91,24 @@ fn line(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.quantity("spacing Δx", facts.spacing, "m");
     if let Some((first, last)) = facts.modes {
         sheet.row("modes", format!("{} to {}", first, grouped(last)));
-        let [longest, shortest] = [first, last].map(|mode| format_quantity(facts.length / mode as f64, "m"));
+        let [longest, shortest] =
+            [first, last].map(|mode| format_quantity(facts.length / mode as f64, "m"));
         sheet.row("waves", format!("{longest} to {shortest}"));
     }
     match amplitude {
         None => sheet.row("roughness", "none"),
         Some(amplitude) => {
             sheet.quantity("rms height h", amplitude.rms_height, "m");
-            let dense = facts.continuum_rms_gradient.filter(|&gradient| gradient > 0.0);
-            let dense = quantity(dense, "1")
-                .map_or_else(String::new, |gradient| format!(" (by the integrals of eq. 12: {gradient})"));
-            sheet.row("rms gradient ⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1") + &dense);
+            let dense = facts
+                .continuum_rms_gradient
+                .filter(|&gradient| gradient > 0.0);
+            let dense = quantity(dense, "1").map_or_else(String::new, |gradient| {
+                format!(" (by the integrals of eq. 12: {gradient})")
+            });
+            sheet.row(
+                "rms gradient ⟨∇z⟩",
+                format_quantity(amplitude.rms_gradient, "1") + &dense,
+            );
         }
     }
 }
@@ -120,22 +133,39 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("preload F_n", figures.preload, "N");
     sheet.quantity("at indentation", figures.preload_indentation, "m");
     let force = figures.adhesion_force.is_some();
-    let error = estimate.map_or_else(|| force.then(|| "error unknown".to_owned()), |one| Some(one.words()));
+    let error = estimate.map_or_else(
+        || force.then(|| "error unknown".to_owned()),
+        |one| Some(one.words()),
+    );
     let error = error.map_or_else(String::new, |error| format!(", {error}"));
     sheet.row("adhesion force F_a", adhesion_force(outcome) + &error);
     sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
     sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
-    let share = outcome.adhesion_share().map(|share| rounded(Quantity::AdhesionShare, share, 4));
+    let share = outcome
+        .adhesion_share()
+        .map(|share| rounded(Quantity::AdhesionShare, share, 4));
     sheet.row_of("share F_a/F_a,max", share);
-    sheet.quantity("at first touch F_a(d=0)", outcome.first_touch_adhesion_force, "N");
-    sheet.quantity("at zero force F_a(F=0)", outcome.zero_force_adhesion_force, "N");
+    sheet.quantity(
+        "at first touch F_a(d=0)",
+        outcome.first_touch_adhesion_force,
+        "N",
+    );
+    sheet.quantity(
+        "at zero force F_a(F=0)",
+        outcome.zero_force_adhesion_force,
+        "N",
+    );
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
     sheet.quantity("λ²/(AR)", outcome.steep_waves.map(|waves| waves.ratio), "1");
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
     if let Some(instrument) = outcome.instrument {
         sheet.quantity("loading stiffness k", instrument.stiffness, "N/m");
-        sheet.quantity("pull-off displacement", instrument.pull_off_displacement, "m");
+        sheet.quantity(
+            "pull-off displacement",
+            instrument.pull_off_displacement,
+            "m",
+        );
         sheet.quantity("loop area ∮F dD", instrument.loop_area, "J");
     }
 }
@@ -155,10 +185,15 @@ fn regime(outcome: &Outcome) -> String {
     }
     let both = match outcome.regime_after_zero_force {
         Some(other) if other != regime => {
-            let share = outcome.zero_force_adhesion_force.zip(outcome.figures.adhesion_force);
+            let share = outcome
+                .zero_force_adhesion_force
+                .zip(outcome.figures.adhesion_force);
             let percent = share.map_or(100.0, |(part, whole)| (100.0 * part / whole).round());
-            let already =
-                if percent < 100.0 { format!("{percent} % of F_a") } else { "full adhesion".to_owned() };
+            let already = if percent < 100.0 {
+                format!("{percent} % of F_a")
+            } else {
+                "full adhesion".to_owned()
+            };
             return format!(
                 "{} turned at first touch; turned at zero force already at {already}",
                 regime.name()
@@ -180,23 +215,71 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     if outcome.regime.is_none() {
         return;
     }
-    let (first_touch, adhesion) = (outcome.first_touch_adhesion_force, outcome.figures.adhesion_force);
-    let (zero_force, smooth) = (outcome.zero_force_adhesion_force, outcome.smooth_adhesion_force);
+    let (first_touch, adhesion) = (
+        outcome.first_touch_adhesion_force,
+        outcome.figures.adhesion_force,
+    );
+    let (zero_force, smooth) = (
+        outcome.zero_force_adhesion_force,
+        outcome.smooth_adhesion_force,
+    );
     let preload = outcome.figures.preload;
     let says = ["most of it", "less than half"];
-    share(sheet, "  F_a(d=0)/F_a", first_touch, adhesion, Regime::INSENSITIVE_SHARE, says);
+    share(
+        sheet,
+        "  F_a(d=0)/F_a",
+        first_touch,
+        adhesion,
+        Regime::INSENSITIVE_SHARE,
+        says,
+    );
     let says = ["adhesion", "vanished"];
-    share(sheet, "  F_a(d=0)/F_smooth", first_touch, smooth, Regime::VANISHING_SHARE, says);
+    share(
+        sheet,
+        "  F_a(d=0)/F_smooth",
+        first_touch,
+        smooth,
+        Regime::VANISHING_SHARE,
+        says,
+    );
     let says = ["most of it", "less than half"];
-    share(sheet, "  F_a(F=0)/F_a", zero_force, adhesion, Regime::INSENSITIVE_SHARE, says);
+    share(
+        sheet,
+        "  F_a(F=0)/F_a",
+        zero_force,
+        adhesion,
+        Regime::INSENSITIVE_SHARE,
+        says,
+    );
     let says = ["adhesion", "vanished"];
-    share(sheet, "  F_a(F=0)/F_smooth", zero_force, smooth, Regime::VANISHING_SHARE, says);
+    share(
+        sheet,
+        "  F_a(F=0)/F_smooth",
+        zero_force,
+        smooth,
+        Regime::VANISHING_SHARE,
+        says,
+    );
     if preload.is_some_and(|preload| preload <= 0.0) && first_touch != adhesion {
         let says = ["adhesion without a preload", "vanished without a preload"];
-        share(sheet, "  F_a/F_smooth", adhesion, smooth, Regime::VANISHING_SHARE, says);
+        share(
+            sheet,
+            "  F_a/F_smooth",
+            adhesion,
+            smooth,
+            Regime::VANISHING_SHARE,
+            says,
+        );
     }
     let says = ["not negligible", "negligible"];
-    share(sheet, "  F_a/F_n", adhesion, preload, Regime::NEGLIGIBLE_COEFFICIENT, says);
+    share(
+        sheet,
+        "  F_a/F_n",
+        adhesion,
+        preload,
+        Regime::NEGLIGIBLE_COEFFICIENT,
+        says,
+    );
 }
 
 /// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion: `from_on` at or above the
@@ -210,9 +293,15 @@ fn share(
     [from_on, below]: [&str; 2],
 ) {
     // A share of zero has no meaning.
-    let (Some(part), Some(whole)) = (part, whole.filter(|&whole| whole > 0.0)) else { return };
+    let (Some(part), Some(whole)) = (part, whole.filter(|&whole| whole > 0.0)) else {
+        return;
+    };
     // Products, as in the comparison of the regime itself.
-    let (side, says) = if part >= threshold * whole { ("at least", from_on) } else { ("below", below) };
+    let (side, says) = if part >= threshold * whole {
+        ("at least", from_on)
+    } else {
+        ("below", below)
+    };
     let share = format_quantity(part / whole, "1");
     sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
 }
@@ -222,7 +311,11 @@ fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     let energy = outcome.figures.dissipated_energy;
     sheet.quantity("dissipated energy", energy, "J");
     // The number shows whether the energy is valid.
-    sheet.quantity("Tabor number μ", outcome.tabor_number.filter(|_| energy.is_some()), "1");
+    sheet.quantity(
+        "Tabor number μ",
+        outcome.tabor_number.filter(|_| energy.is_some()),
+        "1",
+    );
 }
 
 fn adhesion_force(outcome: &Outcome) -> String {
@@ -234,14 +327,20 @@ fn loading(legs: &[Move]) -> String {
     let text = loading_text(legs, format_quantity);
     match text.match_indices(", ").nth(MOST_STAGES - 1) {
         Some((end, _)) => {
-            format!("{} and {} more stages", &text[..=end], text[end + 1..].split(", ").count())
+            format!(
+                "{} and {} more stages",
+                &text[..=end],
+                text[end + 1..].split(", ").count()
+            )
         }
         None => text,
     }
 }
 
 fn contact(sheet: &mut Sheet, outcome: &Outcome) {
-    let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else { return };
+    let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else {
+        return;
+    };
     sheet.heading("At the end");
     sheet.quantity("indentation d", end.indentation, "m");
     if end.springs == 0 {
@@ -250,7 +349,10 @@ fn contact(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.quantity("force F", end.force, "N");
     let length = end.contact_length;
     let share = format_quantity(100.0 * length / outcome.line.length, "1");
-    sheet.row("contact length", format!("{}, {share} % of L", format_quantity(length, "m")));
+    sheet.row(
+        "contact length",
+        format!("{}, {share} % of L", format_quantity(length, "m")),
+    );
     sheet.row("contact patches", grouped(end.fragments));
 }
 
@@ -259,7 +361,13 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
     for (label, count) in counts(work) {
         sheet.row_of(label, (count > 0).then(|| grouped(count)));
     }
-    let Timings { line, tree, passes, curve, without_preload } = *timings;
+    let Timings {
+        line,
+        tree,
+        passes,
+        curve,
+        without_preload,
+    } = *timings;
     let stages = [
         ("line", line),
         ("tree", tree),
@@ -267,7 +375,8 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         ("curve", curve),
         ("without preload", without_preload),
     ];
-    let stages = stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
+    let stages =
+        stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
     let total = format_quantity(timings.total(), "s");
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
 }
@@ -310,13 +419,23 @@ mod tests {
 )"#;
 
     fn summary_of(scene: &str, overrides: &[(&str, &str)]) -> String {
-        let overrides: Vec<_> =
-            overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
-        let document = Document::parse(scene, "test").unwrap().set_all(&overrides).unwrap();
+        let overrides: Vec<_> = overrides
+            .iter()
+            .map(|(path, value)| (path.to_string(), value.to_string()))
+            .collect();
+        let document = Document::parse(scene, "test")
+            .unwrap()
+            .set_all(&overrides)
+            .unwrap();
         let scene = document.scene();
-        let mut outcome = Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let mut outcome = Simulation::default()
+            .run(scene, &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         // Without times and the solver's own counts of work.
-        outcome.timings = Timings { line: 1.5e-3, ..Timings::default() };
+        outcome.timings = Timings {
+            line: 1.5e-3,
+            ..Timings::default()
+        };
         let springs = outcome.history.work.springs;
         outcome.history.work = Work::default();
         let work = &mut outcome.history.work;
@@ -331,40 +450,75 @@ mod tests {
     #[test]
     fn summaries_read_as_these() {
         let held = [("loading", "[ToForce(1e-5)]"), ("adhesion", "None")];
-        insta::assert_snapshot!("pressed_and_held_without_adhesion", summary_of(ROUGH, &held));
+        insta::assert_snapshot!(
+            "pressed_and_held_without_adhesion",
+            summary_of(ROUGH, &held)
+        );
     }
 
     #[test]
     fn all_counts_have_a_row() {
         let fields = serde_json::to_value(Work::default()).unwrap();
-        assert_eq!(counts(&Work::default()).len(), fields.as_object().unwrap().len());
+        assert_eq!(
+            counts(&Work::default()).len(),
+            fields.as_object().unwrap().len()
+        );
     }
 
     #[test]
     fn an_adhesion_force_has_its_error() {
         use asperity_scene::discretisation::{Evidence, Target};
         let document = Document::parse(ROUGH, "test").unwrap();
-        let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = Simulation::default()
+            .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         let with = |target, error| {
-            let estimate = Estimate { target, error, near_step: error > 1.0, evidence: Evidence::ClosedForm };
+            let estimate = Estimate {
+                target,
+                error,
+                near_step: error > 1.0,
+                evidence: Evidence::ClosedForm,
+            };
             text(document.scene(), &outcome, Some(&estimate))
         };
-        let row = |text: &str| text.lines().find(|line| line.contains("force F_a ")).unwrap().to_owned();
+        let row = |text: &str| {
+            text.lines()
+                .find(|line| line.contains("force F_a "))
+                .unwrap()
+                .to_owned()
+        };
         let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
         let of_force = with(Target::AdhesionForce, 0.0123);
-        assert!(row(&of_force).ends_with(&format!("{force}, grid ± 1.2 %")), "{of_force}");
+        assert!(
+            row(&of_force).ends_with(&format!("{force}, grid ± 1.2 %")),
+            "{of_force}"
+        );
         let near_step = with(Target::AdhesionForce, 1.4);
-        assert!(row(&near_step).ends_with(&format!("{force}, near a step of F_a(F_n)")), "{near_step}");
+        assert!(
+            row(&near_step).ends_with(&format!("{force}, near a step of F_a(F_n)")),
+            "{near_step}"
+        );
         let unknown = text(document.scene(), &outcome, None);
-        assert!(row(&unknown).ends_with(&format!("{force}, error unknown")), "{unknown}");
+        assert!(
+            row(&unknown).ends_with(&format!("{force}, error unknown")),
+            "{unknown}"
+        );
         let of_curve = with(Target::Curve, 2e-3);
-        assert!(row(&of_curve).ends_with(&format!("{force}, grid ± 0.2 % of the curve")), "{of_curve}");
+        assert!(
+            row(&of_curve).ends_with(&format!("{force}, grid ± 0.2 % of the curve")),
+            "{of_curve}"
+        );
         let brief = brief_summary(document.scene(), &outcome);
         let (brief, warnings) = brief.split_once("\nWarnings").unwrap();
-        assert!(brief.lines().count() <= 10 && warnings.contains("longest waves"), "{brief}{warnings}");
+        assert!(
+            brief.lines().count() <= 10 && warnings.contains("longest waves"),
+            "{brief}{warnings}"
+        );
         let whole = with(Target::AdhesionForce, 0.01);
         assert!(
-            brief.lines().all(|line| whole.lines().any(|other| other.starts_with(line))),
+            brief
+                .lines()
+                .all(|line| whole.lines().any(|other| other.starts_with(line))),
             "{brief}{whole}"
         );
     }
@@ -372,11 +526,26 @@ mod tests {
     #[test]
     fn a_regime_is_named_only_where_something_pulls() {
         for (overrides, said) in [
-            (&[("loading", "[ToTouch]")][..], "not known: the loading does not pull the bodies off"),
-            (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
-            (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: no adhesion"),
-            (&[("adhesion.kappa", "0.1")], "pressure-insensitive turned at first touch and at zero"),
-            (&[("adhesion.kappa", "100.0")], "non-adhesive turned at first touch and at zero"),
+            (
+                &[("loading", "[ToTouch]")][..],
+                "not known: the loading does not pull the bodies off",
+            ),
+            (
+                &[("adhesion", "None")],
+                "non-adhesive: the scene has no adhesion",
+            ),
+            (
+                &[("adhesion", "None"), ("loading", "[ToTouch]")],
+                "none: no adhesion",
+            ),
+            (
+                &[("adhesion.kappa", "0.1")],
+                "pressure-insensitive turned at first touch and at zero",
+            ),
+            (
+                &[("adhesion.kappa", "100.0")],
+                "non-adhesive turned at first touch and at zero",
+            ),
         ] {
             let text = summary_of(ROUGH, overrides);
             assert!(text.contains(said), "{said}: {text}");
@@ -390,24 +559,42 @@ mod tests {
         let scene = [
             ("material", "(youngs_modulus: 5.0e6, poisson_ratio: 0.5)"),
             ("length", "1.0e-3"),
-            ("roughness", "SelfAffine(hurst: 0.8, rms_height: 5.0e-7, modes: (4, 512), seed: 1)"),
+            (
+                "roughness",
+                "SelfAffine(hurst: 0.8, rms_height: 5.0e-7, modes: (4, 512), seed: 1)",
+            ),
             ("loading", "[ToForce(1.0e-2), ToSeparation]"),
         ];
         let scene = scene.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        let document = Document::parse(ROUGH, "test").unwrap().set_all(&scene).unwrap();
+        let document = Document::parse(ROUGH, "test")
+            .unwrap()
+            .set_all(&scene)
+            .unwrap();
         for (work, share, said) in [
-            ("0.03", 1.0, "pressure-sensitive turned at first touch; turned at zero force already at full"),
+            (
+                "0.03",
+                1.0,
+                "pressure-sensitive turned at first touch; turned at zero force already at full",
+            ),
             (
                 "0.03",
                 0.62,
                 "pressure-sensitive turned at first touch; turned at zero force already at 62 % of F_a",
             ),
-            ("0.01", 1.0, "pressure-sensitive turned at first touch and at zero force: adhesion is small"),
+            (
+                "0.01",
+                1.0,
+                "pressure-sensitive turned at first touch and at zero force: adhesion is small",
+            ),
         ] {
-            let document = document.set("adhesion", &format!("(work: {work})")).unwrap();
-            let mut outcome =
-                Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
-            outcome.zero_force_adhesion_force = outcome.zero_force_adhesion_force.map(|force| share * force);
+            let document = document
+                .set("adhesion", &format!("(work: {work})"))
+                .unwrap();
+            let mut outcome = Simulation::default()
+                .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+                .unwrap();
+            outcome.zero_force_adhesion_force =
+                outcome.zero_force_adhesion_force.map(|force| share * force);
             assert!(regime(&outcome).starts_with(said), "{}", regime(&outcome));
         }
     }
@@ -418,8 +605,18 @@ mod tests {
         let notice = format!("\"{}\\n\\n{}\"", "x".repeat(300), "notice ".repeat(60));
         let stages = (1..=20).map(|force| format!("ToForce({force}.2345e-6), ToZeroForce, "));
         let loading = format!("[{}ToSeparation]", stages.collect::<String>());
-        let text = summary_of(ROUGH, &[("title", &title), ("notice", &notice), ("loading", &loading)]);
-        assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+        let text = summary_of(
+            ROUGH,
+            &[
+                ("title", &title),
+                ("notice", &notice),
+                ("loading", &loading),
+            ],
+        );
+        assert!(
+            text.lines().all(|line| line.chars().count() <= 80),
+            "{text}"
+        );
         assert!(text.contains("and 33 more stages"), "{text}");
     }
 }

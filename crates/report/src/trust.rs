@@ -17,16 +17,21 @@ pub(crate) fn trust(
     deviation: Option<f64>,
 ) {
     let budget = Budget::of(outcome, estimate, ensemble, deviation);
-    let errors =
-        budget.map_or_else(Vec::new, |budget| error_rows(scene, outcome, estimate, &budget, ensemble, None));
+    let errors = budget.map_or_else(Vec::new, |budget| {
+        error_rows(scene, outcome, estimate, &budget, ensemble, None)
+    });
     for (heading, rows) in [
-        ("Adhesion without a preload, by several theories", theory_rows(scene, outcome, ensemble)),
+        (
+            "Adhesion without a preload, by several theories",
+            theory_rows(scene, outcome, ensemble),
+        ),
         ("Errors of F_a by their sources", errors),
     ] {
         if !rows.is_empty() {
             sheet.heading(heading);
         }
-        rows.into_iter().for_each(|(name, words)| sheet.row(name, words));
+        rows.into_iter()
+            .for_each(|(name, words)| sheet.row(name, words));
     }
 }
 
@@ -39,14 +44,26 @@ pub fn theory_rows(
 ) -> Vec<(&'static str, String)> {
     let criteria = criteria(scene, outcome, ensemble);
     let smooth = outcome.governing.amplitude.is_none() && !criteria.is_empty();
-    let smooth = smooth.then(|| ("criteria of roughness", "do not apply: the body is smooth".to_owned()));
+    let smooth = smooth.then(|| {
+        (
+            "criteria of roughness",
+            "do not apply: the body is smooth".to_owned(),
+        )
+    });
     let mut last = "";
     let row = |criterion: Criterion| {
-        let name = if criterion.name == last { "" } else { criterion.name };
+        let name = if criterion.name == last {
+            ""
+        } else {
+            criterion.name
+        };
         last = criterion.name;
         (name, criterion.words())
     };
-    smooth.into_iter().chain(criteria.into_iter().map(row)).collect()
+    smooth
+        .into_iter()
+        .chain(criteria.into_iter().map(row))
+        .collect()
 }
 
 /// Returns the errors of the adhesion force by their sources: number of springs, sample of profiles, measured surface, and model.
@@ -61,7 +78,11 @@ pub fn error_rows(
     reference: Option<&Reference>,
 ) -> Vec<(&'static str, String)> {
     let words = |share: f64| {
-        if share > 1.0 { "more than ± 100 %".to_owned() } else { format!("± {}", per_cent(share)) }
+        if share > 1.0 {
+            "more than ± 100 %".to_owned()
+        } else {
+            format!("± {}", per_cent(share))
+        }
     };
     let share = |share: Option<f64>| share.map(words);
     let grid = match share(budget.grid) {
@@ -92,7 +113,9 @@ pub fn error_rows(
             "not known: the MDR is a model for rough bodies, whose adhesion is disputed".into()
         }
         (None, None) if is_exceeded => "not known: a premise does not hold (Warnings)".into(),
-        (None, None) => "none for bodies of revolution whose equivalent profile rises everywhere".into(),
+        (None, None) => {
+            "none for bodies of revolution whose equivalent profile rises everywhere".into()
+        }
     };
     let largest = match budget.largest {
         None if is_exceeded => "not known: a premise does not hold (Warnings)",
@@ -102,7 +125,11 @@ pub fn error_rows(
         Some(_) => "surface: more or larger scans reduce it",
         None => "not known",
     };
-    let mut rows = vec![("grid", grid), ("sample of profiles", sample), ("surface", surface)];
+    let mut rows = vec![
+        ("grid", grid),
+        ("sample of profiles", sample),
+        ("surface", surface),
+    ];
     let difference = reference.and_then(difference_words);
     rows.extend(difference.map(|difference| ("three dimensions", difference)));
     rows.push(("model", model));
@@ -116,42 +143,80 @@ mod tests {
     use asperity_scene::{Simulation, open, run};
 
     fn scene(fields: &[(&str, &str)]) -> asperity_scene::Document {
-        let fields = [&[("numerics.points", "2048"), ("roughness.modes", "(1, 256)")], fields].concat();
-        let fields: Vec<_> =
-            fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
-        open("pressure-sensitive").unwrap().set_all(&fields).unwrap()
+        let fields = [
+            &[("numerics.points", "2048"), ("roughness.modes", "(1, 256)")],
+            fields,
+        ]
+        .concat();
+        let fields: Vec<_> = fields
+            .iter()
+            .map(|(path, value)| (path.to_string(), value.to_string()))
+            .collect();
+        open("pressure-sensitive")
+            .unwrap()
+            .set_all(&fields)
+            .unwrap()
     }
 
     #[test]
     fn a_summary_names_the_theory_that_does_not_apply() {
-        let hard = scene(&[("material", "(effective_modulus: 2.0e11)"), ("adhesion", "(work: 0.05)")]);
+        let hard = scene(&[
+            ("material", "(effective_modulus: 2.0e11)"),
+            ("adhesion", "(work: 0.05)"),
+        ]);
         let outcome = run(&hard).unwrap();
         let text = crate::summary::brief_summary(hard.scene(), &outcome);
         assert!(
             text.contains("* JKR theory and the rule of Hess do not apply: the Tabor number 0."),
             "{text}"
         );
-        assert_eq!(run(&scene(&[("roughness.modes", "(4, 256)")])).unwrap().warnings, []);
+        assert_eq!(
+            run(&scene(&[("roughness.modes", "(4, 256)")]))
+                .unwrap()
+                .warnings,
+            []
+        );
     }
 
     /// No error is stated for a contact that reaches the ends of its profile, and none is named as the largest one.
     #[test]
     fn no_error_is_stated_where_the_contact_reaches_the_ends() {
-        let fields = [("length", "2.0e-5"), ("material", "(effective_modulus: 1.0e6)")];
+        let fields = [
+            ("length", "2.0e-5"),
+            ("material", "(effective_modulus: 1.0e6)"),
+        ];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = open("jkr-sphere").unwrap().set_all(&fields).unwrap();
         let outcome = run(&document).unwrap();
-        let own = asperity_scene::estimate(document.scene(), std::path::Path::new(""), &outcome, &|| false);
+        let own = asperity_scene::estimate(
+            document.scene(),
+            std::path::Path::new(""),
+            &outcome,
+            &|| false,
+        );
         assert_eq!(own, None);
         // Also if somebody states one.
         let evidence = asperity_scene::discretisation::Evidence::ClosedForm;
         let target = asperity_scene::discretisation::Target::AdhesionForce;
-        let stated = Estimate { target, error: 7e-4, near_step: false, evidence };
+        let stated = Estimate {
+            target,
+            error: 7e-4,
+            near_step: false,
+            evidence,
+        };
         let budget = Budget::of(&outcome, Some(&stated), None, None).unwrap();
         assert_eq!(budget.largest, None);
-        let rows = error_rows(document.scene(), &outcome, own.as_ref(), &budget, None, None);
+        let rows = error_rows(
+            document.scene(),
+            &outcome,
+            own.as_ref(),
+            &budget,
+            None,
+            None,
+        );
         assert!(
-            rows[3].1.starts_with("not known: a premise") && rows[4].1.starts_with("not known: a premise")
+            rows[3].1.starts_with("not known: a premise")
+                && rows[4].1.starts_with("not known: a premise")
         );
         let report = crate::RunReport {
             title: "",
@@ -164,13 +229,19 @@ mod tests {
         };
         use crate::report::Report;
         let text = report.text().unwrap();
-        assert!(text.contains("error unknown") && !text.contains("grid ±"), "{text}");
+        assert!(
+            text.contains("error unknown") && !text.contains("grid ±"),
+            "{text}"
+        );
         let mut json = Vec::new();
         report.json().unwrap().write_json(&mut json, &[]).unwrap();
         let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
         assert_eq!(json["adhesion_force_error"], serde_json::Value::Null);
         assert!(
-            json["warnings"][0].as_str().unwrap().starts_with("The contact reaches an end of the profile")
+            json["warnings"][0]
+                .as_str()
+                .unwrap()
+                .starts_with("The contact reaches an end of the profile")
         );
     }
 
@@ -184,9 +255,13 @@ mod tests {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
             error_rows(scene, &outcome, None, &budget, ensemble, None)
         };
-        let words = |rows: Vec<(&str, String)>| rows.into_iter().map(|row| row.1).collect::<Vec<_>>();
+        let words =
+            |rows: Vec<(&str, String)>| rows.into_iter().map(|row| row.1).collect::<Vec<_>>();
         let alone = words(rows(None));
-        assert_eq!((alone[0].as_str(), alone[1].as_str()), ("not known", "not known: too few profiles"));
+        assert_eq!(
+            (alone[0].as_str(), alone[1].as_str()),
+            ("not known", "not known: too few profiles")
+        );
         let among = words(rows(Some(&ensemble)));
         assert!(
             among[1].starts_with("± ") && among[1].ends_with(" of the median of 6 profiles"),
@@ -194,7 +269,14 @@ mod tests {
         );
         assert!(among[4].starts_with("sample of profiles"), "{among:?}");
         let theories = theory_rows(scene, &outcome, Some(&ensemble));
-        assert_eq!(theories.iter().filter(|row| row.0 == "this program").count(), 1, "{theories:?}");
+        assert_eq!(
+            theories
+                .iter()
+                .filter(|row| row.0 == "this program")
+                .count(),
+            1,
+            "{theories:?}"
+        );
         assert_eq!(theories.len(), 7);
     }
 }

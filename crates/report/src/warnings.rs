@@ -22,7 +22,11 @@ pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> 
     for counted in warnings {
         let text = counted.warning.to_string();
         let is_everywhere = counted.profiles == profiles;
-        let share = format!("On {} of {} profiles: ", grouped(counted.profiles), grouped(profiles));
+        let share = format!(
+            "On {} of {} profiles: ",
+            grouped(counted.profiles),
+            grouped(profiles)
+        );
         texts.push(if is_everywhere { text } else { share + &text });
     }
     texts
@@ -32,9 +36,16 @@ pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> 
 /// meet it, and the text of the first of them.
 pub(crate) fn counted_values(warnings: &[CountedWarning]) -> Vec<CountedValue> {
     let mut values = Vec::with_capacity(warnings.len());
-    for CountedWarning { warning, profiles, .. } in warnings {
+    for CountedWarning {
+        warning, profiles, ..
+    } in warnings
+    {
         let text = warning.to_string();
-        values.push(CountedValue { name: warning.name(), profiles: *profiles, text });
+        values.push(CountedValue {
+            name: warning.name(),
+            profiles: *profiles,
+            text,
+        });
     }
     values
 }

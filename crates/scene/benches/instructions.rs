@@ -36,5 +36,9 @@ fn main() -> ExitCode {
     print!("\n{table}");
     failures.extend(slow);
     failures.iter().for_each(|failure| println!("{failure}"));
-    if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if failures.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
 }

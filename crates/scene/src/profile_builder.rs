@@ -69,13 +69,23 @@ impl ProfileBuilder {
     /// Begins a profile of this length in m with this number of points, one for each spring.
     #[must_use]
     pub fn new(length: f64, points: usize) -> Self {
-        ProfileBuilder { length, points, form: None, self_affine: None, spectrum: None, seed: 1 }
+        ProfileBuilder {
+            length,
+            points,
+            form: None,
+            self_affine: None,
+            spectrum: None,
+            seed: 1,
+        }
     }
 
     /// Sets the macroscopic form of the body.
     #[must_use]
     pub fn form(self, form: Form) -> Self {
-        ProfileBuilder { form: Some(form), ..self }
+        ProfileBuilder {
+            form: Some(form),
+            ..self
+        }
     }
 
     /// Sets a sphere of this radius in m as the form.
@@ -138,7 +148,10 @@ impl ProfileBuilder {
     /// ```
     #[must_use]
     pub fn spectrum(self, line: EquivalentLine) -> Self {
-        ProfileBuilder { spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))), ..self }
+        ProfileBuilder {
+            spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))),
+            ..self
+        }
     }
 
     /// Sets the seed of the random phases of the roughness. By default the seed is 1.
@@ -167,11 +180,13 @@ impl ProfileBuilder {
         if let Some(last) = scene.spectrum().map(|spectrum| spectrum.last)
             && last > scene.numerics.points / SPRINGS_PER_WAVE
         {
-            let allowed =
-                "from the first mode to a quarter of the number of points, for four springs to a wave";
-            return Err(
-                ContactError::Value { name: "last mode".to_owned(), value: last as f64, allowed }.into()
-            );
+            let allowed = "from the first mode to a quarter of the number of points, for four springs to a wave";
+            return Err(ContactError::Value {
+                name: "last mode".to_owned(),
+                value: last as f64,
+                allowed,
+            }
+            .into());
         }
         Ok(self.simulation().profile(&scene)?)
     }
@@ -193,20 +208,45 @@ impl ProfileBuilder {
     /// Returns the same errors as [`Self::build`]. Also returns [`Error::Contact`] for a wrong number of heights or a height
     /// that is not finite.
     pub fn build_with(&self, heights: Vec<f64>) -> Result<Profile, Error> {
-        let smooth = ProfileBuilder { self_affine: None, spectrum: None, ..self.clone() };
+        let smooth = ProfileBuilder {
+            self_affine: None,
+            spectrum: None,
+            ..self.clone()
+        };
         let scene = smooth.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
-        let value =
-            |name: String, value: f64, allowed| Err(ContactError::Value { name, value, allowed }.into());
+        let value = |name: String, value: f64, allowed| {
+            Err(ContactError::Value {
+                name,
+                value,
+                allowed,
+            }
+            .into())
+        };
         if heights.len() != self.points {
             let name = "number of heights".to_owned();
-            return value(name, heights.len() as f64, "the number of points of the profile");
+            return value(
+                name,
+                heights.len() as f64,
+                "the number of points of the profile",
+            );
         }
-        if let Some(index) = heights.iter().position(|height| height.abs() > 1e50 || height.is_nan()) {
-            return value(format!("height with index {index}"), heights[index], "from -1e50 to 1e50 m");
+        if let Some(index) = heights
+            .iter()
+            .position(|height| height.abs() > 1e50 || height.is_nan())
+        {
+            return value(
+                format!("height with index {index}"),
+                heights[index],
+                "from -1e50 to 1e50 m",
+            );
         }
         let line = Line::from_roughness(heights, self.length, scene.form.as_ref(), 1.0);
         // Without a form the heights may be those of the form.
-        let form = if self.form.is_none() { NominalForm::Unstated } else { nominal_form(&scene) };
+        let form = if self.form.is_none() {
+            NominalForm::Unstated
+        } else {
+            nominal_form(&scene)
+        };
         Ok(profile_of(&line.map_err(RunError::from)?, form)?)
     }
 
@@ -225,7 +265,10 @@ impl ProfileBuilder {
             roughness: self.roughness()?,
             adhesion,
             loading: loading.to_vec(),
-            numerics: Numerics { points: self.points as u64, ..Numerics::default() },
+            numerics: Numerics {
+                points: self.points as u64,
+                ..Numerics::default()
+            },
             ..Scene::new(Material::effective(modulus.pascals()), self.length)
         };
         Ok(scene.checked()?)
@@ -249,7 +292,11 @@ impl ProfileBuilder {
     ///
     /// # Errors
     /// Returns the same errors as [`Self::build`], except that two or three points on the shortest wave are allowed.
-    pub fn governing(&self, modulus: Modulus, adhesion: Option<Adhesion>) -> Result<Governing, Error> {
+    pub fn governing(
+        &self,
+        modulus: Modulus,
+        adhesion: Option<Adhesion>,
+    ) -> Result<Governing, Error> {
         let scene = self.scene(modulus, adhesion, &[Move::ToTouch])?;
         Ok(self.simulation().make_line(&scene)?.2)
     }
@@ -300,7 +347,10 @@ impl ProfileBuilder {
             };
             return Err(refused.into());
         }
-        Ok(Some(Roughness::Measured(Measured { seed: self.seed, ..Measured::of_file("spectrum in memory") })))
+        Ok(Some(Roughness::Measured(Measured {
+            seed: self.seed,
+            ..Measured::of_file("spectrum in memory")
+        })))
     }
 
     fn simulation(&self) -> Simulation {

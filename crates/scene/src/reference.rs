@@ -15,9 +15,18 @@ use asperity_surface::Form;
 /// assert!((sphere.force_controlled_pull_off().1 / -jkr - 1.0).abs() < 1e-14);
 /// assert!(closed_form(&Form::Punch { radius: 1.0e-5 }, 1.0e6, 0.05).is_none());
 /// ```
-pub fn closed_form(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<ClosedForm> {
+pub fn closed_form(
+    form: &Form,
+    effective_modulus: f64,
+    work_of_adhesion: f64,
+) -> Option<ClosedForm> {
     let (line_coefficient, exponent) = form.power_law()?;
-    Some(ClosedForm { line_coefficient, exponent, effective_modulus, work_of_adhesion })
+    Some(ClosedForm {
+        line_coefficient,
+        exponent,
+        effective_modulus,
+        work_of_adhesion,
+    })
 }
 
 /// Returns the adhesion force of a smooth body in N by a formula, after a preload in N. `form` is `None` for a flat body,
@@ -39,6 +48,10 @@ pub fn smooth_adhesion_force(
     }
     let body = closed_form(form, effective_modulus, work)?;
     let (radius, force) = body.force_controlled_pull_off();
-    let pressed = ClosedForm { work_of_adhesion: closing, ..body }.force(radius);
+    let pressed = ClosedForm {
+        work_of_adhesion: closing,
+        ..body
+    }
+    .force(radius);
     Some(-force).filter(|_| radius <= 0.5 * length && pressed <= preload)
 }

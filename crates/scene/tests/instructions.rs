@@ -28,11 +28,19 @@ fn only_what_a_scene_calls_for_is_executed() {
         eprintln!("SKIPPED: valgrind is not installed, instructions are not counted");
         return;
     }
-    let reports = instructions::count(&Case::all(), &["--exact", "child_process", "--test-threads=1"]);
+    let reports = instructions::count(
+        &Case::all(),
+        &["--exact", "child_process", "--test-threads=1"],
+    );
     println!("{}", Report::table(&reports));
     if !reports.iter().all(Report::has_line_tables) {
-        assert!(std::env::var_os("LINE_TABLES").is_none(), "CARGO_PROFILE_DEV_DEBUG=line-tables-only");
-        eprintln!("SKIPPED: no line tables, instructions are counted but not attributed to effects");
+        assert!(
+            std::env::var_os("LINE_TABLES").is_none(),
+            "CARGO_PROFILE_DEV_DEBUG=line-tables-only"
+        );
+        eprintln!(
+            "SKIPPED: no line tables, instructions are counted but not attributed to effects"
+        );
     }
     let failures: Vec<String> = reports.iter().flat_map(Report::failures).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));

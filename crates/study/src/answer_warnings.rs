@@ -36,9 +36,24 @@ impl Found {
         let question = &self.question;
         if question.is_of_preload() {
             let loading = vec![Move::ToForce(value), Move::ToSeparation];
-            return question.plan.scene.clone().checked().ok()?.with(|scene| scene.loading = loading).ok();
+            return question
+                .plan
+                .scene
+                .clone()
+                .checked()
+                .ok()?
+                .with(|scene| scene.loading = loading)
+                .ok();
         }
-        let axis = Axis { values: vec![value], ..question.axis.clone() };
-        Plan { axes: vec![axis], ..question.plan.clone() }.scene_of(0).ok()
+        let axis = Axis {
+            values: vec![value],
+            ..question.axis.clone()
+        };
+        Plan {
+            axes: vec![axis],
+            ..question.plan.clone()
+        }
+        .scene_of(0)
+        .ok()
     }
 }

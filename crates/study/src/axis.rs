@@ -24,9 +24,22 @@ const LOGARITHMIC_RATIO: f64 = 50.0;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Axis")]
 pub(super) enum AxisText {
-    Linear { path: String, from: f64, to: f64, count: u64 },
-    Logarithmic { path: String, from: f64, to: f64, count: u64 },
-    List { path: String, values: Vec<f64> },
+    Linear {
+        path: String,
+        from: f64,
+        to: f64,
+        count: u64,
+    },
+    Logarithmic {
+        path: String,
+        from: f64,
+        to: f64,
+        count: u64,
+    },
+    List {
+        path: String,
+        values: Vec<f64>,
+    },
 }
 
 /// How the values of an [`Axis`] are spaced.
@@ -82,10 +95,23 @@ impl Axis {
     /// assert!(error.to_string().contains("did you mean roughness.hurst?"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn new(path: &str, spacing: Spacing, values: Vec<f64>, scene: &Scene) -> Result<Axis, StudyError> {
+    pub fn new(
+        path: &str,
+        spacing: Spacing,
+        values: Vec<f64>,
+        scene: &Scene,
+    ) -> Result<Axis, StudyError> {
         let target = Target::of(path)?;
         let (name, symbol, unit) = target.label(path, scene);
-        Ok(Axis { path: path.to_owned(), name, symbol, unit, spacing, values, target })
+        Ok(Axis {
+            path: path.to_owned(),
+            name,
+            symbol,
+            unit,
+            spacing,
+            values,
+            target,
+        })
     }
 
     /// Reads and checks an axis of a plan.
@@ -97,23 +123,30 @@ impl Axis {
         | AxisText::Logarithmic { path, .. }
         | AxisText::List { path, .. }) = text;
         let path = printable(path);
-        let axis =
-            Axis::new(&path, Spacing::List, Vec::new(), scene).map_err(|error| format!("axis {error}"))?;
-        axis.with_values(text).map_err(|what| format!("axis {path}: {what}"))
+        let axis = Axis::new(&path, Spacing::List, Vec::new(), scene)
+            .map_err(|error| format!("axis {error}"))?;
+        axis.with_values(text)
+            .map_err(|what| format!("axis {path}: {what}"))
     }
 
     fn with_values(self, text: &AxisText) -> Result<Axis, String> {
         let (spacing, values) = match *text {
             AxisText::List { ref values, .. } => (Spacing::List, values.clone()),
-            AxisText::Linear { from, to, count, .. } => {
+            AxisText::Linear {
+                from, to, count, ..
+            } => {
                 check_ends(from, to, count, MOST_VALUES).map_err(|error| error.to_string())?;
                 if !(to - from).is_finite() {
-                    return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
+                    return Err(format!(
+                        "from {from:?} to {to:?}: the range overflows a 64-bit float"
+                    ));
                 }
                 let at = |share: f64| from * (1.0 - share) + to * share;
                 (Spacing::Linear, self.between(from, to, count, at))
             }
-            AxisText::Logarithmic { from, to, count, .. } => {
+            AxisText::Logarithmic {
+                from, to, count, ..
+            } => {
                 check_ends(from, to, count, MOST_VALUES).map_err(|error| error.to_string())?;
                 check_logarithm(from).map_err(|error| error.to_string())?;
                 let (first, last) = (from.ln(), to.ln());
@@ -125,19 +158,31 @@ impl Axis {
             return Err("no values; allowed: at least one".into());
         }
         if values.len() as u64 > MOST_VALUES {
-            return Err(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
+            return Err(format!(
+                "{} values; allowed: at most {MOST_VALUES}",
+                values.len()
+            ));
         }
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             return Err(format!("{value:?}: values must be finite"));
         }
         let is_whole = |value: &f64| *value >= 0.0 && value.fract() == 0.0;
-        if let Some(value) = values.iter().find(|value| self.is_whole() && !is_whole(value)) {
+        if let Some(value) = values
+            .iter()
+            .find(|value| self.is_whole() && !is_whole(value))
+        {
             return Err(format!("{value:?}: allowed: whole numbers"));
         }
-        let axis = Axis { spacing, values, ..self };
+        let axis = Axis {
+            spacing,
+            values,
+            ..self
+        };
         let ascending = axis.ascending();
         let twice = ascending.values.windows(2).find(|pair| pair[0] == pair[1]);
-        twice.map_or(Ok(axis), |pair| Err(format!("the value {:?} appears twice", pair[0])))
+        twice.map_or(Ok(axis), |pair| {
+            Err(format!("the value {:?} appears twice", pair[0]))
+        })
     }
 
     /// Returns `count` values from one end to the other. Values between the ends are rounded to 12 significant digits, or
@@ -170,7 +215,11 @@ impl Axis {
     /// Returns the scale, linear or logarithmic, on which figures show the values of this axis.
     pub fn scale(&self) -> AxisScale {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let high = self
+            .values
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
         match self.spacing {
             Spacing::Logarithmic => AxisScale::Logarithmic,
             Spacing::List if low > 0.0 && high >= LOGARITHMIC_RATIO * low => AxisScale::Logarithmic,
@@ -180,18 +229,30 @@ impl Axis {
 
     /// Returns the symbol of the quantity of this axis, or the name of the quantity if it has no symbol.
     pub fn symbol_or_name(&self) -> &str {
-        if self.symbol.is_empty() { &self.name } else { self.symbol }
+        if self.symbol.is_empty() {
+            &self.name
+        } else {
+            self.symbol
+        }
     }
 
     /// Returns the symbol of the quantity of this axis, or [`Axis::path`] if the quantity has no symbol.
     pub fn symbol_or_path(&self) -> String {
-        if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
+        if self.symbol.is_empty() {
+            self.path.clone()
+        } else {
+            self.symbol.to_owned()
+        }
     }
 
     /// Returns one of the values by its index, with the symbol or the name: `H = 0.3`.
     pub(super) fn at(&self, place: usize) -> String {
         let equals = if self.symbol.is_empty() { "" } else { "= " };
-        format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
+        format!(
+            "{} {equals}{}",
+            self.symbol_or_name(),
+            format_quantity(self.values[place], self.unit)
+        )
     }
 
     /// Returns the value of the axis that is `steps` values above `value`, or below `value` if `steps` is negative, but at most
@@ -203,7 +264,10 @@ impl Axis {
             let first = values.iter().position(|one| *one > value + apart)?;
             first.saturating_add(further).min(values.len() - 1)
         } else {
-            values.iter().rposition(|one| *one < value - apart)?.saturating_sub(further)
+            values
+                .iter()
+                .rposition(|one| *one < value - apart)?
+                .saturating_sub(further)
         };
         Some(values[index])
     }
@@ -255,7 +319,8 @@ pub(super) enum Shapes {
 /// Returns the field that holds the number at a path; `None` for a path that cannot be varied.
 fn number(path: &str) -> Option<&'static Field> {
     ENDS.into_iter().find_map(|end| {
-        let field = field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
+        let field =
+            field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
         let is_number = match field.range {
             Range::Real(..) | Range::Whole(..) => end.is_empty(),
             Range::Band(..) | Range::Wavelengths(..) => !end.is_empty(),
@@ -277,19 +342,37 @@ impl Target {
             "springs_per_wave" => return Ok(Target::SpringsPerWave),
             _ => {}
         }
-        let stage = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Stage);
-        number(path).map(Target::Number).or_else(stage).ok_or_else(|| {
-            let all = FIELDS.iter().flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
-            let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
-            let near = || {
-                did_you_mean(path, numbers.iter().map(String::as_str).chain(Axis::DERIVED.iter().copied()))
-            };
-            let parameter = RoughnessParameter::named(path);
-            let near = parameter.map_or_else(near, |one| format!("; did you mean {}?", one.path()));
-            let derived = Axis::DERIVED.join(", ");
-            let allowed = format!("numbers of a scene by their paths, and {derived}");
-            StudyError::refused(Some(path), format!("no such number{near}"), allowed)
-        })
+        let stage = || {
+            path.strip_prefix("loading.")?
+                .strip_suffix(".0")?
+                .parse()
+                .ok()
+                .map(Target::Stage)
+        };
+        number(path)
+            .map(Target::Number)
+            .or_else(stage)
+            .ok_or_else(|| {
+                let all = FIELDS
+                    .iter()
+                    .flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
+                let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
+                let near = || {
+                    did_you_mean(
+                        path,
+                        numbers
+                            .iter()
+                            .map(String::as_str)
+                            .chain(Axis::DERIVED.iter().copied()),
+                    )
+                };
+                let parameter = RoughnessParameter::named(path);
+                let near =
+                    parameter.map_or_else(near, |one| format!("; did you mean {}?", one.path()));
+                let derived = Axis::DERIVED.join(", ");
+                let allowed = format!("numbers of a scene by their paths, and {derived}");
+                StudyError::refused(Some(path), format!("no such number{near}"), allowed)
+            })
     }
 
     /// Returns true for a quantity that is a whole number.
@@ -329,15 +412,30 @@ impl Target {
             Target::Preload { in_newtons: false } => ("preload".into(), "F_n/(E* h L)", "1"),
             Target::SpringsPerWave => ("springs per wave".into(), "", "1"),
             Target::Stage(stage) => match scene.loading.get(stage) {
-                Some(Move::ToIndentation(_)) => (format!("indentation of stage {}", stage + 1), "", "m"),
+                Some(Move::ToIndentation(_)) => {
+                    (format!("indentation of stage {}", stage + 1), "", "m")
+                }
                 _ => (format!("force of stage {}", stage + 1), "", "N"),
             },
-            Target::Number(Field { range: Range::Band(..), .. }) if path.ends_with(".0") => {
-                ("first mode".into(), "k_min", "1")
-            }
-            Target::Number(Field { range: Range::Band(..), .. }) => ("last mode".into(), "k_max", "1"),
-            Target::Number(Field { range: Range::Wavelengths(..), symbol, unit, .. }) => {
-                let which = if path.ends_with(".0") { "longest" } else { "shortest" };
+            Target::Number(Field {
+                range: Range::Band(..),
+                ..
+            }) if path.ends_with(".0") => ("first mode".into(), "k_min", "1"),
+            Target::Number(Field {
+                range: Range::Band(..),
+                ..
+            }) => ("last mode".into(), "k_max", "1"),
+            Target::Number(Field {
+                range: Range::Wavelengths(..),
+                symbol,
+                unit,
+                ..
+            }) => {
+                let which = if path.ends_with(".0") {
+                    "longest"
+                } else {
+                    "shortest"
+                };
                 (format!("{which} wavelength"), symbol, unit)
             }
             Target::Number(field) => (field.name.into(), field.symbol, field.unit),
@@ -346,16 +444,31 @@ impl Target {
 }
 
 pub(super) fn check_logarithm(from: f64) -> Result<(), StudyError> {
-    let refused =
-        || StudyError::refused(None, format!("a logarithmic axis from {from:?}"), "one that begins above 0");
+    let refused = || {
+        StudyError::refused(
+            None,
+            format!("a logarithmic axis from {from:?}"),
+            "one that begins above 0",
+        )
+    };
     if from > 0.0 { Ok(()) } else { Err(refused()) }
 }
 
 pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), StudyError> {
-    let refused = |allowed| Err(StudyError::refused(None, format!("from {from:?} to {to:?}"), allowed));
+    let refused = |allowed| {
+        Err(StudyError::refused(
+            None,
+            format!("from {from:?} to {to:?}"),
+            allowed,
+        ))
+    };
     if !(2..=most).contains(&count) {
         let allowed = format!("from 2 to {most}");
-        return Err(StudyError::refused(None, format!("count = {count}"), allowed));
+        return Err(StudyError::refused(
+            None,
+            format!("count = {count}"),
+            allowed,
+        ));
     }
     if !(from.is_finite() && to.is_finite()) {
         return refused("two finite ends");
@@ -372,15 +485,27 @@ mod tests {
     use asperity_scene::open;
 
     fn axis(text: &str) -> Result<Axis, String> {
-        Axis::of(&ron::from_str(text).unwrap(), open("rough-sphere").unwrap().scene())
+        Axis::of(
+            &ron::from_str(text).unwrap(),
+            open("rough-sphere").unwrap().scene(),
+        )
     }
 
     #[test]
     fn values_between_the_ends_are_round() {
         for (text, values) in [
-            ("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 17)", [0.1, 0.15, 0.2, 0.25]),
-            ("Logarithmic(path: \"adhesion.work\", from: 1e-3, to: 10.0, count: 5)", [1e-3, 0.01, 0.1, 1.0]),
-            ("Logarithmic(path: \"numerics.points\", from: 8, to: 128, count: 9)", [8.0, 11.0, 16.0, 23.0]),
+            (
+                "Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 17)",
+                [0.1, 0.15, 0.2, 0.25],
+            ),
+            (
+                "Logarithmic(path: \"adhesion.work\", from: 1e-3, to: 10.0, count: 5)",
+                [1e-3, 0.01, 0.1, 1.0],
+            ),
+            (
+                "Logarithmic(path: \"numerics.points\", from: 8, to: 128, count: 9)",
+                [8.0, 11.0, 16.0, 23.0],
+            ),
         ] {
             assert_eq!(axis(text).unwrap().values[..4], values, "{text}");
         }
@@ -389,18 +514,51 @@ mod tests {
     #[test]
     fn errors_state_what_is_allowed() {
         for (text, said) in [
-            ("Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)", "you mean roughness.hurst?"),
-            ("Linear(path: \"kappa\", from: 0.1, to: 0.9, count: 3)", "did you mean adhesion.kappa?"),
-            ("Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)", "less than `to`"),
-            ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "two finite ends"),
-            ("Linear(path: \"adhesion.kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
-            ("Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 999999999)", "from 2 to 1000000"),
-            ("Logarithmic(path: \"adhesion.kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),
+            (
+                "Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)",
+                "you mean roughness.hurst?",
+            ),
+            (
+                "Linear(path: \"kappa\", from: 0.1, to: 0.9, count: 3)",
+                "did you mean adhesion.kappa?",
+            ),
+            (
+                "Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)",
+                "less than `to`",
+            ),
+            (
+                "Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)",
+                "two finite ends",
+            ),
+            (
+                "Linear(path: \"adhesion.kappa\", from: -1e308, to: 1.7e308, count: 3)",
+                "overflows",
+            ),
+            (
+                "Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 999999999)",
+                "from 2 to 1000000",
+            ),
+            (
+                "Logarithmic(path: \"adhesion.kappa\", from: 0.0, to: 1.0, count: 3)",
+                "begins above 0",
+            ),
             ("List(path: \"adhesion.kappa\", values: [])", "no values"),
-            ("List(path: \"adhesion.kappa\", values: [1.0, inf])", "values must be finite"),
-            ("List(path: \"adhesion.kappa\", values: [1.0, 2.0, 1.0])", "the value 1.0 appears twice"),
-            ("Linear(path: \"numerics.points\", from: 2.0, to: 4.0, count: 9)", "appears twice"),
-            ("Linear(path: \"numerics.points\", from: 2.5, to: 4.0, count: 2)", "2.5: allowed: whole"),
+            (
+                "List(path: \"adhesion.kappa\", values: [1.0, inf])",
+                "values must be finite",
+            ),
+            (
+                "List(path: \"adhesion.kappa\", values: [1.0, 2.0, 1.0])",
+                "the value 1.0 appears twice",
+            ),
+            (
+                "Linear(path: \"numerics.points\", from: 2.0, to: 4.0, count: 9)",
+                "appears twice",
+            ),
+            (
+                "Linear(path: \"numerics.points\", from: 2.5, to: 4.0, count: 2)",
+                "2.5: allowed: whole",
+            ),
         ] {
             let wrong = axis(text).unwrap_err();
             assert!(wrong.contains(said), "{text}: {wrong}");
@@ -412,11 +570,26 @@ mod tests {
         let scene = open("pressure-sensitive").unwrap().scene().clone();
         let axes = crate::plan::Plan::of_map(&scene).unwrap().axes;
         let to = |value, steps| axes[0].next_beyond(value, steps);
-        assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
+        assert_eq!(
+            (to(6.0, 1), to(6.0, -1), to(6.0, 4)),
+            (Some(6.73), Some(5.66), Some(11.3))
+        );
         // A value of the axis but for rounding.
-        assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
-        assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
-        assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));
-        assert_eq!((to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)), (None, Some(0.125), Some(32.0)));
+        assert_eq!(
+            (to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)),
+            (Some(1.19), Some(0.841))
+        );
+        assert_eq!(
+            (to(31.0, 100), to(32.0, 1), to(0.125, -1)),
+            (Some(32.0), None, None)
+        );
+        assert_eq!(
+            (to(100.0, -1), to(100.0, 1), to(1e-3, 1)),
+            (Some(32.0), None, Some(0.125))
+        );
+        assert_eq!(
+            (to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)),
+            (None, Some(0.125), Some(32.0))
+        );
     }
 }

@@ -80,14 +80,20 @@ type Curve = Vec<(f64, Vec<f64>)>;
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
-    let cells = (0..).map(|place| first + place * step).zip(&plan.axes[along].values);
+    let cells = (0..)
+        .map(|place| first + place * step)
+        .zip(&plan.axes[along].values);
     let share = |cell, line| study.value(cell, line, protocol);
-    let cells: Vec<_> =
-        cells.filter(|(cell, _)| (0..plan.lines).any(|line| share(*cell, line).is_some())).collect();
+    let cells: Vec<_> = cells
+        .filter(|(cell, _)| (0..plan.lines).any(|line| share(*cell, line).is_some()))
+        .collect();
     let is_common = |line: &u64| cells.iter().all(|(cell, _)| share(*cell, *line).is_some());
     let lines: Vec<u64> = (0..plan.lines).filter(is_common).collect();
     let shares = |cell: u64| lines.iter().filter_map(|line| share(cell, *line)).collect();
-    let mut curve: Curve = cells.iter().map(|(cell, value)| (**value, shares(*cell))).collect();
+    let mut curve: Curve = cells
+        .iter()
+        .map(|(cell, value)| (**value, shares(*cell)))
+        .collect();
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));
     curve
 }
@@ -104,13 +110,19 @@ fn conversion(
     // The plan has been checked with these values.
     let known = governing(&*plan.scene_of(cell).ok()?)?;
     let energies = known.energy(to)? / known.energy(from)?;
-    Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
+    Some(Box::new(move |value| {
+        to.of_energy_over_work(energies * from.energy_over_work(value))
+    }))
 }
 
 impl AdhesionBoundary {
     /// Returns where the loading turns for [`AdhesionBoundary::protocol`]: `first touch` or `zero force`.
     pub fn protocol_name(&self) -> &'static str {
-        if self.protocol == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
+        if self.protocol == Quantity::FirstTouchAdhesionShare {
+            "first touch"
+        } else {
+            "zero force"
+        }
     }
 }
 
@@ -126,7 +138,11 @@ impl Boundaries {
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor
     /// F_a(F=0)/F_a,max. For a measured surface it is also an error if `over` is not the parameter of the axis. The errors of
     /// [`Results::open`] are possible too.
-    pub fn of(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
+    pub fn of(
+        path: &Path,
+        over: RoughnessParameter,
+        levels: &[f64],
+    ) -> Result<Boundaries, StudyError> {
         let study = Results::open(path)?;
         let plan = study.plan();
         let refuse = |reason: &str| StudyError::folder(path, reason);
@@ -136,8 +152,10 @@ impl Boundaries {
             refuse("this study has no axis adhesion.kappa or adhesion.elastic_energy_ratio, along which a boundary lies")
         })?;
         let shares = Quantity::ADHESION_SHARES;
-        let protocols: Vec<Quantity> =
-            shares.into_iter().filter(|share| plan.record.contains(share)).collect();
+        let protocols: Vec<Quantity> = shares
+            .into_iter()
+            .filter(|share| plan.record.contains(share))
+            .collect();
         if protocols.is_empty() {
             return Err(refuse(
                 "this study records neither first_touch_adhesion_share nor zero_force_adhesion_share",
@@ -159,16 +177,37 @@ impl Boundaries {
                     ))
                 })?;
                 for &level in levels {
-                    let Crossing { value, side, interval } = crossing(&curve, level);
+                    let Crossing {
+                        value,
+                        side,
+                        interval,
+                    } = crossing(&curve, level);
                     let interval = interval.map(|(low, high)| (to(low), to(high)));
                     let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
-                    let crossing = Crossing { value: to(value), side, interval };
-                    found.push(AdhesionBoundary { others, protocol, level, crossing });
+                    let crossing = Crossing {
+                        value: to(value),
+                        side,
+                        interval,
+                    };
+                    found.push(AdhesionBoundary {
+                        others,
+                        protocol,
+                        level,
+                        crossing,
+                    });
                 }
             }
         }
-        let others = others.into_iter().map(|axis| plan.axes[axis].clone()).collect();
-        Ok(Boundaries { over, others, lines: plan.lines, found })
+        let others = others
+            .into_iter()
+            .map(|axis| plan.axes[axis].clone())
+            .collect();
+        Ok(Boundaries {
+            over,
+            others,
+            lines: plan.lines,
+            found,
+        })
     }
 
     /// Returns the symbol of the value at a boundary: `κ*` or `(e_el/γ)*`.
@@ -186,32 +225,56 @@ fn crossing(curve: &Curve, level: f64) -> Crossing {
     let (value, side) = crossing_of(curve, &every, level);
     let mut random = ChaCha8Rng::seed_from_u64(RESAMPLING_SEED);
     let mut resample = || {
-        let chosen: Vec<usize> = every.iter().map(|_| random.random_range(0..count)).collect();
-        Some(crossing_of(curve, &chosen, level)).filter(|(_, side)| side.is_eq()).map(|(value, _)| value)
+        let chosen: Vec<usize> = every
+            .iter()
+            .map(|_| random.random_range(0..count))
+            .collect();
+        Some(crossing_of(curve, &chosen, level))
+            .filter(|(_, side)| side.is_eq())
+            .map(|(value, _)| value)
     };
     // An interval that reaches beyond the study is unknown.
-    let resampled: Option<Vec<f64>> =
-        if side.is_eq() && count >= 2 { (0..RESAMPLES).map(|_| resample()).collect() } else { None };
+    let resampled: Option<Vec<f64>> = if side.is_eq() && count >= 2 {
+        (0..RESAMPLES).map(|_| resample()).collect()
+    } else {
+        None
+    };
     let interval = resampled.and_then(|mut values| {
         values.sort_by(f64::total_cmp);
         quantile(&values, 0.025).zip(quantile(&values, 0.975))
     });
-    Crossing { value, side, interval }
+    Crossing {
+        value,
+        side,
+        interval,
+    }
 }
 
 /// Returns the κ above which the mean over the chosen profiles stays below a share, by linear interpolation of the
 /// logarithm of the mean. Beyond an end of the curve, returns this end.
 fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
-    let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
-    let means: Vec<(f64, f64)> = curve.iter().map(|(kappa, shares)| (*kappa, mean(shares))).collect();
+    let mean =
+        |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
+    let means: Vec<(f64, f64)> = curve
+        .iter()
+        .map(|(kappa, shares)| (*kappa, mean(shares)))
+        .collect();
     let Some(last) = means.iter().rposition(|&(_, mean)| mean >= level) else {
-        return (means.first().map_or(f64::NAN, |&(kappa, _)| kappa), Ordering::Less);
+        return (
+            means.first().map_or(f64::NAN, |&(kappa, _)| kappa),
+            Ordering::Less,
+        );
     };
     let (kappa, above) = means[last];
-    let Some(&(next, below)) = means.get(last + 1) else { return (kappa, Ordering::Greater) };
+    let Some(&(next, below)) = means.get(last + 1) else {
+        return (kappa, Ordering::Greater);
+    };
     // A mean of zero has no logarithm.
-    let share =
-        if below > 0.0 { (above / level).ln() / (above / below).ln() } else { (above - level) / above };
+    let share = if below > 0.0 {
+        (above / level).ln() / (above / below).ln()
+    } else {
+        (above - level) / above
+    };
     (kappa + share * (next - kappa), Ordering::Equal)
 }
 
@@ -222,17 +285,33 @@ mod tests {
     /// Shares of profiles that fall as exp(−κ/c).
     fn falling(rates: &[f64]) -> Vec<(f64, Vec<f64>)> {
         let kappas = (0..40).map(|k| 0.25 * f64::from(k));
-        kappas.map(|kappa| (kappa, rates.iter().map(|rate| (-kappa * rate).exp()).collect())).collect()
+        kappas
+            .map(|kappa| {
+                (
+                    kappa,
+                    rates.iter().map(|rate| (-kappa * rate).exp()).collect(),
+                )
+            })
+            .collect()
     }
 
     #[test]
     fn an_exponential_is_crossed_where_it_falls_so_far() {
         for level in [0.5, 0.1, 0.01] {
             let (kappa, side) = crossing_of(&falling(&[1.0]), &[0], level);
-            assert!((kappa + level.ln()).abs() < 1e-12 && side.is_eq(), "{level}: {kappa}");
+            assert!(
+                (kappa + level.ln()).abs() < 1e-12 && side.is_eq(),
+                "{level}: {kappa}"
+            );
         }
-        assert_eq!(crossing_of(&falling(&[0.01]), &[0], 0.5), (9.75, Ordering::Greater));
-        assert_eq!(crossing_of(&falling(&[1.0]), &[0], 2.0), (0.0, Ordering::Less));
+        assert_eq!(
+            crossing_of(&falling(&[0.01]), &[0], 0.5),
+            (9.75, Ordering::Greater)
+        );
+        assert_eq!(
+            crossing_of(&falling(&[1.0]), &[0], 2.0),
+            (0.0, Ordering::Less)
+        );
         let to_zero = vec![(1.0, vec![0.4]), (2.0, vec![0.0])];
         assert_eq!(crossing_of(&to_zero, &[0], 0.1), (1.75, Ordering::Equal));
     }
@@ -240,7 +319,9 @@ mod tests {
     #[test]
     fn intervals_contain_the_mean_and_narrow_with_more_profiles() {
         let width = |lines: usize| {
-            let rates: Vec<f64> = (0..lines).map(|line| 0.8 + 0.4 * (line % 4) as f64 / 3.0).collect();
+            let rates: Vec<f64> = (0..lines)
+                .map(|line| 0.8 + 0.4 * (line % 4) as f64 / 3.0)
+                .collect();
             let curve = falling(&rates);
             let (kappa, interval) = crossing(&curve, 0.1).known().unwrap();
             let (low, high) = interval.unwrap();

@@ -28,7 +28,11 @@ impl Passage {
             // Bisection, since the quantity is constant on the target.
             return if excess <= 0.0 { 1.0 } else { -1.0 };
         }
-        if excess.is_nan() { -1.0 - self.target.abs() } else { excess }
+        if excess.is_nan() {
+            -1.0 - self.target.abs()
+        } else {
+            excess
+        }
     }
 }
 
@@ -60,7 +64,9 @@ pub(super) fn passage(
     let mut share: f64 = 0.5;
     loop {
         let width = (other.place - last.place).abs();
-        let least = coordinates.distance(WITHIN, [last.place, other.place]).max(floor);
+        let least = coordinates
+            .distance(WITHIN, [last.place, other.place])
+            .max(floor);
         // Not closer to an end than the precision.
         let margin = (0.5 * least / width).min(0.5);
         let place = last.place + share.clamp(margin, 1.0 - margin) * (other.place - last.place);
@@ -68,12 +74,21 @@ pub(super) fn passage(
             let end = if last.excess >= 0.0 { last } else { other };
             let number = coordinates.number(end.place);
             // The ends themselves have no rounding of the coordinates.
-            let known = ends.iter().find(|tried| coordinates.coordinate(tried.number) == end.place);
+            let known = ends
+                .iter()
+                .find(|tried| coordinates.coordinate(tried.number) == end.place);
             return Ok(known.map_or(number, |tried| tried.number));
         }
-        let next = Point { place, excess: passage.excess(value(coordinates.number(place))?) };
+        let next = Point {
+            place,
+            excess: passage.excess(value(coordinates.number(place))?),
+        };
         let same_side = (next.excess >= 0.0) == (last.excess >= 0.0);
-        let before = if same_side { last } else { replace(&mut other, last) };
+        let before = if same_side {
+            last
+        } else {
+            replace(&mut other, last)
+        };
         last = next;
         share = interpolated(last, other, before);
     }
@@ -84,8 +99,8 @@ pub(super) fn passage(
 fn interpolated(last: Point, other: Point, before: Point) -> f64 {
     let place_share = (last.place - other.place) / (before.place - other.place);
     let excess_share = (last.excess - other.excess) / (before.excess - other.excess);
-    let is_smooth =
-        excess_share * excess_share < place_share && (1.0 - excess_share).powi(2) < 1.0 - place_share;
+    let is_smooth = excess_share * excess_share < place_share
+        && (1.0 - excess_share).powi(2) < 1.0 - place_share;
     if !is_smooth {
         return 0.5;
     }
@@ -135,8 +150,20 @@ mod tests {
             calls += 1;
             Ok(function(number))
         };
-        let tried = ends.map(|number| Tried { number, value: function(number) });
-        let number = passage(coordinates, Passage { target, falls_onto: false }, tried, &mut value).unwrap();
+        let tried = ends.map(|number| Tried {
+            number,
+            value: function(number),
+        });
+        let number = passage(
+            coordinates,
+            Passage {
+                target,
+                falls_onto: false,
+            },
+            tried,
+            &mut value,
+        )
+        .unwrap();
         (number, calls)
     }
 
@@ -144,7 +171,10 @@ mod tests {
     #[test]
     fn numbers_have_the_stated_precision() {
         let functions: [(&dyn Fn(f64) -> f64, f64); 6] = [
-            (&|number| 1.0 - (-number / 1e-6).exp(), 1e-6 * std::f64::consts::LN_2),
+            (
+                &|number| 1.0 - (-number / 1e-6).exp(),
+                1e-6 * std::f64::consts::LN_2,
+            ),
             (&|number| number / (number + 1e-9), 1e-9),
             (&|number| number.powf(0.1), 0.5_f64.powi(10)),
             (&|number| if number < 3.3e-8 { 0.0 } else { 1.0 }, 3.3e-8),
@@ -158,12 +188,18 @@ mod tests {
                 for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
                     let coordinates = Coordinates::on(scale, ends, Allowed::Any).unwrap();
                     let (number, calls) = searched(&coordinates, ends, 0.5, function);
-                    assert!((number / exact - 1.0).abs() < 2.0 * WITHIN, "{number} {exact} {scale:?} {from}");
+                    assert!(
+                        (number / exact - 1.0).abs() < 2.0 * WITHIN,
+                        "{number} {exact} {scale:?} {from}"
+                    );
                     assert!(function(number) >= 0.5 && calls < 70, "{number} {calls}");
                 }
                 let coordinates = Coordinates::on_both_sides(1e-5, ends);
                 let (number, _) = searched(&coordinates, ends, 0.5, function);
-                assert!((number / exact - 1.0).abs() < 4.0 * WITHIN, "{number} {exact}");
+                assert!(
+                    (number / exact - 1.0).abs() < 4.0 * WITHIN,
+                    "{number} {exact}"
+                );
             }
         }
     }

@@ -39,26 +39,52 @@ impl Budget {
     ) -> Option<Budget> {
         let forces = ensemble.map(|ensemble| ensemble.values(Quantity::AdhesionForce));
         let mut forces: Vec<f64> = forces.into_iter().flatten().flatten().collect();
-        let force = outcome.figures.adhesion_force.filter(|force| *force > 0.0)?;
+        let force = outcome
+            .figures
+            .adhesion_force
+            .filter(|force| *force > 0.0)?;
         let finite = |share: f64| Some(share).filter(|share| share.is_finite());
         forces.sort_by(f64::total_cmp);
         let median = quantile(&forces, 0.5).unwrap_or(force);
-        let grid = estimate.and_then(|estimate| finite(estimate.of_adhesion_force(outcome)? / force));
-        let sample = median_interval(&forces).and_then(|(low, high)| finite(0.5 * (high - low) / median));
+        let grid =
+            estimate.and_then(|estimate| finite(estimate.of_adhesion_force(outcome)? / force));
+        let sample =
+            median_interval(&forces).and_then(|(low, high)| finite(0.5 * (high - low) / median));
         let surface = deviation.and_then(|deviation| finite(2.0 * deviation / median));
         let known = [("grid", grid), ("sample", sample), ("surface", surface)];
-        let known = known.into_iter().filter_map(|(name, share)| Some((name, share?)));
-        let largest = known.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(name, _)| name);
+        let known = known
+            .into_iter()
+            .filter_map(|(name, share)| Some((name, share?)));
+        let largest = known
+            .max_by(|one, other| one.1.total_cmp(&other.1))
+            .map(|(name, _)| name);
         // A premise that does not hold may cause a larger error than all that are known.
         let largest = largest.filter(|_| !outcome.warnings.iter().any(Warning::exceeds_errors));
-        Some(Budget { grid, sample, surface, model: None, largest })
+        Some(Budget {
+            grid,
+            sample,
+            surface,
+            model: None,
+            largest,
+        })
     }
 
     /// Returns these errors with the error [`Budget::model`], which may be unknown. An error of 0 is never the largest.
     pub fn with_model(self, model: Option<f64>) -> Budget {
-        let others = [self.grid, self.sample, self.surface].into_iter().flatten().fold(0.0, f64::max);
+        let others = [self.grid, self.sample, self.surface]
+            .into_iter()
+            .flatten()
+            .fold(0.0, f64::max);
         let is_largest = model.is_some_and(|model| model > 0.0 && model >= others);
-        Budget { model, largest: if is_largest { Some("model") } else { self.largest }, ..self }
+        Budget {
+            model,
+            largest: if is_largest {
+                Some("model")
+            } else {
+                self.largest
+            },
+            ..self
+        }
     }
 }
 
@@ -72,11 +98,21 @@ mod tests {
     fn the_largest_source_is_named() {
         let fields = [("numerics.points", "1024"), ("roughness.modes", "(1, 128)")];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        let document = open("pressure-sensitive").unwrap().set_all(&fields).unwrap();
+        let document = open("pressure-sensitive")
+            .unwrap()
+            .set_all(&fields)
+            .unwrap();
         let outcome = run(&document).unwrap();
         let simulation = (Simulation::default(), 1);
-        let ensemble =
-            Ensemble::of(document.scene(), &[], 17, simulation, &|| false, &mut |_, _| ()).unwrap();
+        let ensemble = Ensemble::of(
+            document.scene(),
+            &[],
+            17,
+            simulation,
+            &|| false,
+            &mut |_, _| (),
+        )
+        .unwrap();
         let estimate = |error| Estimate {
             target: Target::AdhesionForce,
             error,
@@ -87,19 +123,31 @@ mod tests {
             Budget::of(&outcome, Some(&estimate(error)), ensemble, deviation).unwrap()
         };
         let grid = budget(0.01, None, None);
-        assert_eq!((grid.sample, grid.surface, grid.largest), (None, None, Some("grid")));
+        assert_eq!(
+            (grid.sample, grid.surface, grid.largest),
+            (None, None, Some("grid"))
+        );
         assert!((grid.grid.unwrap() / 0.01 - 1.0).abs() < 1e-12);
         let all = ensemble.statistics(Quantity::AdhesionForce).unwrap();
         let median = all.quartiles[1];
         let sample = budget(0.01, Some(&ensemble), Some(1e-3 * median));
         // About half of the distance of the quartiles.
         let quartiles = 0.5 * (all.quartiles[2] - all.quartiles[0]) / median;
-        assert!((sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2, "{sample:?} {quartiles}");
+        assert!(
+            (sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2,
+            "{sample:?} {quartiles}"
+        );
         assert!((sample.surface.unwrap() - 2e-3).abs() < 1e-12 && sample.largest == Some("sample"));
-        assert_eq!(budget(0.01, Some(&ensemble), Some(9.0 * median)).largest, Some("surface"));
-        for (model, largest) in
-            [(Some(0.2), "model"), (Some(1e-3), "grid"), (Some(0.0), "grid"), (None, "grid")]
-        {
+        assert_eq!(
+            budget(0.01, Some(&ensemble), Some(9.0 * median)).largest,
+            Some("surface")
+        );
+        for (model, largest) in [
+            (Some(0.2), "model"),
+            (Some(1e-3), "grid"),
+            (Some(0.0), "grid"),
+            (None, "grid"),
+        ] {
             let modelled = budget(0.01, None, None).with_model(model);
             assert_eq!((modelled.model, modelled.largest), (model, Some(largest)));
         }

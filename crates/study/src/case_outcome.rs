@@ -40,12 +40,23 @@ pub(super) struct LoadingOutcome {
 impl LoadingOutcome {
     /// Collects the outcome of a loading of a profile with these stages.
     pub fn of_legs(legs: Vec<LegRecord>, profile: &Profile) -> Self {
-        let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
+        let lengths = legs
+            .iter()
+            .flat_map(|leg| &leg.curve)
+            .map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
         let preload = Branch::preload(&legs).map(|(_, point)| point);
-        let history = History { legs, ..History::default() };
+        let history = History {
+            legs,
+            ..History::default()
+        };
         let warnings = history.warnings(profile);
-        LoadingOutcome { figures: Figures::of(&history), contact_length, preload, warnings }
+        LoadingOutcome {
+            figures: Figures::of(&history),
+            contact_length,
+            preload,
+            warnings,
+        }
     }
 
     /// Collects the outcome of a loading of a profile from separation to `leg`, the turning point of `reversal`, and back to
@@ -77,12 +88,17 @@ pub(super) struct ProfileRecord {
 impl ProfileRecord {
     /// Computes the statistics of the heights of a profile with these gaps in m. `deepest` is the largest gap.
     pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
-        let average =
-            |of: &dyn Fn(f64) -> f64| gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64;
+        let average = |of: &dyn Fn(f64) -> f64| {
+            gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64
+        };
         let mean = average(&|gap| gap);
         // In units of the deepest gap, or of the rms height: powers of heights could leave the range of numbers.
         let square = average(&|gap| ((gap - mean) / deepest).powi(2));
-        let rms = if deepest > 0.0 { square.sqrt() * deepest } else { 0.0 };
+        let rms = if deepest > 0.0 {
+            square.sqrt() * deepest
+        } else {
+            0.0
+        };
         let unit = average(&|gap| (gap - mean).powi(2)).sqrt();
         let z = |gap| (mean - gap) / unit;
         let third = average(&|gap| z(gap) * z(gap) * z(gap));
@@ -100,9 +116,14 @@ impl ProfileRecord {
 impl CaseOutcome<'_> {
     /// Returns the ideal adhesion force F_a,max of eq. (14) in N.
     pub fn ideal(&self) -> Option<f64> {
-        let Governing { work_of_adhesion, effective_modulus, .. } = self.governing;
-        work_of_adhesion
-            .map(|work| ClosedForm::ideal_adhesion_force(work, effective_modulus, self.scene.length))
+        let Governing {
+            work_of_adhesion,
+            effective_modulus,
+            ..
+        } = self.governing;
+        work_of_adhesion.map(|work| {
+            ClosedForm::ideal_adhesion_force(work, effective_modulus, self.scene.length)
+        })
     }
 
     /// Returns a force in N divided by F_a,max.
@@ -112,7 +133,9 @@ impl CaseOutcome<'_> {
 
     /// Returns the largest contact length divided by L.
     pub fn contact_fraction(&self) -> Option<f64> {
-        self.loading.contact_length.map(|longest| longest / self.scene.length)
+        self.loading
+            .contact_length
+            .map(|longest| longest / self.scene.length)
     }
 
     /// Tabor number.
@@ -135,10 +158,15 @@ mod tests {
     #[test]
     fn shapes_of_known_heights() {
         // A sine: ⟨sin⁴⟩ = 3/8, ⟨sin²⟩ = 1/2.
-        let sine = (0..1000).map(|k| 3e-9 * (std::f64::consts::TAU * f64::from(k) / 1000.0).sin() + 4e-9);
-        let of = |gaps: &[f64]| ProfileRecord::of_gaps(gaps, gaps.iter().copied().fold(0.0, f64::max));
+        let sine =
+            (0..1000).map(|k| 3e-9 * (std::f64::consts::TAU * f64::from(k) / 1000.0).sin() + 4e-9);
+        let of =
+            |gaps: &[f64]| ProfileRecord::of_gaps(gaps, gaps.iter().copied().fold(0.0, f64::max));
         let (skewness, kurtosis) = of(&sine.collect::<Vec<_>>()).shape.unwrap();
-        assert!(skewness.abs() < 1e-12 && (kurtosis + 1.5).abs() < 1e-12, "{skewness} {kurtosis}");
+        assert!(
+            skewness.abs() < 1e-12 && (kurtosis + 1.5).abs() < 1e-12,
+            "{skewness} {kurtosis}"
+        );
         // One height of four is far off: deviations −1, −1, −1, 3 from the mean.
         let one_high = of(&[4.0, 4.0, 4.0, 0.0]);
         let (skewness, kurtosis) = one_high.shape.unwrap();
@@ -151,7 +179,13 @@ mod tests {
     /// Rough, smooth and nonadhesive bodies, with one and two works of adhesion, with both edge models.
     #[test]
     fn the_outcome_of_a_reversal_is_that_of_a_run() {
-        for name in ["pressure-sensitive", "rough-sphere", "kendall-punch", "non-adhesive", "two-works"] {
+        for name in [
+            "pressure-sensitive",
+            "rough-sphere",
+            "kendall-punch",
+            "non-adhesive",
+            "two-works",
+        ] {
             for edges in [Edges::Grid, Edges::SubCell] {
                 let document = open(name).unwrap();
                 let scene = document.scene().with(|scene| {
@@ -169,14 +203,22 @@ mod tests {
                 let mut simulation = Simulation::new(document.resolve(""));
                 let profile = simulation.profile(&scene).unwrap();
                 let see: &mut dyn FnMut(usize, Reversal) -> _ = &mut |index, reversal| {
-                    reversed[index] = Some(LoadingOutcome::of_reversal(presses[index], &reversal, &profile));
+                    reversed[index] = Some(LoadingOutcome::of_reversal(
+                        presses[index],
+                        &reversal,
+                        &profile,
+                    ));
                     Ok(())
                 };
-                simulation.reverse(&scene, (&presses, &[]), &|| false, see).unwrap();
+                simulation
+                    .reverse(&scene, (&presses, &[]), &|| false, see)
+                    .unwrap();
                 for (press, reversed) in presses.into_iter().zip(reversed) {
                     let loading = vec![press, Move::ToSeparation];
                     let scene = scene.with(|scene| scene.loading = loading).unwrap();
-                    let run = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+                    let run = simulation
+                        .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+                        .unwrap();
                     let legs = LoadingOutcome::of_legs(run.history.legs, &profile);
                     assert_eq!(reversed, Some(legs), "{name}, {edges:?}, {press:?}");
                 }

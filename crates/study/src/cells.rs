@@ -40,13 +40,25 @@ impl<'p> Cells<'p> {
         let axes = plan.scene_axes();
         let mut order: Vec<usize> = (0..axes.len()).collect();
         order.sort_by_key(|&axis| axes[axis].target.shapes());
-        let inner = axes.iter().filter(|axis| axis.target.shapes() > Shapes::Roughness);
+        let inner = axes
+            .iter()
+            .filter(|axis| axis.target.shapes() > Shapes::Roughness);
         let steps: u64 = inner.map(Axis::count).product();
         let preloads = plan.preloads().map_or(1, Axis::count);
         let profiles = plan.records_in_all() / preloads / steps;
-        let wanted = ENOUGH_UNITS.div_ceil(profiles).min(steps / LEAST_STREAKS).max(1);
+        let wanted = ENOUGH_UNITS
+            .div_ceil(profiles)
+            .min(steps / LEAST_STREAKS)
+            .max(1);
         let chunk = steps.div_ceil(wanted);
-        Cells { plan, order, steps, preloads, chunk, chunks: steps.div_ceil(chunk) }
+        Cells {
+            plan,
+            order,
+            steps,
+            preloads,
+            chunk,
+            chunks: steps.div_ceil(chunk),
+        }
     }
 
     /// Returns the number of units.
@@ -59,9 +71,14 @@ impl<'p> Cells<'p> {
         let (rest, start) = (unit / self.chunks, unit % self.chunks * self.chunk);
         let (group, line) = (rest / self.plan.lines, rest % self.plan.lines);
         (start..(start + self.chunk).min(self.steps)).map(move |step| {
-            let places = self.plan.places_on(self.order.iter().copied(), group * self.steps + step);
+            let places = self
+                .plan
+                .places_on(self.order.iter().copied(), group * self.steps + step);
             let first = self.plan.cell_at(&places);
-            Streak { cells: first..first + self.preloads, line }
+            Streak {
+                cells: first..first + self.preloads,
+                line,
+            }
         })
     }
 }

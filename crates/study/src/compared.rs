@@ -55,7 +55,13 @@ impl Values {
             return None;
         }
         let error = error_of_ratio(&line, &half_space).filter(|error| error.is_finite());
-        Some(Compared { line, half_space, ratio, error, grid })
+        Some(Compared {
+            line,
+            half_space,
+            ratio,
+            error,
+            grid,
+        })
     }
 
     fn grid_error(&self) -> Option<f64> {
@@ -102,7 +108,11 @@ mod tests {
     use super::*;
 
     fn compared(lines: &[f64], squares: &[f64], coarse: &[f64]) -> Option<Compared> {
-        let values = Values { lines: lines.to_vec(), squares: squares.to_vec(), coarse: coarse.to_vec() };
+        let values = Values {
+            lines: lines.to_vec(),
+            squares: squares.to_vec(),
+            coarse: coarse.to_vec(),
+        };
         values.compared()
     }
 
@@ -112,13 +122,19 @@ mod tests {
         assert_eq!(found.ratio, 1.0);
         // The lines are known exactly: two degrees of freedom, and the standard error 1/√3 of a mean of 2.
         let expected = 4.302_652_730 / 3.0_f64.sqrt() / 2.0;
-        assert!((found.error.unwrap() / expected - 1.0).abs() < 1e-9, "{found:?}");
+        assert!(
+            (found.error.unwrap() / expected - 1.0).abs() < 1e-9,
+            "{found:?}"
+        );
         assert!((found.grid.unwrap() - 0.1).abs() < 1e-12, "{found:?}");
         assert!(found.difference() == 0.0);
         // Both means have the same relative error: twice the degrees of freedom of one.
         let both = compared(&[10.0, 20.0, 30.0], &[1.0, 2.0, 3.0], &[]).unwrap();
         let expected = 10.0 * 2.776_445_105 * (2.0_f64 / 3.0).sqrt() / 2.0;
-        assert!((both.error.unwrap() / expected - 1.0).abs() < 1e-9, "{both:?}");
+        assert!(
+            (both.error.unwrap() / expected - 1.0).abs() < 1e-9,
+            "{both:?}"
+        );
         assert_eq!(both.grid, None);
     }
 
@@ -133,7 +149,10 @@ mod tests {
         // Squares that scatter more than the lines keep their scatter.
         let own = compared(&lines, &[1.0, 9.0], &[]).unwrap();
         let narrow = compared(&[1.5; 100], &[1.0, 9.0], &[]).unwrap();
-        assert!((own.error.unwrap() / narrow.error.unwrap() - 1.0).abs() < 0.01, "{own:?} {narrow:?}");
+        assert!(
+            (own.error.unwrap() / narrow.error.unwrap() - 1.0).abs() < 0.01,
+            "{own:?} {narrow:?}"
+        );
     }
 
     #[test]
@@ -142,7 +161,13 @@ mod tests {
         assert_eq!(compared(&[1.0], &[], &[]), None);
         assert_eq!(compared(&[1.0, 2.0], &[0.0, 0.0], &[]), None);
         let single = compared(&[1.0, 2.0], &[2.0], &[0.0]).unwrap();
-        assert_eq!((single.ratio, single.error, single.grid), (0.75, None, Some(1.0)));
-        assert_eq!(compared(&[1.0, 1.0], &[2.0, 2.0], &[1.0]).unwrap().error, Some(0.0));
+        assert_eq!(
+            (single.ratio, single.error, single.grid),
+            (0.75, None, Some(1.0))
+        );
+        assert_eq!(
+            compared(&[1.0, 1.0], &[2.0, 2.0], &[1.0]).unwrap().error,
+            Some(0.0)
+        );
     }
 }

@@ -3,7 +3,9 @@
 use super::compared::{Compared, Values};
 use super::error::StudyError;
 use super::profiles::{Stop, on_threads_received};
-use super::reference::{LeftOut, Loaded, Reference, ReferenceEvent, ReferenceOptions, RoughnessOfBoth};
+use super::reference::{
+    LeftOut, Loaded, Reference, ReferenceEvent, ReferenceOptions, RoughnessOfBoth,
+};
 use super::reference_budget::{Bodies, ReferenceBudget};
 use super::reference_time::{LEAST_CELLS, SquareTime, check_time};
 use super::resolved::{Resolved, of_scene};
@@ -49,9 +51,19 @@ impl Reference {
         let seed = scene.seed();
         let options = match seed {
             Some(_) => options,
-            None => ReferenceOptions { maps: 1, lines: 1, ..options },
+            None => ReferenceOptions {
+                maps: 1,
+                lines: 1,
+                ..options
+            },
         };
-        Comparison { resolved, options, seed: seed.unwrap_or(0), stop }.run(jobs, report)
+        Comparison {
+            resolved,
+            options,
+            seed: seed.unwrap_or(0),
+            stop,
+        }
+        .run(jobs, report)
     }
 }
 
@@ -111,23 +123,39 @@ struct SquareResult {
 }
 
 impl Comparison<'_> {
-    fn run(&self, jobs: usize, report: &mut dyn FnMut(ReferenceEvent)) -> Result<Reference, StudyError> {
+    fn run(
+        &self,
+        jobs: usize,
+        report: &mut dyn FnMut(ReferenceEvent),
+    ) -> Result<Reference, StudyError> {
         let threads = self.threads_for_squares(jobs)?;
         let begun = Instant::now();
         let own = self.own_loading()?;
         let time = self.estimate(&own, threads)?;
         let bytes = self.bytes_of_square() * threads as u64;
         let seconds = time.of_squares(self.options.maps, threads);
-        report(ReferenceEvent::Begins { maps: self.options.maps, threads, bytes, seconds });
+        report(ReferenceEvent::Begins {
+            maps: self.options.maps,
+            threads,
+            bytes,
+            seconds,
+        });
 
         let lines = self.lines(&own, jobs, report)?;
         let seconds_of_lines = begun.elapsed().as_secs_f64();
-        report(ReferenceEvent::ProfilesEnd { lines: self.headlines(&lines) });
+        report(ReferenceEvent::ProfilesEnd {
+            lines: self.headlines(&lines),
+        });
 
         let begun = Instant::now();
         let squares = self.squares(&lines.loading, threads, &time, report)?;
         let seconds_of_squares = begun.elapsed().as_secs_f64();
-        self.gather(&own, &lines, &squares, [seconds_of_lines, seconds_of_squares])
+        self.gather(
+            &own,
+            &lines,
+            &squares,
+            [seconds_of_lines, seconds_of_squares],
+        )
     }
 
     fn is_adhesive(&self) -> bool {
@@ -148,8 +176,15 @@ impl Comparison<'_> {
             }
         }
         let place = format!("{} cells", self.options.cells);
-        let found = format!("not enough memory for the {} of a square", memory_size(bytes));
-        Err(StudyError::refused(Some(&place), found, "fewer cells along the side"))
+        let found = format!(
+            "not enough memory for the {} of a square",
+            memory_size(bytes)
+        );
+        Err(StudyError::refused(
+            Some(&place),
+            found,
+            "fewer cells along the side",
+        ))
     }
 
     /// Loads the profile with the seed of the scene as the scene says, and finds the last loop of this loading.
@@ -166,22 +201,36 @@ impl Comparison<'_> {
         let turn = match (line.loading.get(stage), line.loading_stiffness) {
             (Some(&Move::ToForce(force)), _) => Turn::Force(force),
             (Some(&Move::ToIndentation(indentation)), _) => Turn::Indentation(indentation),
-            (Some(&Move::ToDisplacement(displacement)), Some(stiffness)) => {
-                Turn::Displacement { displacement, stiffness }
-            }
+            (Some(&Move::ToDisplacement(displacement)), Some(stiffness)) => Turn::Displacement {
+                displacement,
+                stiffness,
+            },
             // Without an instrument its drive moves as the body does.
             (Some(&Move::ToDisplacement(displacement)), None) => Turn::Indentation(displacement),
             _ => Turn::Force(preload),
         };
         let is_full = largest.contact_length >= line.length * (1.0 - ROUNDING);
         // A force is reached up to rounding.
-        let preload = if let Turn::Force(force) = turn { force } else { preload };
-        Ok(OwnLoading { turn, preload, depth: depth(&outcome), is_full })
+        let preload = if let Turn::Force(force) = turn {
+            force
+        } else {
+            preload
+        };
+        Ok(OwnLoading {
+            turn,
+            preload,
+            depth: depth(&outcome),
+            is_full,
+        })
     }
 
     /// Returns the loads of a square for a preload in N, and a distance in m between preload and pull-off.
     fn square_loading(&self, turn: Turn, preload: f64, depth: f64) -> SquareLoading {
-        SquareLoading { forces: SHARES.map(|share| share * preload).to_vec(), turn, step: depth / STEPS }
+        SquareLoading {
+            forces: SHARES.map(|share| share * preload).to_vec(),
+            turn,
+            step: depth / STEPS,
+        }
     }
 
     /// Estimates the computing time of the squares, and refuses a comparison that takes too long.
@@ -208,7 +257,9 @@ impl Comparison<'_> {
         let prescribes_force = matches!(own.turn, Turn::Force(_));
         let mut loops = Vec::new();
         if self.is_adhesive() || !prescribes_force {
-            loops = self.each_line(&loop_scene, jobs, 2, report, |outcome| LineLoop::of(&outcome))?;
+            loops = self.each_line(&loop_scene, jobs, 2, report, |outcome| {
+                LineLoop::of(&outcome)
+            })?;
         }
         let mut preload = own.preload;
         if !prescribes_force {
@@ -216,7 +267,11 @@ impl Comparison<'_> {
         }
         if preload.is_nan() || preload <= 0.0 {
             let found = format!("the mean preload of the profiles is {preload:e} N");
-            return Err(StudyError::refused(None, found, "a loading that presses most profiles"));
+            return Err(StudyError::refused(
+                None,
+                found,
+                "a loading that presses most profiles",
+            ));
         }
         let mut depth = own.depth;
         if !loops.is_empty() {
@@ -227,14 +282,24 @@ impl Comparison<'_> {
         let bare_scene = self.resolved.line.with(|scene| {
             scene.adhesion = None;
             // Stages end exactly at their forces.
-            scene.loading = loading.forces.iter().map(|force| Move::ToForce(*force)).collect();
+            scene.loading = loading
+                .forces
+                .iter()
+                .map(|force| Move::ToForce(*force))
+                .collect();
         });
         let bare_scene = bare_scene.map_err(|errors| of_scene(errors.into()))?;
         let modulus = self.resolved.body.effective_modulus;
         let passes = if loops.is_empty() { 1 } else { 2 };
-        let pressed =
-            self.each_line(&bare_scene, jobs, passes, report, |outcome| pressed_line(&outcome, modulus))?;
-        Ok(Lines { loops, pressed, loading, preload })
+        let pressed = self.each_line(&bare_scene, jobs, passes, report, |outcome| {
+            pressed_line(&outcome, modulus)
+        })?;
+        Ok(Lines {
+            loops,
+            pressed,
+            loading,
+            preload,
+        })
     }
 
     /// Runs a scene on all profiles, and returns what `figures` takes from each outcome. `passes` is the number of times that
@@ -264,7 +329,10 @@ impl Comparison<'_> {
         let mut receive = |()| {
             count += 1;
             if count % group == 0 {
-                report(ReferenceEvent::Profiles { count: group, lines: lines * passes });
+                report(ReferenceEvent::Profiles {
+                    count: group,
+                    lines: lines * passes,
+                });
             }
         };
         on_threads_received(lines, jobs, worker, &mut receive)
@@ -273,9 +341,17 @@ impl Comparison<'_> {
     /// Returns the adhesion force of each profile, or its indentation at the preload.
     fn headlines(&self, lines: &Lines) -> Vec<f64> {
         if self.is_adhesive() {
-            lines.loops.iter().filter_map(|line| line.adhesion_force).collect()
+            lines
+                .loops
+                .iter()
+                .filter_map(|line| line.adhesion_force)
+                .collect()
         } else {
-            lines.pressed.iter().filter_map(|states| Some(states.last()?.indentation)).collect()
+            lines
+                .pressed
+                .iter()
+                .filter_map(|states| Some(states.last()?.indentation))
+                .collect()
         }
     }
 
@@ -308,16 +384,33 @@ impl Comparison<'_> {
         let stop = || (self.stop)();
         let begun = Instant::now();
         let loaded = || {
-            let _ = sender.send(ReferenceEvent::Loaded { share: time.share_of_load(maps) });
+            let _ = sender.send(ReferenceEvent::Loaded {
+                share: time.share_of_load(maps),
+            });
         };
-        let fine = self.resolved.body.load(cells, seed, loading, Watch { stop: &stop, loaded: &loaded })?;
+        let fine = self.resolved.body.load(
+            cells,
+            seed,
+            loading,
+            Watch {
+                stop: &stop,
+                loaded: &loaded,
+            },
+        )?;
         let seconds = begun.elapsed().as_secs_f64();
         let mut coarse = None;
         if cells / 2 >= LEAST_CELLS {
-            let watch = Watch { stop: &stop, loaded: &|| () };
+            let watch = Watch {
+                stop: &stop,
+                loaded: &|| (),
+            };
             coarse = Some(self.resolved.body.load(cells / 2, seed, loading, watch)?);
         }
-        Ok(SquareResult { fine, coarse, seconds })
+        Ok(SquareResult {
+            fine,
+            coarse,
+            seconds,
+        })
     }
 
     fn gather(
@@ -328,26 +421,34 @@ impl Comparison<'_> {
         seconds: [f64; 2],
     ) -> Result<Reference, StudyError> {
         let loops = &lines.loops;
-        let adhesion_force =
-            compared_loops(loops.iter().map(|line| line.adhesion_force), squares, |pulling| {
-                pulling.adhesion_force
-            });
-        let first_touch_adhesion_force =
-            compared_loops(loops.iter().map(|line| line.first_touch_adhesion_force), squares, |pulling| {
-                pulling.at_touch
-            });
-        let dissipated_energy =
-            compared_loops(loops.iter().map(|line| line.dissipated_energy), squares, |pulling| {
-                pulling.dissipated_energy
-            });
+        let adhesion_force = compared_loops(
+            loops.iter().map(|line| line.adhesion_force),
+            squares,
+            |pulling| pulling.adhesion_force,
+        );
+        let first_touch_adhesion_force = compared_loops(
+            loops.iter().map(|line| line.first_touch_adhesion_force),
+            squares,
+            |pulling| pulling.at_touch,
+        );
+        let dissipated_energy = compared_loops(
+            loops.iter().map(|line| line.dissipated_energy),
+            squares,
+            |pulling| pulling.dissipated_energy,
+        );
         let (loading, left_out) = self.compared_loading(lines, squares);
         let line_is_exact = self.resolved.line_is_exact && !own.is_full;
         let last = loading.last().filter(|last| last.force >= lines.preload);
-        let headline = adhesion_force.as_ref().or(last.map(|last| &last.indentation));
+        let headline = adhesion_force
+            .as_ref()
+            .or(last.map(|last| &last.indentation));
         if let (None, Some(left_out)) = (headline, left_out.last()) {
             return Err(self.too_few_cells(left_out));
         }
-        let bodies = Bodies { are_random: self.resolved.waves.is_some(), line_is_exact };
+        let bodies = Bodies {
+            are_random: self.resolved.waves.is_some(),
+            line_is_exact,
+        };
         let seconds_of_squares: f64 = squares.iter().map(|square| square.seconds).sum();
         Ok(Reference {
             waves: self.resolved.waves,
@@ -376,22 +477,35 @@ impl Comparison<'_> {
         Some(RoughnessOfBoth {
             line: self.resolved.line_roughness?,
             half_space,
-            adhesive_half_space: body.works.map(|_| half_space.scaled(body.adhesive_height_factor)),
+            adhesive_half_space: body
+                .works
+                .map(|_| half_space.scaled(body.adhesive_height_factor)),
         })
     }
 
     /// Compares profiles and squares at the forces at which enough grid cells are in contact. Returns the other forces, too.
-    fn compared_loading(&self, lines: &Lines, squares: &[SquareResult]) -> (Vec<Loaded>, Vec<LeftOut>) {
+    fn compared_loading(
+        &self,
+        lines: &Lines,
+        squares: &[SquareResult],
+    ) -> (Vec<Loaded>, Vec<LeftOut>) {
         let cell = (self.resolved.body.side / self.options.cells as f64).powi(2);
         let mut loading = Vec::new();
         let mut left_out = Vec::new();
         for (index, &force) in lines.loading.forces.iter().enumerate() {
-            let areas: Vec<f64> = squares.iter().map(|square| square.fine.pressings[index].area).collect();
+            let areas: Vec<f64> = squares
+                .iter()
+                .map(|square| square.fine.pressings[index].area)
+                .collect();
             let area = mean(&areas);
             let cells = area / cell;
             // The area is a sum over cells.
             if cells < Loaded::LEAST_CELLS * (1.0 - ROUNDING) {
-                left_out.push(LeftOut { force, cells, grid: self.finer_grid(cells) });
+                left_out.push(LeftOut {
+                    force,
+                    cells,
+                    grid: self.finer_grid(cells),
+                });
                 continue;
             }
             let indentation = compared_pressings(
@@ -405,7 +519,13 @@ impl Comparison<'_> {
                 |loads| loads.pressings[index].stiffness,
             );
             if let (Some(indentation), Some(stiffness)) = (indentation, stiffness) {
-                loading.push(Loaded { force, indentation, stiffness, area, cells });
+                loading.push(Loaded {
+                    force,
+                    indentation,
+                    stiffness,
+                    area,
+                    cells,
+                });
             }
         }
         (loading, left_out)
@@ -426,7 +546,11 @@ impl Comparison<'_> {
         if let Some(grid) = left_out.grid {
             allowed += &format!(" or {grid} cells along the side");
         }
-        StudyError::refused(Some(&format!("{} cells", self.options.cells)), found, allowed)
+        StudyError::refused(
+            Some(&format!("{} cells", self.options.cells)),
+            found,
+            allowed,
+        )
     }
 }
 
@@ -453,12 +577,21 @@ impl SquareResult {
                 }
             }
         }
-        ReferenceEvent::Square { curve, headline: self.fine.headline().unwrap_or(f64::NAN) }
+        ReferenceEvent::Square {
+            curve,
+            headline: self.fine.headline().unwrap_or(f64::NAN),
+        }
     }
 }
 
-fn run(scene: &CheckedScene, simulation: &mut Simulation, stop: &Stop<'_>) -> Result<Outcome, StudyError> {
-    simulation.run(scene, &|| stop(), &mut |_, _, _| Ok(())).map_err(of_scene)
+fn run(
+    scene: &CheckedScene,
+    simulation: &mut Simulation,
+    stop: &Stop<'_>,
+) -> Result<Outcome, StudyError> {
+    simulation
+        .run(scene, &|| stop(), &mut |_, _, _| Ok(()))
+        .map_err(of_scene)
 }
 
 /// Returns the distance between the indentations of preload and pull-off in m.
@@ -475,7 +608,10 @@ fn pressed_line(outcome: &Outcome, modulus: f64) -> Vec<PressedLine> {
         let end = leg.curve.last().copied().unwrap_or_default();
         // Without adhesion the stiffness of the springs is E* times their length in contact.
         let stiffness = modulus * end.contact_length;
-        states.push(PressedLine { indentation: end.indentation, stiffness });
+        states.push(PressedLine {
+            indentation: end.indentation,
+            stiffness,
+        });
     }
     states
 }
@@ -487,10 +623,15 @@ fn compared_loops(
     figure: impl Fn(&Pulling) -> f64,
 ) -> Option<Compared> {
     let figure_of = |loads: &Loads| loads.pulling.as_ref().map(&figure);
-    let coarse = squares.iter().filter_map(|square| figure_of(square.coarse.as_ref()?));
+    let coarse = squares
+        .iter()
+        .filter_map(|square| figure_of(square.coarse.as_ref()?));
     let values = Values {
         lines: lines.flatten().collect(),
-        squares: squares.iter().filter_map(|square| figure_of(&square.fine)).collect(),
+        squares: squares
+            .iter()
+            .filter_map(|square| figure_of(&square.fine))
+            .collect(),
         coarse: coarse.collect(),
     };
     values.compared()
@@ -513,7 +654,9 @@ fn compared_pressings(
 
 fn largest_residual(squares: &[SquareResult]) -> f64 {
     let pressings = squares.iter().flat_map(|square| &square.fine.pressings);
-    pressings.map(|pressing: &Pressing| pressing.residual).fold(0.0, f64::max)
+    pressings
+        .map(|pressing: &Pressing| pressing.residual)
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -525,24 +668,40 @@ mod tests {
 
     /// Returns the lines and squares of a rough square with other fields.
     fn population(fields: &[(&str, &str)], maps: u64, lines: u64) -> (Lines, Vec<SquareResult>) {
-        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/examples/rough-square.ron");
+        let scene = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../docs/examples/rough-square.ron"
+        );
         let mut document = open(scene).unwrap();
         for (field, value) in fields {
             document = document.set(field, value).unwrap();
         }
-        let options = ReferenceOptions { cells: 32, maps, lines };
+        let options = ReferenceOptions {
+            cells: 32,
+            maps,
+            lines,
+        };
         let resolved = Resolved::of(document.scene(), 32, &mut Simulation::default()).unwrap();
-        let comparison = Comparison { resolved, options, seed: 1000, stop: &|| false };
+        let comparison = Comparison {
+            resolved,
+            options,
+            seed: 1000,
+            stop: &|| false,
+        };
         let own = comparison.own_loading().unwrap();
         let lines = comparison.lines(&own, 2, &mut |_| ()).unwrap();
         let time = comparison.estimate(&own, 2).unwrap();
-        let squares = comparison.squares(&lines.loading, 2, &time, &mut |_| ()).unwrap();
+        let squares = comparison
+            .squares(&lines.loading, 2, &time, &mut |_| ())
+            .unwrap();
         (lines, squares)
     }
 
     /// Returns `count` of the values, drawn at random.
     fn drawn(values: &[f64], count: usize, random: &mut ChaCha8Rng) -> Vec<f64> {
-        (0..count).map(|_| values[random.random_range(0..values.len())]).collect()
+        (0..count)
+            .map(|_| values[random.random_range(0..values.len())])
+            .collect()
     }
 
     /// The interval of a ratio holds the ratio of all squares and lines in at least 93 of 100 samples of a few of them.
@@ -572,15 +731,32 @@ mod tests {
                     .collect::<Vec<_>>()
             };
             let last = SHARES.len() - 1;
-            let adhesion = lines.loops.iter().filter_map(|line| line.adhesion_force).collect::<Vec<_>>();
-            let touch = lines.loops.iter().filter_map(|line| line.first_touch_adhesion_force);
+            let adhesion = lines
+                .loops
+                .iter()
+                .filter_map(|line| line.adhesion_force)
+                .collect::<Vec<_>>();
+            let touch = lines
+                .loops
+                .iter()
+                .filter_map(|line| line.first_touch_adhesion_force);
             let energy = lines.loops.iter().filter_map(|line| line.dissipated_energy);
             let indentation = lines.pressed.iter().map(|states| states[last].indentation);
-            let pressed = squares.iter().map(|square| square.fine.pressings[last].indentation);
+            let pressed = squares
+                .iter()
+                .map(|square| square.fine.pressings[last].indentation);
             let quantities = [
                 ("F_a", adhesion, pulling(|pulling| pulling.adhesion_force)),
-                ("touch", touch.collect(), pulling(|pulling| pulling.at_touch)),
-                ("energy", energy.collect(), pulling(|pulling| pulling.dissipated_energy)),
+                (
+                    "touch",
+                    touch.collect(),
+                    pulling(|pulling| pulling.at_touch),
+                ),
+                (
+                    "energy",
+                    energy.collect(),
+                    pulling(|pulling| pulling.dissipated_energy),
+                ),
                 ("indentation", indentation.collect(), pressed.collect()),
             ];
             for (name, lines, squares) in quantities {
@@ -591,7 +767,13 @@ mod tests {
                     for _ in 0..repeats {
                         let lines = drawn(&lines, 16 * count, &mut random);
                         let squares = drawn(&squares, count, &mut random);
-                        let compared = Values { lines, squares, coarse: Vec::new() }.compared().unwrap();
+                        let compared = Values {
+                            lines,
+                            squares,
+                            coarse: Vec::new(),
+                        }
+                        .compared()
+                        .unwrap();
                         let error = compared.error.unwrap();
                         held += i32::from((compared.ratio - truth).abs() <= error);
                     }

@@ -61,7 +61,8 @@ impl Streaks<'_> {
                     let records = recorder.record_each(&streak).map_err(|error| {
                         ended.store(true, Ordering::SeqCst);
                         let (cell, seed) = (streak.cells.start, plan.seed_of(streak.line));
-                        let place = format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
+                        let place =
+                            format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
                         StudyError::Run { place, error }
                     })?;
                     ended.fetch_or(!receive(streak, records), Ordering::SeqCst);
@@ -99,7 +100,12 @@ pub fn compute(plan: &Plan, mut control: Control<'_>) -> Result<Results, StudyEr
     let profile = profile(plan, Path::new(""))?;
     let cells = Cells::of(plan);
     let units: Vec<u64> = (0..cells.units()).collect();
-    let streaks = Streaks { cells: &cells, units: &units, is_missing: &|_| true, profile: profile.as_ref() };
+    let streaks = Streaks {
+        cells: &cells,
+        units: &units,
+        is_missing: &|_| true,
+        profile: profile.as_ref(),
+    };
     let mut results = Results::empty(plan.clone())?;
     let (sender, receiver) = channel();
     let work = move || {
@@ -109,18 +115,27 @@ pub fn compute(plan: &Plan, mut control: Control<'_>) -> Result<Results, StudyEr
     };
     let mut done = 0;
     std::thread::scope(|scope| {
-        let computing = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
+        let computing = Builder::new()
+            .spawn_scoped(scope, work)
+            .map_err(StudyError::NoThread)?;
         for (streak, records) in receiver.iter() {
             done += records.len() as u64;
             let places = streak.cells.map(|cell| cell * plan.lines + streak.line);
-            places.zip(records).for_each(|(place, one)| results.set_record(place, one));
+            places
+                .zip(records)
+                .for_each(|(place, one)| results.set_record(place, one));
             control.report(done);
         }
-        computing.join().unwrap_or_else(|panic| resume_unwind(panic))
+        computing
+            .join()
+            .unwrap_or_else(|panic| resume_unwind(panic))
     })?;
     if done < plan.records_in_all() {
         let error = ContactError::Interrupted.into();
-        return Err(StudyError::Run { place: String::new(), error });
+        return Err(StudyError::Run {
+            place: String::new(),
+            error,
+        });
     }
     Ok(results)
 }
@@ -132,9 +147,21 @@ mod tests {
     use asperity_scene::open;
 
     fn plan() -> Plan {
-        let document = open("pressure-sensitive").unwrap().set("numerics.points", "1024").unwrap();
-        let axes: [(&str, &[f64]); 2] = [("roughness.hurst", &[0.3, 0.7]), ("preload", &[0.01, 0.1, 1e9])];
-        Plan::new(&document, &axes, 3, &[Quantity::AdhesionForce, Quantity::Regime]).unwrap()
+        let document = open("pressure-sensitive")
+            .unwrap()
+            .set("numerics.points", "1024")
+            .unwrap();
+        let axes: [(&str, &[f64]); 2] = [
+            ("roughness.hurst", &[0.3, 0.7]),
+            ("preload", &[0.01, 0.1, 1e9]),
+        ];
+        Plan::new(
+            &document,
+            &axes,
+            3,
+            &[Quantity::AdhesionForce, Quantity::Regime],
+        )
+        .unwrap()
     }
 
     /// Each record is made by a recorder of its own; one that cannot be computed has its reason.
@@ -143,15 +170,35 @@ mod tests {
         let plan = plan();
         let mut parts = Vec::new();
         let mut see = |done| parts.push(done);
-        let found = compute(&plan, Control::default().on_threads(3).reporting_to(&mut see)).unwrap();
-        assert_eq!(compute(&plan, Control::default().on_threads(1)).unwrap(), found);
+        let found = compute(
+            &plan,
+            Control::default().on_threads(3).reporting_to(&mut see),
+        )
+        .unwrap();
+        assert_eq!(
+            compute(&plan, Control::default().on_threads(1)).unwrap(),
+            found
+        );
         assert_eq!(parts, [3, 6, 9, 12, 15, 18]);
-        for (cell, line) in (0..plan.cells()).flat_map(|cell| (0..plan.lines).map(move |line| (cell, line))) {
+        for (cell, line) in
+            (0..plan.cells()).flat_map(|cell| (0..plan.lines).map(move |line| (cell, line)))
+        {
             let mut recorder = Recorder::new(&plan, Simulation::default(), &|| false);
-            let one = &recorder.record_each(&Streak { cells: cell..cell + 1, line }).unwrap()[0];
-            let values = plan.record.iter().map(|quantity| found.value(cell, line, *quantity));
+            let one = &recorder
+                .record_each(&Streak {
+                    cells: cell..cell + 1,
+                    line,
+                })
+                .unwrap()[0];
+            let values = plan
+                .record
+                .iter()
+                .map(|quantity| found.value(cell, line, *quantity));
             let expected = plan.record.iter().enumerate().map(|(index, _)| {
-                one.as_ref().ok().map(|values| values[index]).filter(|value| !value.is_nan())
+                one.as_ref()
+                    .ok()
+                    .map(|values| values[index])
+                    .filter(|value| !value.is_nan())
             });
             assert!(values.eq(expected), "{cell} {line}: {one:?}");
         }
@@ -167,12 +214,17 @@ mod tests {
         assert_eq!(none.to_string(), "0 threads; allowed: at least one");
         let document = open("pressure-sensitive").unwrap();
         for (path, values, said) in [
-            ("roughness.hurts", &[0.3][..], "did you mean roughness.hurst?"),
+            (
+                "roughness.hurts",
+                &[0.3][..],
+                "did you mean roughness.hurst?",
+            ),
             ("roughness.hurst", &[], "no values; allowed: at least one"),
             ("roughness.hurst", &[f64::NAN], "values must be finite"),
             ("roughness.hurst", &[1.5], "allowed: "),
         ] {
-            let error = Plan::new(&document, &[(path, values)], 2, &[Quantity::Regime]).unwrap_err();
+            let error =
+                Plan::new(&document, &[(path, values)], 2, &[Quantity::Regime]).unwrap_err();
             assert!(error.to_string().contains(said), "{path}: {error}");
         }
     }

@@ -25,7 +25,10 @@ impl Allowed {
     /// Returns the values that the number of this axis can have in a scene.
     pub fn of(axis: &Axis, scene: &Scene) -> Allowed {
         match axis.target {
-            Target::Number(Field { range: Range::Wavelengths(..), .. }) => Allowed::Fractions(scene.length),
+            Target::Number(Field {
+                range: Range::Wavelengths(..),
+                ..
+            }) => Allowed::Fractions(scene.length),
             Target::Number(Field { path: "length", .. }) => {
                 let longest = Tree::of(scene).get("roughness.wavelengths.0");
                 longest.map_or(Allowed::Any, Allowed::Multiples)
@@ -72,7 +75,11 @@ impl Allowed {
         };
         let (from, to) = (from.round(), to.round());
         let rises = (number > present) != matches!(self, Allowed::Fractions(_));
-        let next = if rises { to.max(from + 1.0) } else { to.min(from - 1.0) };
+        let next = if rises {
+            to.max(from + 1.0)
+        } else {
+            to.min(from - 1.0)
+        };
         let is_allowed = next >= 1.0 || self == Allowed::Whole;
         is_allowed.then(|| self.of_count(next))
     }
@@ -84,7 +91,9 @@ impl Allowed {
         let ends = match allowed {
             Allowed::Any => [from, to],
             Allowed::Whole => [up(from), down(to)],
-            Allowed::Fractions(whole) => [whole / down(whole / from), whole / up(whole / to).max(1.0)],
+            Allowed::Fractions(whole) => {
+                [whole / down(whole / from), whole / up(whole / to).max(1.0)]
+            }
             Allowed::Multiples(unit) => [unit * up(from / unit).max(1.0), unit * down(to / unit)],
         };
         (ends[0] <= ends[1]).then_some(ends)
@@ -114,13 +123,25 @@ impl Coordinates {
     /// allowed value.
     pub fn on(scale: AxisScale, range: [f64; 2], allowed: Allowed) -> Option<Coordinates> {
         let ends = Allowed::ends(range, allowed)?;
-        let scale = if ends[0] > 0.0 { scale } else { AxisScale::Linear };
-        Some(Coordinates { map: Map::Scale(scale), allowed, ends })
+        let scale = if ends[0] > 0.0 {
+            scale
+        } else {
+            AxisScale::Linear
+        };
+        Some(Coordinates {
+            map: Map::Scale(scale),
+            allowed,
+            ends,
+        })
     }
 
     /// Creates coordinates of numbers of either sign which are linear up to `unit` and logarithmic beyond.
     pub fn on_both_sides(unit: f64, range: [f64; 2]) -> Coordinates {
-        Coordinates { map: Map::BothSides(unit), allowed: Allowed::Any, ends: range }
+        Coordinates {
+            map: Map::BothSides(unit),
+            allowed: Allowed::Any,
+            ends: range,
+        }
     }
 
     /// Returns the coordinate of a number.
@@ -137,7 +158,9 @@ impl Coordinates {
             Map::Scale(scale) => scale.number(coordinate),
             Map::BothSides(unit) => unit * coordinate.sinh(),
         };
-        self.allowed.nearest(number).clamp(self.ends[0], self.ends[1])
+        self.allowed
+            .nearest(number)
+            .clamp(self.ends[0], self.ends[1])
     }
 
     /// Returns the allowed number in the middle between two numbers; `None` if there is no further number between them.
@@ -147,7 +170,10 @@ impl Coordinates {
             return Some(middle);
         }
         // Rounding may return an end although a whole number lies between them.
-        let counts = [self.allowed.count(from)?.round(), self.allowed.count(to)?.round()];
+        let counts = [
+            self.allowed.count(from)?.round(),
+            self.allowed.count(to)?.round(),
+        ];
         let next = counts[0] + (counts[1] - counts[0]).signum();
         ((counts[1] - counts[0]).abs() >= 2.0).then(|| self.allowed.of_count(next))
     }
@@ -176,7 +202,10 @@ impl Coordinates {
     /// Returns all allowed numbers between two others, in ascending order; `None` if any number is allowed or if there are more
     /// than `most`.
     pub fn all_between(&self, [from, to]: [f64; 2], most: usize) -> Option<Vec<f64>> {
-        let [one, other] = [self.allowed.count(from)?.round(), self.allowed.count(to)?.round()];
+        let [one, other] = [
+            self.allowed.count(from)?.round(),
+            self.allowed.count(to)?.round(),
+        ];
         let (low, high) = (one.min(other), one.max(other));
         if high - low >= most as f64 {
             return None;

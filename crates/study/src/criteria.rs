@@ -15,8 +15,12 @@ const TABOR: Criterion = Criterion::new(
     "Tabor: J. Colloid Interface Sci. 58 (1977) 2",
     Criterion::LEAST_TABOR_NUMBER,
 );
-const THIS_PROGRAM: Criterion =
-    Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", Regime::VANISHING_SHARE);
+const THIS_PROGRAM: Criterion = Criterion::new(
+    "this program",
+    "",
+    "Popov, Filippov: Phys. Mesomech. 15 (2012)",
+    Regime::VANISHING_SHARE,
+);
 
 /// Returns the criteria by which other theories and this program judge whether the bodies of a computed scene adhere without a
 /// preload; empty for a scene without adhesion. The criteria of this program come last and use medians over `ensemble`, or the
@@ -33,8 +37,12 @@ const THIS_PROGRAM: Criterion =
 /// ```
 pub fn criteria(scene: &Scene, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let governing = &outcome.governing;
-    let Some((work, adhesion)) = governing.adhesive_work().zip(scene.adhesion) else { return Vec::new() };
-    let rough = governing.amplitude.filter(|amplitude| amplitude.rms_curvature > 0.0);
+    let Some((work, adhesion)) = governing.adhesive_work().zip(scene.adhesion) else {
+        return Vec::new();
+    };
+    let rough = governing
+        .amplitude
+        .filter(|amplitude| amplitude.rms_curvature > 0.0);
     let rough = rough.map(|amplitude| RoughContact {
         amplitude,
         stretch: work / governing.effective_modulus,
@@ -55,23 +63,37 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
         Some(number) if number < Criterion::LEAST_TABOR_NUMBER => {
             "below 1: JKR theory and this program do not apply, DMT theory does"
         }
-        Some(number) if number < Governing::LEAST_TABOR_NUMBER => "from 1 to 5: between JKR and DMT theory",
+        Some(number) if number < Governing::LEAST_TABOR_NUMBER => {
+            "from 1 to 5: between JKR and DMT theory"
+        }
         Some(_) => "at least 5: JKR theory applies, as in this program",
     };
-    Criterion { value: tabor_number, reason: Some(reason.to_owned()), ..TABOR }
+    Criterion {
+        value: tabor_number,
+        reason: Some(reason.to_owned()),
+        ..TABOR
+    }
 }
 
 /// Returns F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body. Below [`Regime::VANISHING_SHARE`] adhesion
 /// has vanished, as in the definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
-    let own = [outcome.first_touch_adhesion_force, outcome.zero_force_adhesion_force];
-    let quantities = [Quantity::FirstTouchAdhesionForce, Quantity::ZeroForceAdhesionForce];
+    let own = [
+        outcome.first_touch_adhesion_force,
+        outcome.zero_force_adhesion_force,
+    ];
+    let quantities = [
+        Quantity::FirstTouchAdhesionForce,
+        Quantity::ZeroForceAdhesionForce,
+    ];
     let median = |ensemble: &Ensemble, quantity| Some(ensemble.statistics(quantity)?.quartiles[1]);
-    let [first_touch, zero_force] =
-        ensemble.map_or(own, |ensemble| quantities.map(|quantity| median(ensemble, quantity)));
-    let of =
-        ensemble.map(|ensemble| format!(", median of {} profiles", ensemble.computed())).unwrap_or_default();
+    let [first_touch, zero_force] = ensemble.map_or(own, |ensemble| {
+        quantities.map(|quantity| median(ensemble, quantity))
+    });
+    let of = ensemble
+        .map(|ensemble| format!(", median of {} profiles", ensemble.computed()))
+        .unwrap_or_default();
     let rows = [
         ("F_a(d=0)/F_smooth", "turned at first touch", first_touch),
         ("F_a(F=0)/F_smooth", "turned at zero force", zero_force),
@@ -83,8 +105,16 @@ fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion
             Some(refusal) => format!("does not hold: {refusal}"),
             None => format!("{protocol}{of}"),
         };
-        let sticks = refusal.is_none().then_some(share >= Regime::VANISHING_SHARE);
-        Some(Criterion { symbol, value: Some(share), sticks, reason: Some(reason), ..THIS_PROGRAM })
+        let sticks = refusal
+            .is_none()
+            .then_some(share >= Regime::VANISHING_SHARE);
+        Some(Criterion {
+            symbol,
+            value: Some(share),
+            sticks,
+            reason: Some(reason),
+            ..THIS_PROGRAM
+        })
     };
     rows.into_iter().filter_map(row).collect()
 }
@@ -111,14 +141,34 @@ mod tests {
              roughness: SelfAffine(hurst: 0.8, rms_gradient: 0.1, wavelengths: (1.0e-6, 1.0e-8), seed: 1)",
         );
         let rows = rows(&hard, None);
-        let of = |name: &str| rows.iter().filter(|row| row.name == name).collect::<Vec<_>>();
+        let of = |name: &str| {
+            rows.iter()
+                .filter(|row| row.name == name)
+                .collect::<Vec<_>>()
+        };
         let tabor = of("Tabor number")[0];
-        assert!((0.01..0.1).contains(&tabor.value.unwrap()) && tabor.sticks.is_none(), "{tabor:?}");
-        assert!(tabor.reason.as_ref().unwrap().contains("JKR theory and this program do not apply"));
-        for name in ["Persson & Tosatti 2001", "Fuller & Tabor 1975", "this program"] {
+        assert!(
+            (0.01..0.1).contains(&tabor.value.unwrap()) && tabor.sticks.is_none(),
+            "{tabor:?}"
+        );
+        assert!(
+            tabor
+                .reason
+                .as_ref()
+                .unwrap()
+                .contains("JKR theory and this program do not apply")
+        );
+        for name in [
+            "Persson & Tosatti 2001",
+            "Fuller & Tabor 1975",
+            "this program",
+        ] {
             for row in of(name) {
                 assert!(row.sticks.is_none() && row.value.is_some(), "{row:?}");
-                assert!(row.reason.as_ref().unwrap().contains(", needs at least 1"), "{row:?}");
+                assert!(
+                    row.reason.as_ref().unwrap().contains(", needs at least 1"),
+                    "{row:?}"
+                );
             }
         }
         // Criteria of stiff bodies hold.
@@ -134,28 +184,47 @@ mod tests {
             "material: (effective_modulus: 1.0e6), form: Paraboloid(radius: 1.0e-5), adhesion: (work: 0.05)",
         );
         let found = rows(&smooth, None);
-        assert_eq!(names(&found), ["Tabor number", "this program", "this program"]);
-        assert!(found[1..].iter().all(|row| row.sticks == Some(true)), "{found:?}");
-        assert_eq!(rows(&document("material: (effective_modulus: 1.0e6)"), None), []);
+        assert_eq!(
+            names(&found),
+            ["Tabor number", "this program", "this program"]
+        );
+        assert!(
+            found[1..].iter().all(|row| row.sticks == Some(true)),
+            "{found:?}"
+        );
+        assert_eq!(
+            rows(&document("material: (effective_modulus: 1.0e6)"), None),
+            []
+        );
         let rough = document(
             "material: (effective_modulus: 1.0e6), adhesion: (work: 0.05), \
              roughness: SelfAffine(hurst: 0.3, rms_height: 1.0e-7, modes: (1, 64), seed: 1)",
         );
         let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_, _| ()).unwrap();
+        let ensemble =
+            Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_, _| ()).unwrap();
         let found = rows(&rough, Some(&ensemble));
-        assert_eq!(names(&found)[4..], ["Tabor number", "this program", "this program"]);
+        assert_eq!(
+            names(&found)[4..],
+            ["Tabor number", "this program", "this program"]
+        );
         let smooth = run(&rough).unwrap().smooth_adhesion_force.unwrap();
-        for (row, quantity) in
-            found[5..].iter().zip([Quantity::FirstTouchAdhesionForce, Quantity::ZeroForceAdhesionForce])
-        {
+        for (row, quantity) in found[5..].iter().zip([
+            Quantity::FirstTouchAdhesionForce,
+            Quantity::ZeroForceAdhesionForce,
+        ]) {
             let mut forces: Vec<f64> = ensemble.values(quantity).into_iter().flatten().collect();
             forces.sort_by(f64::total_cmp);
             assert_eq!((forces.len(), row.value), (5, Some(forces[2] / smooth)));
-            assert_eq!(row.sticks, Some(forces[2] >= Regime::VANISHING_SHARE * smooth));
+            assert_eq!(
+                row.sticks,
+                Some(forces[2] >= Regime::VANISHING_SHARE * smooth)
+            );
         }
         assert!(
-            found[5].words().ends_with("(turned at first touch, median of 5 profiles)"),
+            found[5]
+                .words()
+                .ends_with("(turned at first touch, median of 5 profiles)"),
             "{}",
             found[5].words()
         );

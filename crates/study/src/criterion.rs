@@ -36,20 +36,42 @@ impl Criterion {
         reference: &'static str,
         threshold: f64,
     ) -> Criterion {
-        Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
+        Criterion {
+            name,
+            symbol,
+            reference,
+            value: None,
+            threshold,
+            sticks: None,
+            reason: None,
+        }
     }
 
     /// Returns the criterion as one line of text, with the verdict [`Criterion::sticks`] or the reason why there is no verdict.
     pub fn words(&self) -> String {
-        let behind =
-            |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));
-        let Some(value) = self.value else { return format!("{} is not known{}", self.symbol, behind(":")) };
+        let behind = |sign: &str| {
+            self.reason
+                .as_ref()
+                .map_or_else(String::new, |one| format!("{sign} {one}"))
+        };
+        let Some(value) = self.value else {
+            return format!("{} is not known{}", self.symbol, behind(":"));
+        };
         let number = format!("{} = {}", self.symbol, format_quantity(value, "1"));
-        let Some(sticks) = self.sticks else { return number + &behind(";") };
+        let Some(sticks) = self.sticks else {
+            return number + &behind(";");
+        };
         let verdict = if sticks { "adheres" } else { "does not adhere" };
-        let side = if value < self.threshold { "below" } else { "at least" };
+        let side = if value < self.threshold {
+            "below"
+        } else {
+            "at least"
+        };
         let threshold = format_quantity((100.0 * self.threshold).round() / 100.0, "1");
-        let reason = self.reason.as_ref().map_or_else(String::new, |reason| format!(" ({reason})"));
+        let reason = self
+            .reason
+            .as_ref()
+            .map_or_else(String::new, |reason| format!(" ({reason})"));
         format!("{number}, {side} {threshold}: {verdict}{reason}")
     }
 
@@ -57,9 +79,17 @@ impl Criterion {
     pub(super) fn judge(self, value: f64, refusals: &[Option<String>]) -> Criterion {
         let refusals: Vec<&str> = refusals.iter().flatten().map(String::as_str).collect();
         let value = Some(value).filter(|value| value.is_finite());
-        let sticks = value.filter(|_| refusals.is_empty()).map(|value| value < self.threshold);
-        let reason = (!refusals.is_empty()).then(|| format!("does not hold: {}", refusals.join("; ")));
-        Criterion { value, sticks, reason, ..self }
+        let sticks = value
+            .filter(|_| refusals.is_empty())
+            .map(|value| value < self.threshold);
+        let reason =
+            (!refusals.is_empty()).then(|| format!("does not hold: {}", refusals.join("; ")));
+        Criterion {
+            value,
+            sticks,
+            reason,
+            ..self
+        }
     }
 }
 
@@ -71,5 +101,9 @@ pub(super) fn number(value: f64) -> String {
 /// Returns the reason why a theory of short-ranged attraction does not hold.
 pub(super) fn long_ranged(tabor_number: Option<f64>) -> Option<String> {
     let below = tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
-    Some(format!("μ {}, needs at least {}", number(below), Criterion::LEAST_TABOR_NUMBER))
+    Some(format!(
+        "μ {}, needs at least {}",
+        number(below),
+        Criterion::LEAST_TABOR_NUMBER
+    ))
 }

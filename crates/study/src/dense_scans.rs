@@ -76,7 +76,10 @@ impl Case {
         if is_random && path.starts_with("roughness.wavelengths") {
             let waves = [first, last].map(|count| document.scene().length / f64::from(count));
             fields.push(("roughness.modes", "None".to_owned()));
-            fields.push(("roughness.wavelengths", format!("({:e}, {:e})", waves[0], waves[1])));
+            fields.push((
+                "roughness.wavelengths",
+                format!("({:e}, {:e})", waves[0], waves[1]),
+            ));
         } else if is_random {
             fields.push(("roughness.modes", format!("({first}, {last})")));
         }
@@ -86,30 +89,48 @@ impl Case {
         if random.random_range(0..4) == 0 {
             fields.push(("numerics.edges", "Grid".to_owned()));
         }
-        let fields = fields.into_iter().map(|(path, value)| (path.to_owned(), value));
+        let fields = fields
+            .into_iter()
+            .map(|(path, value)| (path.to_owned(), value));
         document = document.set_all(&fields.collect::<Vec<_>>()).ok()?;
         if random.random_range(0..6) == 0 {
             document = document.set("loading_stiffness", "40.0").ok()?;
         }
-        Some(Case { document, path, quantity })
+        Some(Case {
+            document,
+            path,
+            quantity,
+        })
     }
 
     /// Returns the scene with another number; `None` if the scene does not allow the number.
     fn scene(&self, number: f64) -> Option<CheckedScene> {
         if self.path == "preload" {
             let loading = vec![Move::ToForce(number), Move::ToSeparation];
-            return self.document.scene().with(|scene| scene.loading = loading).ok();
+            return self
+                .document
+                .scene()
+                .with(|scene| scene.loading = loading)
+                .ok();
         }
         let document = self.document.set(self.path, &format!("{number:?}"));
         let whole = || self.document.set(self.path, &format!("{}", number.round()));
-        document.or_else(|_| whole()).ok().map(|document| document.scene().clone())
+        document
+            .or_else(|_| whole())
+            .ok()
+            .map(|document| document.scene().clone())
     }
 
     /// Returns the quantity by a run of its own; NaN if it has no value.
     fn value(&self, number: f64) -> f64 {
-        let Some(scene) = self.scene(number) else { return f64::NAN };
+        let Some(scene) = self.scene(number) else {
+            return f64::NAN;
+        };
         let results = Results::of_scene(&scene, Path::new(""), &[self.quantity], 1, None, 1);
-        results.ok().and_then(|results| results.value(0, 0, self.quantity)).unwrap_or(f64::NAN)
+        results
+            .ok()
+            .and_then(|results| results.value(0, 0, self.quantity))
+            .unwrap_or(f64::NAN)
     }
 
     /// Returns the numbers of a dense scan over a range.
@@ -169,10 +190,14 @@ impl Counts {
         self.proven += usize::from(answer.is_proven);
         self.may_miss += usize::from(answer.may_miss);
         // A crossing lies at or before this number.
-        let on_target = numbers.iter().zip(&values).find(|(_, value)| **value == question.target);
+        let on_target = numbers
+            .iter()
+            .zip(&values)
+            .find(|(_, value)| **value == question.target);
         let mut first = on_target.map(|(number, _)| *number);
         for index in 1..numbers.len() {
-            let sides = [values[index - 1], values[index]].map(|value| value.partial_cmp(&question.target));
+            let sides =
+                [values[index - 1], values[index]].map(|value| value.partial_cmp(&question.target));
             let is_crossed = sides[0].is_some() && sides[1].is_some() && sides[0] != sides[1];
             if is_crossed {
                 first = Some(first.map_or(numbers[index], |first| first.min(numbers[index])));
@@ -182,7 +207,8 @@ impl Counts {
         self.crossed += usize::from(first.is_some());
         let given = found.values()[0];
         // A target that is reached at the lower end has this end as its answer.
-        let is_missed = first.is_some_and(|first| given.is_none_or(|given| given > first * (1.0 + 1e-9)));
+        let is_missed =
+            first.is_some_and(|first| given.is_none_or(|given| given > first * (1.0 + 1e-9)));
         if is_missed && answer.may_miss {
             self.missed_as_stated += 1;
         } else if is_missed {
@@ -195,7 +221,10 @@ impl Counts {
         }
         if !self.are_crossings(case, question, answer) {
             self.wrong += 1;
-            eprintln!("wrong: {} {:?} = {:?}: {answer:?}", case.path, case.quantity, question.target);
+            eprintln!(
+                "wrong: {} {:?} = {:?}: {answer:?}",
+                case.path, case.quantity, question.target
+            );
             eprintln!("  {}", case.document.text());
         }
     }
@@ -206,20 +235,30 @@ impl Counts {
         answer.crossings.iter().all(|&crossing| {
             let beside = if question.is_of_whole_waves() {
                 let waves = (length / crossing).round();
-                [length / (waves + 1.0), crossing, length / (waves - 1.0).max(1.0)]
+                [
+                    length / (waves + 1.0),
+                    crossing,
+                    length / (waves - 1.0).max(1.0),
+                ]
             } else if question.axis.is_whole() {
                 [crossing - 1.0, crossing, crossing + 1.0]
             } else {
-                [crossing * (1.0 - BESIDE), crossing, crossing * (1.0 + BESIDE)]
+                [
+                    crossing * (1.0 - BESIDE),
+                    crossing,
+                    crossing * (1.0 + BESIDE),
+                ]
             };
             let values = beside.map(|number| case.value(number));
             let is_reached = values[1] >= question.target * (1.0 - 1e-9 * question.target.signum());
             // Where the quantity hardly changes, its rounding decides.
             let is_on_target =
                 (values[1] / question.target - 1.0).abs() < 1e-11 || values[1] == question.target;
-            let has_other =
-                [values[0], values[2]].iter().any(|value| *value <= question.target || value.is_nan());
-            let is_crossing = is_reached && (has_other || crossing == question.searched.0 || is_on_target);
+            let has_other = [values[0], values[2]]
+                .iter()
+                .any(|value| *value <= question.target || value.is_nan());
+            let is_crossing =
+                is_reached && (has_other || crossing == question.searched.0 || is_on_target);
             if !is_crossing {
                 eprintln!("  at {beside:?}: {values:?}");
             }
@@ -233,10 +272,20 @@ fn compared(seed: u64, questions: usize) -> Counts {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut counts = Counts::default();
     while counts.questions < questions {
-        let Some(case) = Case::random(&mut random) else { continue };
+        let Some(case) = Case::random(&mut random) else {
+            continue;
+        };
         let mut simulation = Simulation::default();
         let scene = case.document.scene();
-        let mut ask = |target| Question::new(scene, case.path, (case.quantity, target), 1, &mut simulation);
+        let mut ask = |target| {
+            Question::new(
+                scene,
+                case.path,
+                (case.quantity, target),
+                1,
+                &mut simulation,
+            )
+        };
         let Ok(question) = ask(0.0) else { continue };
         let (mut from, mut to) = question.searched;
         if random.random_range(0..3) == 0 && from > 0.0 && !question.is_of_whole_waves() {
@@ -245,15 +294,30 @@ fn compared(seed: u64, questions: usize) -> Counts {
             (from, to) = (from * (0.3 * decades).exp(), from * (0.6 * decades).exp());
         }
         let share = random.random::<f64>();
-        let number = if from > 0.0 { from * (to / from).powf(share) } else { to * 1e-6_f64.powf(share) };
-        let target = case.value(if question.axis.is_whole() { number.round() } else { number });
+        let number = if from > 0.0 {
+            from * (to / from).powf(share)
+        } else {
+            to * 1e-6_f64.powf(share)
+        };
+        let target = case.value(if question.axis.is_whole() {
+            number.round()
+        } else {
+            number
+        });
         if !target.is_finite() {
             continue;
         }
-        let Ok(mut question) = ask(target) else { continue };
+        let Ok(mut question) = ask(target) else {
+            continue;
+        };
         question.searched = (from, to);
         let control = Control::default();
-        let found = Found::of(question, (Simulation::default(), 1), control.stop(), &mut |_| ());
+        let found = Found::of(
+            question,
+            (Simulation::default(), 1),
+            control.stop(),
+            &mut |_| (),
+        );
         let Ok(found) = found else { continue };
         counts.add(&case, &found);
     }
@@ -263,7 +327,10 @@ fn compared(seed: u64, questions: usize) -> Counts {
 
 fn check(counts: &Counts) {
     assert_eq!((counts.missed, counts.wrong), (0, 0), "{counts:?}");
-    assert!(counts.crossed > counts.questions / 2 && counts.proven > counts.questions / 8, "{counts:?}");
+    assert!(
+        counts.crossed > counts.questions / 2 && counts.proven > counts.questions / 8,
+        "{counts:?}"
+    );
     // Most answers state the first crossing.
     assert!(counts.may_miss < counts.questions / 2, "{counts:?}");
 }

@@ -71,7 +71,9 @@ impl Ensemble {
         let mut computed = 0;
         let mut see = |results: &Results| {
             computed += 1;
-            report(computed, &|| Ensemble { results: results.clone() });
+            report(computed, &|| Ensemble {
+                results: results.clone(),
+            });
         };
         results.extend_each(workers, stop, &mut see)?;
         Ok(Ensemble { results })
@@ -84,12 +86,16 @@ impl Ensemble {
 
     /// Returns the number of profiles that are computed so far.
     pub fn computed(&self) -> u64 {
-        (0..self.profiles()).filter(|line| self.results.has(0, *line)).count() as u64
+        (0..self.profiles())
+            .filter(|line| self.results.has(0, *line))
+            .count() as u64
     }
 
     /// Returns the seeds of the profiles that cannot be computed, each with the reason in one line.
     pub fn failed(&self) -> impl Iterator<Item = (u64, &str)> {
-        self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
+        self.results
+            .failed()
+            .map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
 
     /// Returns the recorded values on all profiles as the [`Results`] of a study without axes.
@@ -105,7 +111,9 @@ impl Ensemble {
     /// Returns the values of a quantity on all profiles, sorted by the seeds of the profiles; `None` for a profile without a
     /// value.
     pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
-        (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
+        (0..self.profiles())
+            .map(|line| self.results.value(0, line, quantity))
+            .collect()
     }
 
     /// Returns the premises of the model that profiles of the ensemble do not meet, each with the number of these profiles.
@@ -156,11 +164,22 @@ mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
 
     fn scene(name: &str) -> CheckedScene {
-        open(name).unwrap().scene().with(|scene| scene.numerics.points = 2048).unwrap()
+        open(name)
+            .unwrap()
+            .scene()
+            .with(|scene| scene.numerics.points = 2048)
+            .unwrap()
     }
 
     fn ensemble(scene: &CheckedScene, profiles: u64, jobs: usize) -> Result<Ensemble, StudyError> {
-        Ensemble::of(scene, &[], profiles, (Simulation::default(), jobs), &|| false, &mut |_, _| ())
+        Ensemble::of(
+            scene,
+            &[],
+            profiles,
+            (Simulation::default(), jobs),
+            &|| false,
+            &mut |_, _| (),
+        )
     }
 
     /// Each profile is the scene with the seed of that profile, and no bit depends on the number of threads.
@@ -170,16 +189,32 @@ mod tests {
         let found = ensemble(&scene, 6, 2).unwrap();
         assert_eq!(ensemble(&scene, 6, 1).unwrap(), found);
         let outcome = |seed| {
-            Simulation::default().run(&scene.with_seed(seed), &|| false, &mut |_, _, _| Ok(())).unwrap()
+            Simulation::default()
+                .run(&scene.with_seed(seed), &|| false, &mut |_, _, _| Ok(()))
+                .unwrap()
         };
-        let outcomes: Vec<_> = (0..6).map(|line| outcome(scene.seed().unwrap() + line)).collect();
+        let outcomes: Vec<_> = (0..6)
+            .map(|line| outcome(scene.seed().unwrap() + line))
+            .collect();
         let of = |value: fn(&asperity_scene::Outcome) -> Option<f64>| {
             outcomes.iter().map(value).collect::<Vec<_>>()
         };
-        assert_eq!(found.values(Quantity::AdhesionForce), of(|one| one.figures.adhesion_force));
-        assert_eq!(found.values(Quantity::FirstTouchAdhesionForce), of(|one| one.first_touch_adhesion_force));
-        assert_eq!(found.values(Quantity::ZeroForceAdhesionForce), of(|one| one.zero_force_adhesion_force));
-        assert_eq!(found.values(Quantity::DissipatedEnergy), of(|one| one.figures.dissipated_energy));
+        assert_eq!(
+            found.values(Quantity::AdhesionForce),
+            of(|one| one.figures.adhesion_force)
+        );
+        assert_eq!(
+            found.values(Quantity::FirstTouchAdhesionForce),
+            of(|one| one.first_touch_adhesion_force)
+        );
+        assert_eq!(
+            found.values(Quantity::ZeroForceAdhesionForce),
+            of(|one| one.zero_force_adhesion_force)
+        );
+        assert_eq!(
+            found.values(Quantity::DissipatedEnergy),
+            of(|one| one.figures.dissipated_energy)
+        );
         let share = of(|one| Some(one.figures.adhesion_force? / one.ideal_adhesion_force?));
         assert_eq!(found.values(Quantity::AdhesionShare), share);
         let mut shares: Vec<f64> = share.into_iter().flatten().collect();
@@ -203,9 +238,19 @@ mod tests {
             ended.store(computed == 3, Ordering::Relaxed);
         };
         let stop = || ended.load(Ordering::Relaxed);
-        let stopped = Ensemble::of(&scene, &[], 400, (Simulation::default(), 1), &stop, &mut see);
+        let stopped = Ensemble::of(
+            &scene,
+            &[],
+            400,
+            (Simulation::default(), 1),
+            &stop,
+            &mut see,
+        );
         assert!(matches!(stopped, Err(StudyError::Run { error, .. }) if error.is_interruption()));
-        assert!(parts.starts_with(&[1, 2, 3]) && parts.len() < 400, "{parts:?}");
+        assert!(
+            parts.starts_with(&[1, 2, 3]) && parts.len() < 400,
+            "{parts:?}"
+        );
     }
 
     #[test]
@@ -214,7 +259,10 @@ mod tests {
         assert_eq!(Ensemble::profiles_of(&smooth), 1);
         let one = ensemble(&smooth, 1, 2).unwrap();
         assert_eq!((one.profiles(), one.computed()), (1, 1));
-        assert!(one.statistics(Quantity::AdhesionForce).is_some_and(|all| all.spread.is_none()));
+        assert!(
+            one.statistics(Quantity::AdhesionForce)
+                .is_some_and(|all| all.spread.is_none())
+        );
         assert!(ensemble(&smooth, 2, 1).is_err());
     }
 }

@@ -95,7 +95,11 @@ impl StudyError {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> StudyError {
-        StudyError::Refused { place: place.map(str::to_owned), found: found.into(), allowed: allowed.into() }
+        StudyError::Refused {
+            place: place.map(str::to_owned),
+            found: found.into(),
+            allowed: allowed.into(),
+        }
     }
 
     /// Makes the error of a request for several profiles of a scene that has one.
@@ -117,7 +121,11 @@ impl StudyError {
 
     /// Returns an error for a computation without threads.
     pub(super) fn check_threads(threads: usize) -> Result<(), StudyError> {
-        if threads > 0 { Ok(()) } else { Err(StudyError::refused(None, "0 threads", "at least one")) }
+        if threads > 0 {
+            Ok(())
+        } else {
+            Err(StudyError::refused(None, "0 threads", "at least one"))
+        }
     }
 
     /// Returns true if the computation ended because its [`Stop`](crate::Stop) returned true.
@@ -130,7 +138,10 @@ impl StudyError {
     }
 
     pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {
-        StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() }
+        StudyError::Folder {
+            path: path.to_path_buf(),
+            reason: reason.to_string(),
+        }
     }
 
     pub(super) fn unreadable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
@@ -138,6 +149,12 @@ impl StudyError {
     }
 
     pub(super) fn unwritable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
-        move |reason| WriteError::Failed { path: path.to_path_buf(), reason }.into()
+        move |reason| {
+            WriteError::Failed {
+                path: path.to_path_buf(),
+                reason,
+            }
+            .into()
+        }
     }
 }

@@ -77,14 +77,24 @@ impl Found {
         let lines: Vec<u64> = (0..plan.lines).collect();
         let solve = |simulation: &mut Simulation, line| question.answer(simulation, line, stop);
         let (mut each, mut done) = (vec![(Answer::default(), None); lines.len()], 0);
-        on_profiles(plan, &lines, (simulation, jobs), solve, &mut |line, answered| {
-            each[line as usize] = answered;
-            done += 1;
-            report(done);
-        })?;
+        on_profiles(
+            plan,
+            &lines,
+            (simulation, jobs),
+            solve,
+            &mut |line, answered| {
+                each[line as usize] = answered;
+                done += 1;
+                report(done);
+            },
+        )?;
         let (answers, reasons): (Vec<Answer>, Vec<Option<String>>) = each.into_iter().unzip();
         let refused = reasons.into_iter().flatten().next();
-        let found = Found { question, answers, refused };
+        let found = Found {
+            question,
+            answers,
+            refused,
+        };
         found.check()?;
         Ok(found)
     }
@@ -92,21 +102,39 @@ impl Found {
     /// Returns an error if no profile has the quantity, if a preload cannot be reached, or if the number has no influence
     /// on the quantity.
     fn check(&self) -> Result<(), StudyError> {
-        let Question { axis, quantity, searched, .. } = &self.question;
+        let Question {
+            axis,
+            quantity,
+            searched,
+            ..
+        } = &self.question;
         let name = quantity.symbol_or_name();
         let range = format!("from {}", format_range(*searched, 4, axis.unit));
         let refused = |found, allowed| Err(StudyError::refused(Some(&axis.path), found, allowed));
-        if let Some(why) = self.refused.as_ref().filter(|_| self.question.is_of_preload()) {
-            let (found, allowed) =
-                why.split_once("; allowed: ").unwrap_or((why.as_str(), "a smaller range: --range A..B"));
+        if let Some(why) = self
+            .refused
+            .as_ref()
+            .filter(|_| self.question.is_of_preload())
+        {
+            let (found, allowed) = why
+                .split_once("; allowed: ")
+                .unwrap_or((why.as_str(), "a smaller range: --range A..B"));
             return refused(found.to_owned(), allowed);
         }
         let Some((least, most)) = self.reachable() else {
-            let why = self.refused.as_ref().map_or_else(String::new, |reason| format!(": {reason}"));
-            return refused(format!("the scene has no {name}{why}"), "a quantity that the scene has");
+            let why = self
+                .refused
+                .as_ref()
+                .map_or_else(String::new, |reason| format!(": {reason}"));
+            return refused(
+                format!("the scene has no {name}{why}"),
+                "a quantity that the scene has",
+            );
         };
         let is_same = |answer: &Answer| {
-            answer.reachable.is_none_or(|(least, most)| most - least <= STILL * most.abs().max(least.abs()))
+            answer
+                .reachable
+                .is_none_or(|(least, most)| most - least <= STILL * most.abs().max(least.abs()))
         };
         if !self.question.is_of_preload() && self.answers.iter().all(is_same) {
             let values = if self.answers.len() > 1 {
@@ -124,7 +152,10 @@ impl Found {
     /// without a crossing. If a preload is sought and the smallest searched preload suffices to reach the target, this preload
     /// is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
-        self.answers.iter().map(|answer| answer.value(&self.question)).collect()
+        self.answers
+            .iter()
+            .map(|answer| answer.value(&self.question))
+            .collect()
     }
 
     /// Returns the number of profiles without a value in [`Found::values`].
@@ -145,9 +176,18 @@ impl Found {
     fn ascending(&self) -> Vec<f64> {
         let slope = |answer: &Answer| i64::from(answer.reached[1]) - i64::from(answer.reached[0]);
         let rises = self.answers.iter().map(slope).sum::<i64>() >= 0;
-        let beyond =
-            |answer: &Answer| if answer.reached[1] == rises { f64::NEG_INFINITY } else { f64::INFINITY };
-        let place = |answer: &Answer| answer.value(&self.question).unwrap_or_else(|| beyond(answer));
+        let beyond = |answer: &Answer| {
+            if answer.reached[1] == rises {
+                f64::NEG_INFINITY
+            } else {
+                f64::INFINITY
+            }
+        };
+        let place = |answer: &Answer| {
+            answer
+                .value(&self.question)
+                .unwrap_or_else(|| beyond(answer))
+        };
         let mut places: Vec<f64> = self.answers.iter().map(place).collect();
         places.sort_by(f64::total_cmp);
         places
@@ -179,7 +219,11 @@ mod tests {
     use std::f64::consts::PI;
 
     fn scene(name: &str, points: u64) -> CheckedScene {
-        open(name).unwrap().scene().with(|scene| scene.numerics.points = points).unwrap()
+        open(name)
+            .unwrap()
+            .scene()
+            .with(|scene| scene.numerics.points = points)
+            .unwrap()
     }
 
     fn asked(
@@ -202,7 +246,10 @@ mod tests {
     /// Value of a quantity of a scene with one number set, by a run of its own.
     fn alone(scene: &CheckedScene, seed: u64, loading: Move, quantity: Quantity) -> f64 {
         let loading = vec![loading, Move::ToSeparation];
-        let scene = scene.with_seed(seed).with(|scene| scene.loading = loading).unwrap();
+        let scene = scene
+            .with_seed(seed)
+            .with(|scene| scene.loading = loading)
+            .unwrap();
         let results = super::super::results::Results::of_scene(
             &scene,
             std::path::Path::new(""),
@@ -220,10 +267,18 @@ mod tests {
             ("F_a/F_a,max = 80 %", Quantity::AdhesionShare, 0.8),
             ("adhesion_share=0.8", Quantity::AdhesionShare, 0.8),
             ("F_a(F=0) = 2 uN", Quantity::ZeroForceAdhesionForce, 2e-6),
-            ("dissipated energy = 2.5 pJ", Quantity::DissipatedEnergy, 2.5e-12),
+            (
+                "dissipated energy = 2.5 pJ",
+                Quantity::DissipatedEnergy,
+                2.5e-12,
+            ),
             ("F_a/F_n=1e-2", Quantity::AdhesionCoefficient, 0.01),
         ] {
-            assert_eq!(Question::parse_condition(text).ok(), Some((quantity, target)), "{text}");
+            assert_eq!(
+                Question::parse_condition(text).ok(),
+                Some((quantity, target)),
+                "{text}"
+            );
         }
         for (text, said) in [
             ("F_a", "such as \"F_a/F_a,max = 80 %\""),
@@ -231,7 +286,10 @@ mod tests {
             ("adhesion_shar = 1", "did you mean adhesion_share?"),
             ("d = 1 nm", "preload_indentation, pull_off_indentation"),
             ("regime = 1", "regime is not a number"),
-            ("F_a/F_a,max = 120 %", "F_a/F_a,max = 1.2; allowed: from 0 to 1"),
+            (
+                "F_a/F_a,max = 120 %",
+                "F_a/F_a,max = 1.2; allowed: from 0 to 1",
+            ),
             ("F_a = -1 uN", "allowed: at least 0 N"),
             ("F_a = 1 s", "s is not a unit of force"),
         ] {
@@ -244,27 +302,52 @@ mod tests {
     #[test]
     fn a_sphere_has_the_numbers_of_its_closed_form() {
         let sphere = scene("jkr-sphere", 1 << 12);
-        let own = Simulation::default().run(&sphere, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let own = Simulation::default()
+            .run(&sphere, &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         let exact = 1.5 * PI * 0.05 * 1e-4;
         // The error of the discrete sphere.
         let error = own.figures.adhesion_force.unwrap() / exact - 1.0;
         assert!(error.abs() < 1e-4, "{error}");
-        for (path, slope) in [("adhesion.work", 1.5 * PI * 1e-4), ("form.radius", 1.5 * PI * 0.05)] {
+        for (path, slope) in [
+            ("adhesion.work", 1.5 * PI * 1e-4),
+            ("form.radius", 1.5 * PI * 0.05),
+        ] {
             let found = asked(&sphere, path, "F_a = 30 uN", 1, None, 1).unwrap();
             let number = found.quantile(0.5).unwrap();
-            assert!((number * slope / 30e-6 - 1.0).abs() < 2e-4, "{path}: {number}");
+            assert!(
+                (number * slope / 30e-6 - 1.0).abs() < 2e-4,
+                "{path}: {number}"
+            );
             assert_eq!(found.answers[0].crossings.len(), 1);
         }
         let any = asked(&sphere, "preload", "F_a = 20 uN", 1, None, 1).unwrap();
-        assert_eq!((any.answers[0].reached, any.answers[0].at_touch), ([true; 2], true));
-        assert_eq!((any.quantile(0.5), any.answers[0].crossings.len()), (Some(0.0), 0));
+        assert_eq!(
+            (any.answers[0].reached, any.answers[0].at_touch),
+            ([true; 2], true)
+        );
+        assert_eq!(
+            (any.quantile(0.5), any.answers[0].crossings.len()),
+            (Some(0.0), 0)
+        );
         let never = asked(&sphere, "preload", "F_a = 30 uN", 1, None, 1).unwrap();
-        assert_eq!((never.quantile(0.5), never.answers[0].reached), (None, [false; 2]));
+        assert_eq!(
+            (never.quantile(0.5), never.answers[0].reached),
+            (None, [false; 2])
+        );
         let (least, most) = never.reachable().unwrap();
         assert!((least / exact - 1.0).abs() < 1e-4 && (most / exact - 1.0).abs() < 1e-4);
         for (path, condition, said) in [
-            ("material.youngs_modulus", "F_a = 30 uN", "material.youngs_modulus: does not act on F_a"),
-            ("roughness.hurst", "F_a = 30 uN", "the scene has no such number"),
+            (
+                "material.youngs_modulus",
+                "F_a = 30 uN",
+                "material.youngs_modulus: does not act on F_a",
+            ),
+            (
+                "roughness.hurst",
+                "F_a = 30 uN",
+                "the scene has no such number",
+            ),
             ("form.radios", "F_a = 30 uN", "did you mean form.radius?"),
             ("form.radius", "κ = 2", "the scene has no κ"),
             ("loading.1.0", "F_a = 30 uN", "the scene has no such number"),
@@ -273,10 +356,24 @@ mod tests {
             assert!(error.contains(said), "{path}: {error}");
         }
         assert!(asked(&sphere, "form.radius", "F_a = 30 uN", 2, None, 1).is_err());
-        let empty = asked(&sphere, "form.radius", "F_a = 30 uN", 1, Some((2e-4, 1e-4)), 1).unwrap_err();
+        let empty = asked(
+            &sphere,
+            "form.radius",
+            "F_a = 30 uN",
+            1,
+            Some((2e-4, 1e-4)),
+            1,
+        )
+        .unwrap_err();
         let far = asked(&sphere, "preload", "F_a = 30 uN", 1, Some((0.0, 1.0)), 1).unwrap_err();
-        assert!(far.contains("preload: 1 N is far beyond full contact"), "{far}");
-        assert!(empty.contains("range 200 µm to 100 µm; allowed: two finite numbers"), "{empty}");
+        assert!(
+            far.contains("preload: 1 N is far beyond full contact"),
+            "{far}"
+        );
+        assert!(
+            empty.contains("range 200 µm to 100 µm; allowed: two finite numbers"),
+            "{empty}"
+        );
     }
 
     /// Each preload is where a run of its own shows the step, to the stated precision; no dense grid shows a smaller one.
@@ -285,29 +382,47 @@ mod tests {
         let rough = scene("pressure-sensitive", 2048);
         let (condition, target) = ("F_a = 10 uN", 10e-6);
         let found = asked(&rough, "preload", condition, 6, None, 2).unwrap();
-        assert_eq!(asked(&rough, "preload", condition, 6, None, 1), Ok(found.clone()));
+        assert_eq!(
+            asked(&rough, "preload", condition, 6, None, 1),
+            Ok(found.clone())
+        );
         let mut inside = 0;
         for (answer, value) in found.answers.iter().zip(found.values()) {
             let (seed, value) = (answer.seed.unwrap(), value.unwrap());
-            let force = |preload| alone(&rough, seed, Move::ToForce(preload), Quantity::AdhesionForce);
+            let force = |preload| {
+                alone(
+                    &rough,
+                    seed,
+                    Move::ToForce(preload),
+                    Quantity::AdhesionForce,
+                )
+            };
             assert!(force(value) >= target, "{seed}");
             if answer.crossings.is_empty() {
                 continue;
             }
             inside += 1;
             assert!(force(value * (1.0 - 4.0 * WITHIN)) < target, "{seed}");
-            assert!((1..40).all(|part| force(value * f64::from(part) / 40.0) < target), "{seed}");
+            assert!(
+                (1..40).all(|part| force(value * f64::from(part) / 40.0) < target),
+                "{seed}"
+            );
         }
         assert!(inside > 3, "{inside}");
         let mut values: Vec<f64> = found.values().into_iter().flatten().collect();
         values.sort_by(f64::total_cmp);
-        assert_eq!(found.quantile(0.5), Some(f64::midpoint(values[2], values[3])));
+        assert_eq!(
+            found.quantile(0.5),
+            Some(f64::midpoint(values[2], values[3]))
+        );
     }
 
     /// The number of patches rises with the preload, and falls as they grow together: two crossings at least.
     #[test]
     fn a_quantity_that_rises_and_falls_has_all_its_crossings() {
-        let rough = scene("pressure-sensitive", 2048).with(|scene| scene.adhesion = None).unwrap();
+        let rough = scene("pressure-sensitive", 2048)
+            .with(|scene| scene.adhesion = None)
+            .unwrap();
         let (patches, target) = (Quantity::Fragments, 12.0);
         let found = asked(&rough, "preload", "fragments = 12", 1, None, 1).unwrap();
         let answer = &found.answers[0];
@@ -315,7 +430,10 @@ mod tests {
         assert!(answer.crossings.len() >= 2, "{answer:?}");
         for crossing in &answer.crossings {
             let [before, after] = [1.0 - 1e-6, 1.0 + 1e-6].map(|factor| value(crossing * factor));
-            assert!(before != target && after == target, "{crossing}: {before} {after}");
+            assert!(
+                before != target && after == target,
+                "{crossing}: {before} {after}"
+            );
         }
         assert_eq!(found.quantile(0.5), Some(answer.crossings[0]));
     }
@@ -332,8 +450,15 @@ mod tests {
         for (answer, value) in all.answers.iter().zip(work(&all)) {
             let reached = |factor: f64| {
                 let work = factor * value.unwrap();
-                let scene = rough.with(|scene| scene.adhesion = Some(Adhesion::by_work(work))).unwrap();
-                let force = alone(&scene, answer.seed.unwrap(), Move::ToForce(1e-5), Quantity::AdhesionForce);
+                let scene = rough
+                    .with(|scene| scene.adhesion = Some(Adhesion::by_work(work)))
+                    .unwrap();
+                let force = alone(
+                    &scene,
+                    answer.seed.unwrap(),
+                    Move::ToForce(1e-5),
+                    Quantity::AdhesionForce,
+                );
                 force >= 10e-6
             };
             assert_eq!([1.0 - 1e-7, 1.0].map(reached), [false, true], "{answer:?}");
@@ -341,9 +466,16 @@ mod tests {
         // F_a rises with the work of adhesion: two profiles cross within this range, and three above.
         let range = (values[0] / 2.0, f64::midpoint(values[1], values[2]));
         let part = asked(&rough, scale, "F_a = 10 uN", 5, Some(range), 1).unwrap();
-        assert_eq!((work(&part).iter().flatten().count(), part.quantile(0.5)), (2, None));
+        assert_eq!(
+            (work(&part).iter().flatten().count(), part.quantile(0.5)),
+            (2, None)
+        );
         assert!((part.quantile(0.25).unwrap() / values[1] - 1.0).abs() < 1e-8);
-        assert_eq!(part.range().map(|ends| (ends.0 / values[0] - 1.0).abs() < 1e-8), Some(true));
+        assert_eq!(
+            part.range()
+                .map(|ends| (ends.0 / values[0] - 1.0).abs() < 1e-8),
+            Some(true)
+        );
     }
 
     /// F_a of a sphere does not depend on the preload: F_a/F_n has its only crossing at F_a divided by the ratio.
@@ -352,27 +484,60 @@ mod tests {
         let sphere = scene("jkr-sphere", 1 << 10);
         let force = alone(&sphere, 0, Move::ToForce(1e-6), Quantity::AdhesionForce);
         for ratio in [1e-2, 1.0, 100.0, 1e6] {
-            let found = asked(&sphere, "preload", &format!("F_a/F_n = {ratio}"), 1, None, 1).unwrap();
+            let found = asked(
+                &sphere,
+                "preload",
+                &format!("F_a/F_n = {ratio}"),
+                1,
+                None,
+                1,
+            )
+            .unwrap();
             let answer = &found.answers[0];
-            assert_eq!((answer.crossings.len(), answer.is_proven, answer.may_miss), (1, true, false));
+            assert_eq!(
+                (answer.crossings.len(), answer.is_proven, answer.may_miss),
+                (1, true, false)
+            );
             let preload = found.values()[0].unwrap();
-            assert!((preload * ratio / force - 1.0).abs() < 1e-12, "{ratio}: {preload}");
-            let there = alone(&sphere, 0, Move::ToForce(preload), Quantity::AdhesionCoefficient);
+            assert!(
+                (preload * ratio / force - 1.0).abs() < 1e-12,
+                "{ratio}: {preload}"
+            );
+            let there = alone(
+                &sphere,
+                0,
+                Move::ToForce(preload),
+                Quantity::AdhesionCoefficient,
+            );
             assert!((there / ratio - 1.0).abs() < WITHIN, "{there}");
         }
         // Beyond the range on either side.
         let range = |ends| asked(&sphere, "preload", "F_a/F_n = 100", 1, Some(ends), 1).unwrap();
-        for (ends, reached) in
-            [((1e-6, 1e-3), [false; 2]), ((0.0, 1e-7), [true; 2]), ((1e-9, 1e-7), [true; 2])]
-        {
+        for (ends, reached) in [
+            ((1e-6, 1e-3), [false; 2]),
+            ((0.0, 1e-7), [true; 2]),
+            ((1e-9, 1e-7), [true; 2]),
+        ] {
             let found = range(ends);
-            assert_eq!((found.values(), found.unreached()), (vec![None], 1), "{ends:?}");
+            assert_eq!(
+                (found.values(), found.unreached()),
+                (vec![None], 1),
+                "{ends:?}"
+            );
             assert_eq!(found.answers[0].reached[1], reached[1], "{ends:?}");
             assert!(found.answers[0].is_proven);
         }
         // A pull has no ratio.
         assert!((range((-1e-6, 1e-3)).values()[0].unwrap() * 100.0 / force - 1.0).abs() < 1e-12);
-        let pulled = asked(&sphere, "preload", "F_a/F_n = 100", 1, Some((-1e-6, -1e-7)), 1).unwrap_err();
+        let pulled = asked(
+            &sphere,
+            "preload",
+            "F_a/F_n = 100",
+            1,
+            Some((-1e-6, -1e-7)),
+            1,
+        )
+        .unwrap_err();
         assert!(pulled.contains("the scene has no F_a/F_n"), "{pulled}");
     }
 
@@ -381,8 +546,14 @@ mod tests {
     fn targets_at_the_ends_and_on_stairs_are_reached_where_they_begin() {
         let sphere = scene("jkr-sphere", 1 << 10);
         let with_radius = |radius| {
-            let scene = sphere.with(|scene| scene.form = Some(asperity_surface::Form::Paraboloid { radius }));
-            alone(&scene.unwrap(), 0, Move::ToForce(1e-4), Quantity::AdhesionForce)
+            let scene = sphere
+                .with(|scene| scene.form = Some(asperity_surface::Form::Paraboloid { radius }));
+            alone(
+                &scene.unwrap(),
+                0,
+                Move::ToForce(1e-4),
+                Quantity::AdhesionForce,
+            )
         };
         let condition = format!("F_a = {:e} N", with_radius(2e-4));
         for ends in [(1e-4, 2e-4), (2e-4, 4e-4)] {
@@ -391,18 +562,38 @@ mod tests {
         }
         let rough = scene("pressure-sensitive", 2048);
         let stair = alone(&rough, 5, Move::ToForce(1e-5), Quantity::AdhesionForce);
-        let ask = |range| asked(&rough, "preload", &format!("F_a = {stair:e} N"), 1, range, 1).unwrap();
+        let ask = |range| {
+            asked(
+                &rough,
+                "preload",
+                &format!("F_a = {stair:e} N"),
+                1,
+                range,
+                1,
+            )
+            .unwrap()
+        };
         let preload = ask(None).values()[0].unwrap();
         let force = |preload| alone(&rough, 5, Move::ToForce(preload), Quantity::AdhesionForce);
-        assert!(preload < 1e-5 && force(preload) == stair && force(preload * (1.0 - 4.0 * WITHIN)) < stair);
+        assert!(
+            preload < 1e-5
+                && force(preload) == stair
+                && force(preload * (1.0 - 4.0 * WITHIN)) < stair
+        );
         // A range below the step, one on the stair, and one above the stair.
         assert_eq!(ask(Some((0.0, 0.9 * preload))).values(), [None]);
         assert_eq!(ask(Some((preload, 1e-5))).values(), [Some(preload)]);
         let above = ask(Some((1e-3, 2e-3)));
-        assert_eq!((above.values(), above.answers[0].crossings.len()), (vec![Some(1e-3)], 0));
+        assert_eq!(
+            (above.values(), above.answers[0].crossings.len()),
+            (vec![Some(1e-3)], 0)
+        );
         // One number is no range.
         let one = asked(&rough, "preload", "F_a = 1 uN", 1, Some((1e-5, 1e-5)), 1).unwrap_err();
-        assert!(one.contains("allowed: two finite numbers, the first below the second"), "{one}");
+        assert!(
+            one.contains("allowed: two finite numbers, the first below the second"),
+            "{one}"
+        );
     }
 
     #[test]
@@ -416,25 +607,61 @@ mod tests {
             assert_eq!(adhesive.answers[0].crossings, [0.0; 0], "{condition}");
         }
         // The indentation at pull-off of a sphere falls as the work of adhesion rises.
-        let found = asked(&sphere, "adhesion.work", "pull_off_indentation = -200 nm", 1, None, 1).unwrap();
+        let found = asked(
+            &sphere,
+            "adhesion.work",
+            "pull_off_indentation = -200 nm",
+            1,
+            None,
+            1,
+        )
+        .unwrap();
         let work = found.values()[0].unwrap();
-        let with_work = sphere.with(|scene| scene.adhesion = Some(Adhesion::by_work(work))).unwrap();
-        let at = alone(&with_work, 0, Move::ToForce(1e-4), Quantity::PullOffIndentation);
+        let with_work = sphere
+            .with(|scene| scene.adhesion = Some(Adhesion::by_work(work)))
+            .unwrap();
+        let at = alone(
+            &with_work,
+            0,
+            Move::ToForce(1e-4),
+            Quantity::PullOffIndentation,
+        );
         assert!((at / -200e-9 - 1.0).abs() < 1e-6, "{at}");
         // It does not depend on the preload.
-        let never = asked(&sphere, "preload", "pull_off_indentation = -200 nm", 1, None, 1).unwrap();
-        assert_eq!((never.values(), never.answers[0].may_miss), (vec![None], false));
+        let never = asked(
+            &sphere,
+            "preload",
+            "pull_off_indentation = -200 nm",
+            1,
+            None,
+            1,
+        )
+        .unwrap();
+        assert_eq!(
+            (never.values(), never.answers[0].may_miss),
+            (vec![None], false)
+        );
     }
 
     /// Only whole waves are answers: another wavelength between two of them is the same contact.
     #[test]
     fn wavelengths_and_lengths_are_found_in_whole_waves() {
         let document = open("pressure-sensitive").unwrap();
-        let waves = [("roughness.modes", "None"), ("roughness.wavelengths", "(2.5e-5, 1e-6)")];
+        let waves = [
+            ("roughness.modes", "None"),
+            ("roughness.wavelengths", "(2.5e-5, 1e-6)"),
+        ];
         let waves = waves.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        let rough = document.set_all(&waves).unwrap().set("numerics.points", "1024").unwrap();
+        let rough = document
+            .set_all(&waves)
+            .unwrap()
+            .set("numerics.points", "1024")
+            .unwrap();
         for (path, count) in [
-            ("roughness.wavelengths.0", (|number: f64| 1e-4 / number) as fn(f64) -> f64),
+            (
+                "roughness.wavelengths.0",
+                (|number: f64| 1e-4 / number) as fn(f64) -> f64,
+            ),
             ("roughness.wavelengths.1", |number| 1e-4 / number),
             ("length", |number| number / 2.5e-5),
         ] {
@@ -442,24 +669,64 @@ mod tests {
                 let set = rough.set(path, &format!("{number:?}")).unwrap();
                 alone(set.scene(), 5, Move::ToForce(2e-5), Quantity::AdhesionForce)
             };
-            let scene =
-                rough.scene().with(|scene| scene.loading = vec![Move::ToForce(2e-5), Move::ToSeparation]);
-            let target = 0.9 * alone(rough.scene(), 5, Move::ToForce(2e-5), Quantity::AdhesionForce);
-            let found = asked(&scene.unwrap(), path, &format!("F_a = {target:e} N"), 1, None, 1).unwrap();
+            let scene = rough
+                .scene()
+                .with(|scene| scene.loading = vec![Move::ToForce(2e-5), Move::ToSeparation]);
+            let target = 0.9
+                * alone(
+                    rough.scene(),
+                    5,
+                    Move::ToForce(2e-5),
+                    Quantity::AdhesionForce,
+                );
+            let found = asked(
+                &scene.unwrap(),
+                path,
+                &format!("F_a = {target:e} N"),
+                1,
+                None,
+                1,
+            )
+            .unwrap();
             assert!(found.question.is_of_whole_waves());
             assert!(!found.answers[0].crossings.is_empty(), "{path}");
             for &crossing in &found.answers[0].crossings {
                 let waves = count(crossing).round();
-                assert!((count(crossing) / waves - 1.0).abs() < 1e-9, "{path}: {crossing}");
-                let per_wave = if path == "length" { crossing / waves } else { crossing * waves };
-                let of_waves =
-                    |waves: f64| if path == "length" { per_wave * waves } else { per_wave / waves };
+                assert!(
+                    (count(crossing) / waves - 1.0).abs() < 1e-9,
+                    "{path}: {crossing}"
+                );
+                let per_wave = if path == "length" {
+                    crossing / waves
+                } else {
+                    crossing * waves
+                };
+                let of_waves = |waves: f64| {
+                    if path == "length" {
+                        per_wave * waves
+                    } else {
+                        per_wave / waves
+                    }
+                };
                 let is_below = |waves: f64| waves >= 1.0 && value(of_waves(waves)) < target;
                 assert!(value(crossing) >= target, "{path}: {crossing}");
-                assert!(is_below(waves - 1.0) || is_below(waves + 1.0), "{path}: {crossing}");
+                assert!(
+                    is_below(waves - 1.0) || is_below(waves + 1.0),
+                    "{path}: {crossing}"
+                );
             }
         }
-        let none = asked(rough.scene(), "roughness.wavelengths.0", "F_a = 1 uN", 1, Some((6e-5, 9e-5)), 1);
-        assert!(none.unwrap_err().contains("a number for which whole waves fit on the length"));
+        let none = asked(
+            rough.scene(),
+            "roughness.wavelengths.0",
+            "F_a = 1 uN",
+            1,
+            Some((6e-5, 9e-5)),
+            1,
+        );
+        assert!(
+            none.unwrap_err()
+                .contains("a number for which whole waves fit on the length")
+        );
     }
 }

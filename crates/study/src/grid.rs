@@ -42,9 +42,17 @@ impl GridLayer {
     /// Makes a layer of a quantity with the range of its means, on the given scale or on a scale that suits the means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
-        let shown = means.iter().filter(|mean| scale.coordinate(**mean).is_finite());
-        let range = shown.map(|mean| (*mean, *mean)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        GridLayer { quantity, scale, range }
+        let shown = means
+            .iter()
+            .filter(|mean| scale.coordinate(**mean).is_finite());
+        let range = shown
+            .map(|mean| (*mean, *mean))
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        GridLayer {
+            quantity,
+            scale,
+            range,
+        }
     }
 }
 
@@ -52,9 +60,16 @@ impl GridLayer {
 /// Otherwise returns the linear scale.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
-    let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
+    let small = means
+        .iter()
+        .filter(|mean| **mean < largest / LOGARITHMIC_RATIO)
+        .count();
     let wide = means.iter().all(|mean| *mean > 0.0) && 3 * small >= means.len().max(1);
-    if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
+    if wide {
+        AxisScale::Logarithmic
+    } else {
+        AxisScale::Linear
+    }
 }
 
 /// Place on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None` if there is no such axis.
@@ -88,12 +103,22 @@ impl Grid {
         cells: Vec<Option<Result<GridCell, String>>>,
     ) -> Grid {
         let stand_ins = (0..cells.len()).collect();
-        Grid { across, up, fixed, layers, cells, stand_ins }
+        Grid {
+            across,
+            up,
+            fixed,
+            layers,
+            cells,
+            stand_ins,
+        }
     }
 
     /// Returns the number of columns and the number of rows of the grid.
     pub fn size(&self) -> (usize, usize) {
-        (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
+        (
+            self.across.values.len(),
+            self.up.as_ref().map_or(1, |up| up.values.len()),
+        )
     }
 
     /// Returns the layer of [`Grid::layers`] that shows a quantity; `None` if the grid does not show the quantity.
@@ -106,22 +131,39 @@ impl Grid {
     pub fn quantities(&self) -> Vec<Quantity> {
         let [touch, zero_force] = Quantity::REGIMES
             .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));
-        touch.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).chain(zero_force).collect()
+        touch
+            .into_iter()
+            .chain(self.layers.iter().map(|layer| layer.quantity))
+            .chain(zero_force)
+            .collect()
     }
 
     /// Returns true if there is a [cell](GridCell) in which less than three quarters of the profiles have the same regime of
     /// adhesion. `regime` is one of [`Quantity::REGIMES`].
     pub fn is_split(&self, regime: Quantity) -> bool {
-        self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
+        self.each(false)
+            .flatten()
+            .any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
     /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. An
     /// incomplete [`LiveMap`](crate::maps::LiveMap) shows a computed cell nearby in place of a missing one. `None` if the map
     /// shows no cell there.
-    pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
+    pub fn shown(
+        &self,
+        column: usize,
+        row: usize,
+    ) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
-        let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
-        Some((self.cells[index].as_ref()?, index % columns, index / columns))
+        let index = *self
+            .stand_ins
+            .get(row * columns + column)
+            .filter(|_| column < columns)?;
+        Some((
+            self.cells[index].as_ref()?,
+            index % columns,
+            index / columns,
+        ))
     }
 
     /// Returns the cells, or with `whole` the cells that are shown in place of them.
@@ -136,7 +178,10 @@ impl Grid {
     /// than three quarters of the profiles are in this regime, the value is halfway between the values of the two most frequent
     /// regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
-        let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
+        let layer = self
+            .layers
+            .iter()
+            .position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
         let of = |cell: &GridCell| match (quantity, layer) {
             _ if quantity.is_regime() => {
@@ -157,7 +202,11 @@ impl Grid {
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();
-        if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
+        if regimes.iter().all(Option::is_none) {
+            Vec::new()
+        } else {
+            regimes
+        }
     }
 
     /// Returns true if a place lies on the grid. Along each axis the grid begins half a [cell](GridCell) before the first value
@@ -174,7 +223,10 @@ impl Grid {
         let place = |axis: &Axis, value| axis.scale().place(&axis.values, value);
         (
             place(&self.across, across),
-            self.up.as_ref().zip(up).map_or(0.0, |(axis, value)| place(axis, value)),
+            self.up
+                .as_ref()
+                .zip(up)
+                .map_or(0.0, |(axis, value)| place(axis, value)),
         )
     }
 
@@ -182,7 +234,8 @@ impl Grid {
     /// this cell is at the edge of the grid.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
-        let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
+        let nearest =
+            |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
         let (columns, rows) = self.size();
         self.shown(nearest(column, columns), nearest(row, rows))
     }
@@ -191,9 +244,15 @@ impl Grid {
 /// Returns the indices of the horizontal and the vertical axis. H is horizontal, and κ or e_el/γ vertical. Among other free
 /// axes the first is horizontal. Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
-    let find = |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(&axes[*axis].path));
+    let find =
+        |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(&axes[*axis].path));
     let other = |one: Option<usize>| free.iter().copied().find(|axis| Some(*axis) != one);
     let up = find(&|path| RoughnessParameter::named(path).is_some());
-    let across = find(&|path| path == "roughness.hurst").or(other(up)).or(up)?;
-    Some((across, up.filter(|up| *up != across).or(other(Some(across)))))
+    let across = find(&|path| path == "roughness.hurst")
+        .or(other(up))
+        .or(up)?;
+    Some((
+        across,
+        up.filter(|up| *up != across).or(other(Some(across))),
+    ))
 }

@@ -45,7 +45,9 @@ impl Level {
             return (0..all).collect();
         }
         let step = (all - 1) as f64 / (wanted - 1) as f64;
-        (0..wanted).map(|index| (step * index as f64).round_ties_even() as usize).collect()
+        (0..wanted)
+            .map(|index| (step * index as f64).round_ties_even() as usize)
+            .collect()
     }
 }
 
@@ -62,7 +64,10 @@ impl LiveMap {
     /// # Errors
     /// Returns an error if the memory does not suffice for the map.
     pub fn new(plan: Plan) -> Result<Self, StudyError> {
-        Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
+        Ok(LiveMap {
+            results: Results::empty(plan)?,
+            failed: BTreeMap::new(),
+        })
     }
 
     /// Returns the plan of the study whose results the map shows.
@@ -73,9 +78,18 @@ impl LiveMap {
     /// Returns the numbers of the [cells](Plan) that belong to a [`Level`], in groups of cells with the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
-        let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
+        let places = |axis: usize| {
+            plan.axes
+                .get(axis)
+                .map_or(vec![0], |axis| level.places(axis))
+        };
         let (parameters, hursts) = (places(0), places(1));
-        let of_hurst = |&hurst| parameters.iter().map(|&at| plan.cell_at(&[at, hurst])).collect();
+        let of_hurst = |&hurst| {
+            parameters
+                .iter()
+                .map(|&at| plan.cell_at(&[at, hurst]))
+                .collect()
+        };
         hursts.iter().map(of_hurst).collect()
     }
 
@@ -96,7 +110,10 @@ impl LiveMap {
     }
 
     fn has(&self, level: &Level) -> bool {
-        self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
+        self.cells(*level)
+            .concat()
+            .iter()
+            .all(|cell| self.is_known(*cell))
     }
 
     /// Returns the finest level of which no [cell](Plan) is left to compute; `None` if there is no such level.
@@ -119,14 +136,19 @@ impl LiveMap {
             if row.iter().all(|cell| self.is_known(*cell)) {
                 continue;
             }
-            for (line, &cell) in (0..plan.lines).flat_map(|line| row.iter().map(move |cell| (line, cell))) {
+            for (line, &cell) in
+                (0..plan.lines).flat_map(|line| row.iter().map(move |cell| (line, cell)))
+            {
                 if self.failed.contains_key(&cell) || self.results.has(cell, line) {
                     continue;
                 }
                 if stop() {
                     return;
                 }
-                match recorder.record(&Streak { cells: cell..cell + 1, line }) {
+                match recorder.record(&Streak {
+                    cells: cell..cell + 1,
+                    line,
+                }) {
                     Ok(records) => self.set(cell, line, &records.concat()),
                     Err(error) if error.is_interruption() => return,
                     Err(error) => drop(self.failed.insert(cell, error.to_string())),
@@ -140,18 +162,26 @@ impl LiveMap {
     /// the grid has only a horizontal axis, κ or e_el/γ.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
-        let mut grid =
-            self.results.grid((last, (last > 0).then_some(0)), vec![0; last + 1], self.results.layers());
+        let mut grid = self.results.grid(
+            (last, (last > 0).then_some(0)),
+            vec![0; last + 1],
+            self.results.layers(),
+        );
         for (number, cell) in (0..).zip(&mut grid.cells) {
             if let Some(why) = self.failed.get(&number) {
                 *cell = Some(Err(why.clone()));
             } else if !self.results.is_whole(number) {
                 *cell = None;
             }
-            let statistics = cell.iter_mut().flatten().flat_map(|cell| &mut cell.statistics);
+            let statistics = cell
+                .iter_mut()
+                .flatten()
+                .flat_map(|cell| &mut cell.statistics);
             statistics.flatten().for_each(|all| all.spread = None);
         }
-        grid.stand_ins = (0..self.plan().cells()).map(|cell| self.stand_in(cell) as usize).collect();
+        grid.stand_ins = (0..self.plan().cells())
+            .map(|cell| self.stand_in(cell) as usize)
+            .collect();
         grid
     }
 
@@ -161,12 +191,24 @@ impl LiveMap {
         let plan = self.plan();
         let on_level = |level: Level| {
             let near = |(place, axis): (usize, &Axis)| {
-                level.places(axis).into_iter().min_by_key(|one| one.abs_diff(place))
+                level
+                    .places(axis)
+                    .into_iter()
+                    .min_by_key(|one| one.abs_diff(place))
             };
-            let places: Vec<usize> = plan.places(cell).into_iter().zip(&plan.axes).filter_map(near).collect();
+            let places: Vec<usize> = plan
+                .places(cell)
+                .into_iter()
+                .zip(&plan.axes)
+                .filter_map(near)
+                .collect();
             Some(plan.cell_at(&places)).filter(|cell| self.is_known(*cell))
         };
-        Level::ALL.into_iter().rev().find_map(on_level).unwrap_or(cell)
+        Level::ALL
+            .into_iter()
+            .rev()
+            .find_map(on_level)
+            .unwrap_or(cell)
     }
 }
 
@@ -218,7 +260,13 @@ mod tests {
             assert!(mean(0) > 0.5 && mean(KAPPAS - 1) < 0.01);
         }
         let (_, column, row) = grid.nearest((0.31, Some(1.02))).unwrap();
-        assert_eq!((grid.up.as_ref().unwrap().values[row], grid.across.values[column]), (1.0, 0.3));
+        assert_eq!(
+            (
+                grid.up.as_ref().unwrap().values[row],
+                grid.across.values[column]
+            ),
+            (1.0, 0.3)
+        );
     }
 
     #[test]
@@ -250,7 +298,11 @@ mod tests {
             for (column, &hurst) in across.iter().enumerate() {
                 let [mut studied, shown] = [study.shown(column, row), live.shown(hurst, kappa)]
                     .map(|place| place.unwrap().0.clone().unwrap());
-                studied.statistics.iter_mut().flatten().for_each(|all| all.spread = None);
+                studied
+                    .statistics
+                    .iter_mut()
+                    .flatten()
+                    .for_each(|all| all.spread = None);
                 assert_eq!(studied, shown, "{column} {row}");
                 disagreeing += u64::from(studied.regimes[0].most().unwrap().1 < 4);
             }
@@ -277,8 +329,12 @@ mod tests {
         assert!(map.grid().shown(3, 3).is_none());
         map.compute(&|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
         let grid = map.grid();
-        for (asked, expected) in [((0, 0), (0, 0)), ((1, 3), (0, 0)), ((3, 5), (4, 8)), ((18, 32), (18, 32))]
-        {
+        for (asked, expected) in [
+            ((0, 0), (0, 0)),
+            ((1, 3), (0, 0)),
+            ((3, 5), (4, 8)),
+            ((18, 32), (18, 32)),
+        ] {
             let (_, column, row) = grid.shown(asked.0, asked.1).unwrap();
             assert_eq!((column, row), expected, "{asked:?}");
         }
@@ -290,12 +346,16 @@ mod tests {
     #[test]
     fn a_cell_that_cannot_be_computed_keeps_the_reason() {
         let document = open("pressure-sensitive").unwrap();
-        let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+        let never = document
+            .set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]")
+            .unwrap();
         let mut map = LiveMap::new(Plan::of_map(never.scene()).unwrap()).unwrap();
         let reported = Cell::new(false);
         map.compute(&|| reported.get(), &mut |_| reported.set(true));
         assert!(
-            map.grid().shown(0, 0).is_some_and(|(cell, ..)| cell.as_ref().is_err_and(|why| !why.is_empty()))
+            map.grid()
+                .shown(0, 0)
+                .is_some_and(|(cell, ..)| cell.as_ref().is_err_and(|why| !why.is_empty()))
         );
     }
 }

@@ -56,14 +56,20 @@ impl Plan {
     pub fn of_map(scene: &Scene) -> Result<Plan, StudyError> {
         let refused = |found, allowed| StudyError::refused(Some("no map"), found, allowed);
         let adhesion = scene.adhesion.ok_or_else(|| {
-            refused("the scene has no adhesion, so no κ", "adhesion, which t in its row switches on")
+            refused(
+                "the scene has no adhesion, so no κ",
+                "adhesion, which t in its row switches on",
+            )
         })?;
         if adhesion.closing_work().is_some() {
             let found = "two works of adhesion, of which none defines κ";
             return Err(refused(found, "no adhesion.closing_work"));
         }
         // The range of the attraction changes no map.
-        let adhesion = Adhesion { range: None, ..adhesion.with_parameter(Kappa, ANY.0) };
+        let adhesion = Adhesion {
+            range: None,
+            ..adhesion.with_parameter(Kappa, ANY.0)
+        };
         let mut scene = scene.clone();
         let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);
         let (points, has_hurst) = match &mut scene.roughness {
@@ -73,7 +79,9 @@ impl Plan {
             }
             Some(Roughness::SelfAffine { hurst, .. }) => {
                 *hurst = ANY.1;
-                let wanted = last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1);
+                let wanted = last
+                    .saturating_mul(SPRINGS_PER_WAVE)
+                    .clamp(SPRINGS.0, SPRINGS.1);
                 (wanted.max(last.saturating_mul(2)), true)
             }
             Some(Roughness::Measured { .. }) => (SPRINGS.1, false),
@@ -82,15 +90,28 @@ impl Plan {
         scene.strip();
         let points = points.min(scene.numerics.points);
         // Edges between springs: a map of few springs is then as accurate as one of very many.
-        scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };
-        let hursts = || (1..=HURSTS).map(|index| f64::from(index) * 5.0 / 100.0).collect();
+        scene.numerics = Numerics {
+            points,
+            solver: Solver::Exact,
+            edges: Edges::SubCell,
+            ..scene.numerics
+        };
+        let hursts = || {
+            (1..=HURSTS)
+                .map(|index| f64::from(index) * 5.0 / 100.0)
+                .collect()
+        };
         let hursts = has_hurst.then(|| ("roughness.hurst", Spacing::Linear, hursts()));
         let kappas = (Kappa.path(), Spacing::Logarithmic, kappas());
         let axes = [kappas].into_iter().chain(hursts);
         // Both are quantities of a scene.
-        let axes = axes.filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());
+        let axes = axes
+            .filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());
         let lines = if has_hurst { Plan::PROFILES_OF_MAP } else { 1 };
-        Ok(Plan { axes: axes.collect(), ..Plan::of_scene(&scene, lines, &MAP_RECORD) })
+        Ok(Plan {
+            axes: axes.collect(),
+            ..Plan::of_scene(&scene, lines, &MAP_RECORD)
+        })
     }
 }
 
@@ -101,7 +122,10 @@ mod tests {
     use asperity_scene::{Document, open};
 
     fn document() -> Document {
-        open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap()
+        open("pressure-sensitive")
+            .unwrap()
+            .set("numerics.points", "2048")
+            .unwrap()
     }
 
     #[test]
@@ -122,7 +146,11 @@ mod tests {
             ("numerics.edges", "Grid"),
             ("adhesion", "(work: 0.05)"),
         ] {
-            assert_eq!(of(&document.set(path, value).unwrap()).unwrap(), plan, "{path}");
+            assert_eq!(
+                of(&document.set(path, value).unwrap()).unwrap(),
+                plan,
+                "{path}"
+            );
         }
         for (path, value) in [
             ("roughness.seed", "2"),
@@ -131,17 +159,32 @@ mod tests {
             ("material.youngs_modulus", "1.0e6"),
             ("numerics.points", "1024"),
         ] {
-            assert_ne!(of(&document.set(path, value).unwrap()).unwrap(), plan, "{path}");
+            assert_ne!(
+                of(&document.set(path, value).unwrap()).unwrap(),
+                plan,
+                "{path}"
+            );
         }
         // Short waves get enough springs.
-        let short = [("numerics.points", "1048576"), ("roughness.modes", "(1, 131072)")];
+        let short = [
+            ("numerics.points", "1048576"),
+            ("roughness.modes", "(1, 131072)"),
+        ];
         let short = short.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let short = of(&document.set_all(&short).unwrap()).unwrap();
         assert!(short.scene.numerics.points > plan.scene.numerics.points);
         assert!(
-            of(&document.set("adhesion", "None").unwrap()).unwrap_err().to_string().contains("no adhesion")
+            of(&document.set("adhesion", "None").unwrap())
+                .unwrap_err()
+                .to_string()
+                .contains("no adhesion")
         );
-        assert!(of(&open("jkr-sphere").unwrap()).unwrap_err().to_string().contains("a smooth body"));
+        assert!(
+            of(&open("jkr-sphere").unwrap())
+                .unwrap_err()
+                .to_string()
+                .contains("a smooth body")
+        );
     }
 
     #[test]
@@ -152,7 +195,14 @@ mod tests {
             let known = governing(&plan.scene_of(cell).unwrap()).unwrap().kappa;
             assert_eq!(known, Some(plan.value(cell, 0)));
         }
-        assert_eq!((plan.cells(), plan.seed_of(3)), (u64::from(HURSTS * KAPPAS), 8));
-        assert!([0.05, 0.5, 0.7, 0.95].iter().all(|hurst| plan.axes[1].values.contains(hurst)));
+        assert_eq!(
+            (plan.cells(), plan.seed_of(3)),
+            (u64::from(HURSTS * KAPPAS), 8)
+        );
+        assert!(
+            [0.05, 0.5, 0.7, 0.95]
+                .iter()
+                .all(|hurst| plan.axes[1].values.contains(hurst))
+        );
     }
 }

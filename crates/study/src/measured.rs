@@ -23,14 +23,20 @@ pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
 /// The file cannot be read, or its hash differs from the hash in the plan.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let (_, measured_sha256) = read(plan, || "the plan".into())?;
-    Ok(Plan { measured_sha256, ..plan.clone() })
+    Ok(Plan {
+        measured_sha256,
+        ..plan.clone()
+    })
 }
 
 /// Returns the measured roughness of the study in a folder; `None` if the study has none.
 ///
 /// # Errors
 /// The file cannot be read, is no surface, or its hash differs from the hash in the plan.
-pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
+pub(super) fn profile(
+    plan: &Plan,
+    folder: &Path,
+) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
     let (surface, _) = read(plan, || path_name(&folder.join(PLAN_FILE)))?;
     Ok(surface.map(Arc::new))
 }
@@ -51,7 +57,9 @@ fn read(
     plan: &Plan,
     origin: impl Fn() -> String,
 ) -> Result<(Option<MeasuredRoughness>, Option<String>), StudyError> {
-    let Some(file) = file_of(plan) else { return Ok((None, None)) };
+    let Some(file) = file_of(plan) else {
+        return Ok((None, None));
+    };
     let faces = read_faces(&plan.scene.measured_paths(Path::new("")))?;
     let table = match &plan.scene.form {
         Some(Form::Table { file, .. }) => {
@@ -64,16 +72,26 @@ fn read(
         Some(table) if faces.is_empty() => table,
         table => {
             let mut hasher = Sha256::new();
-            faces.iter().flatten().for_each(|(_, content)| hasher.update(content));
+            faces
+                .iter()
+                .flatten()
+                .for_each(|(_, content)| hasher.update(content));
             hasher.update(table.unwrap_or_default());
             hexadecimal(hasher)
         }
     };
-    if let Some(expected) = plan.measured_sha256.as_ref().filter(|expected| **expected != found) {
+    if let Some(expected) = plan
+        .measured_sha256
+        .as_ref()
+        .filter(|expected| **expected != found)
+    {
         return Err(changed(&file, &found, &origin(), expected));
     }
     let surface = match plan.scene.measured() {
-        Some(_) => Some(MeasuredRoughness::new(&faces, &plan.scene.measured_options())?),
+        Some(_) => Some(MeasuredRoughness::new(
+            &faces,
+            &plan.scene.measured_options(),
+        )?),
         None => None,
     };
     Ok((surface, Some(found)))

@@ -48,14 +48,21 @@ impl ProfileAdhesion {
         let scene = scene.with_seed(seed).stripped();
         let on = |scene: &CheckedScene, line: EquivalentLine| {
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
-            Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))
+            Simulation::default()
+                .with_measured(measured)
+                .run(scene, stop, &mut |_, _, _| Ok(()))
         };
         let fitted = on(&scene, line.clone())?;
         // If κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
         let with_work = |work| {
-            scene.with(|scene| scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work)))
+            scene.with(|scene| {
+                scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work))
+            })
         };
-        let scene = fitted.governing.work_of_adhesion.map_or(Ok(scene.clone()), with_work)?;
+        let scene = fitted
+            .governing
+            .work_of_adhesion
+            .map_or(Ok(scene.clone()), with_work)?;
         let moved = on(&scene, line.drawn(seed, SHARE))?;
         let (one, other) = (fitted.figures.adhesion_force, moved.figures.adhesion_force);
         Ok(ProfileAdhesion {
@@ -104,7 +111,11 @@ impl MeasuredAdhesion {
         StudyError::check_profiles(scene, u64::from(count))?;
         if scene.measured().is_none() || scene.measured_as_line() {
             let allowed = "roughness: Measured with as_line: false";
-            return Err(StudyError::refused(None, "the scene has no equivalent line", allowed));
+            return Err(StudyError::refused(
+                None,
+                "the scene has no equivalent line",
+                allowed,
+            ));
         }
         let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;
@@ -119,7 +130,11 @@ impl MeasuredAdhesion {
     /// or does not make random profiles from a measured surface.
     pub fn quick_deviation(document: &Document, count: u64, jobs: usize) -> Option<f64> {
         let is_quick = document.scene().numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
-        is_quick.then(|| MeasuredAdhesion::of(document, count as u32, jobs).ok()?.fit_deviation())?
+        is_quick.then(|| {
+            MeasuredAdhesion::of(document, count as u32, jobs)
+                .ok()?
+                .fit_deviation()
+        })?
     }
 
     /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `report`
@@ -140,7 +155,10 @@ impl MeasuredAdhesion {
                 let seed = scene.seed().unwrap_or(0).wrapping_add(number);
                 let solved = ProfileAdhesion::solve(scene, line, seed, &|| false);
                 report(computed.fetch_add(1, Ordering::Relaxed) + 1);
-                solved.map_err(|error| StudyError::Run { place: format!("seed {seed}: "), error })
+                solved.map_err(|error| StudyError::Run {
+                    place: format!("seed {seed}: "),
+                    error,
+                })
             }
         })?;
         Ok(MeasuredAdhesion { profiles })
@@ -149,14 +167,21 @@ impl MeasuredAdhesion {
     /// Returns the statistics of the adhesion force in N over the profiles, for the fitted spectrum; `None` if no profile has
     /// an adhesion force.
     pub fn adhesion_force(&self) -> Option<Statistics> {
-        let forces = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
+        let forces = self
+            .profiles
+            .iter()
+            .filter_map(|profile| profile.adhesion_force)
+            .collect();
         Statistics::of(forces, Quantity::AdhesionForce.bounds())
     }
 
     /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the spectrum. It is the root mean
     /// square of [`ProfileAdhesion::fit_change`] over the profiles; `None` for fewer than two profiles.
     pub fn fit_deviation(&self) -> Option<f64> {
-        rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
+        rms(self
+            .profiles
+            .iter()
+            .filter_map(|profile| profile.fit_change))
     }
 
     /// Returns two forces in N, the median adhesion force divided by a factor and the median times this factor; `None` for
@@ -182,7 +207,9 @@ impl MeasuredAdhesion {
 /// Returns the root mean square of at least two numbers; `None` for fewer.
 fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     let numbers: Vec<f64> = numbers.collect();
-    (numbers.len() >= 2).then(|| root_mean_square(numbers)).flatten()
+    (numbers.len() >= 2)
+        .then(|| root_mean_square(numbers))
+        .flatten()
 }
 
 #[cfg(test)]
@@ -197,8 +224,14 @@ mod tests {
              loading: [ToForce(1.0e-4), ToSeparation])"
         );
         let scene = Document::parse(&text, "test").unwrap().scene().clone();
-        let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
-        let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
+        let height = |i: u32| {
+            (1..60)
+                .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k))
+                .sum::<f64>()
+        };
+        let rows: String = (0..256)
+            .map(|i| format!("{i} {}\n", 30.0 * height(i)))
+            .collect();
         let face = vec![("".into(), format!("x [um] z [nm]\n{rows}").into_bytes())];
         let line = EquivalentLine::new(&[face], &scene.measured_options()).unwrap();
         (scene, line)
@@ -208,49 +241,85 @@ mod tests {
     fn both_spreads_are_those_of_separate_runs() {
         let (scene, line) = scene_and_line("(work: 0.05)");
         let found = MeasuredAdhesion::of_line(&scene, &line, 6, 1, &|_| ()).unwrap();
-        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 6, 3, &|_| ()).unwrap(), found);
+        assert_eq!(
+            MeasuredAdhesion::of_line(&scene, &line, 6, 3, &|_| ()).unwrap(),
+            found
+        );
         let force = |line: EquivalentLine, seed: u64| {
             let scene = scene.with_seed(seed);
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
             let mut simulation = Simulation::default().with_measured(measured);
-            simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap().figures.adhesion_force.unwrap()
+            simulation
+                .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+                .unwrap()
+                .figures
+                .adhesion_force
+                .unwrap()
         };
         let (mut fitted, mut square) = (Vec::new(), 0.0);
         for (profile, seed) in found.profiles.iter().zip(5..) {
-            let (one, other) = (force(line.clone(), seed), force(line.drawn(seed, SHARE), seed));
+            let (one, other) = (
+                force(line.clone(), seed),
+                force(line.drawn(seed, SHARE), seed),
+            );
             assert_eq!((profile.seed, profile.adhesion_force), (seed, Some(one)));
             let change = (other - one) / SHARE;
             assert_eq!(profile.fit_change, Some(change));
             // To first order: a step of half the size changes the force by half as much.
             let half = 2.0 * (force(line.drawn(seed, 0.5 * SHARE), seed) - one) / SHARE;
-            assert!((half - change).abs() < 0.2 * change.abs() + 1e-3 * one, "{seed}: {half} {change}");
+            assert!(
+                (half - change).abs() < 0.2 * change.abs() + 1e-3 * one,
+                "{seed}: {half} {change}"
+            );
             fitted.push(one);
             square += change.powi(2) / 6.0;
         }
-        assert_eq!(found.adhesion_force(), Statistics::of(fitted, (0.0, f64::INFINITY)));
+        assert_eq!(
+            found.adhesion_force(),
+            Statistics::of(fitted, (0.0, f64::INFINITY))
+        );
         let deviation = found.fit_deviation().unwrap();
-        assert!((deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0, "{deviation}");
-        assert_eq!(found.regimes().map(|of| of.present().map(|(_, count)| count).sum::<usize>()), [6; 2]);
+        assert!(
+            (deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0,
+            "{deviation}"
+        );
+        assert_eq!(
+            found
+                .regimes()
+                .map(|of| of.present().map(|(_, count)| count).sum::<usize>()),
+            [6; 2]
+        );
     }
 
     /// The files are read with the options of the scene, whether `periodic: true` is among them or not.
     #[test]
     fn the_options_are_those_of_the_scene() {
         let folder = tempfile::tempdir().unwrap();
-        let rows: String =
-            (0..128).map(|i| format!("{i} {}\n", 30.0 * (f64::from(i * i) * 0.37).sin())).collect();
-        std::fs::write(folder.path().join("line.txt"), format!("x [um] z [nm]\n{rows}")).unwrap();
+        let rows: String = (0..128)
+            .map(|i| format!("{i} {}\n", 30.0 * (f64::from(i * i) * 0.37).sin()))
+            .collect();
+        std::fs::write(
+            folder.path().join("line.txt"),
+            format!("x [um] z [nm]\n{rows}"),
+        )
+        .unwrap();
         for periodic in [true, false] {
             let text = format!(
                 "(version: 1, material: (effective_modulus: 1.0e6), length: 1.28e-4, adhesion: (work: 0.05), roughness: \
                  Measured(file: \"line.txt\", periodic: {periodic}), numerics: (points: 512), loading: [ToTouch, \
                  ToSeparation])"
             );
-            let document =
-                Document::parse(&text, &folder.path().join("scene.ron").display().to_string()).unwrap();
+            let document = Document::parse(
+                &text,
+                &folder.path().join("scene.ron").display().to_string(),
+            )
+            .unwrap();
             let found = MeasuredAdhesion::of(&document, 1, 1).unwrap();
             let outcome = asperity_scene::run(&document).unwrap();
-            assert_eq!(found.profiles[0].adhesion_force, outcome.figures.adhesion_force, "{periodic}");
+            assert_eq!(
+                found.profiles[0].adhesion_force, outcome.figures.adhesion_force,
+                "{periodic}"
+            );
         }
         assert!(MeasuredAdhesion::of(&asperity_scene::open("jkr-sphere").unwrap(), 1, 1).is_err());
     }
@@ -261,10 +330,16 @@ mod tests {
         let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap();
         let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
         let mut simulation = Simulation::default().with_measured(measured);
-        let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = simulation
+            .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         let work = outcome.governing.work_of_adhesion.unwrap();
-        let with_work = |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
+        let with_work =
+            |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
         let scene = scene.with(with_work).unwrap();
-        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap(), by_kappa);
+        assert_eq!(
+            MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap(),
+            by_kappa
+        );
     }
 }

@@ -24,14 +24,20 @@ impl Plan {
             let spare = 16 * scene.numerics.samples * scene.loading.len() as u64;
             let peak = asperity_scene::stages::Workload::of(&scene).peak_bytes;
             let points = scene.numerics.points;
-            let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
+            let kept = if points <= LONGEST_KEPT {
+                KEPT * points
+            } else {
+                0
+            };
             // The contact without adhesion or at zero force may add to the memory of the scene itself.
             let turns = self.preloads().is_some() && scene.adhesion.is_some();
             let reversed = if turns { REVERSED * points } else { 0 };
             Some((peak + kept + reversed, spare))
         };
         let cells = self.extremes(MOST_CHECKED).into_iter().filter_map(of_cell);
-        let (job, spare) = cells.fold((0, 0), |(job, spare), one| (job.max(one.0), spare.max(one.1)));
+        let (job, spare) = cells.fold((0, 0), |(job, spare), one| {
+            (job.max(one.0), spare.max(one.1))
+        });
         // The axes, and one byte for each record.
         let values: u64 = self.axes.iter().map(Axis::count).sum();
         let bytes = PROGRAM + 8 * values + self.records_in_all() + jobs.saturating_mul(job + spare);

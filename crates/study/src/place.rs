@@ -3,7 +3,9 @@
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
 use asperity_scene::fields::{FIELDS, Field, Range, Tree};
-use asperity_scene::{Adhesion, Document, Governing, RoughnessParameter, Scene, SceneError, SceneErrors};
+use asperity_scene::{
+    Adhesion, Document, Governing, RoughnessParameter, Scene, SceneError, SceneErrors,
+};
 
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no such value. `computed` has
@@ -11,15 +13,24 @@ impl Axis {
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
-            let stated = scene.adhesion?.parameter().filter(|(stated, _)| *stated == parameter);
-            return known.and_then(|known| known.parameter(parameter)).or(stated.map(|(_, value)| value));
+            let stated = scene
+                .adhesion?
+                .parameter()
+                .filter(|(stated, _)| *stated == parameter);
+            return known
+                .and_then(|known| known.parameter(parameter))
+                .or(stated.map(|(_, value)| value));
         }
         let number = |path: &str| Tree::of(scene).get(path);
         match (self.target, scene.loading.first()) {
             (Target::Preload { in_newtons: true }, Some(Move::ToForce(force))) => Some(*force),
-            (Target::Preload { .. }, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
+            (Target::Preload { .. }, Some(Move::ToForce(force))) => {
+                Some(force / force_unit(scene)?)
+            }
             (Target::Preload { .. }, _) => None,
-            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64),
+            (Target::SpringsPerWave, _) => {
+                Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64)
+            }
             _ => number(&self.path),
         }
     }
@@ -35,7 +46,10 @@ pub(super) fn scene_with<'a>(
     base: &Scene,
     values: impl Iterator<Item = (&'a Axis, f64)>,
 ) -> Result<Scene, SceneErrors> {
-    let refused = |message| SceneError { message, ..SceneError::default() };
+    let refused = |message| SceneError {
+        message,
+        ..SceneError::default()
+    };
     let (mut tree, mut by_parameter) = (Tree::of(base), None);
     let mut values: Vec<_> = values.collect();
     // The last mode follows from the number of springs.
@@ -53,15 +67,30 @@ pub(super) fn scene_with<'a>(
         if !tree.set(path, value) {
             let stages = base.loading.len();
             let counted = format!("; its {stages} loading stages are counted from 0");
-            let counted = if axis.path.starts_with("loading.") { counted } else { String::new() };
-            return Err(refused(format!("axis {}: the scene has no {path}{counted}", axis.path)).into());
+            let counted = if axis.path.starts_with("loading.") {
+                counted
+            } else {
+                String::new()
+            };
+            return Err(refused(format!(
+                "axis {}: the scene has no {path}{counted}",
+                axis.path
+            ))
+            .into());
         }
     }
     let mut scene = tree.scene().map_err(refused)?;
     if let Some((parameter, value)) = by_parameter {
-        if scene.adhesion.is_some_and(|adhesion| adhesion.has_two_works()) {
+        if scene
+            .adhesion
+            .is_some_and(|adhesion| adhesion.has_two_works())
+        {
             let why = "κ and e_el/γ refer to one work of adhesion, and the scene has another one on closing";
-            return Err(refused(format!("axis {}: {why}: vary adhesion.work", parameter.path())).into());
+            return Err(refused(format!(
+                "axis {}: {why}: vary adhesion.work",
+                parameter.path()
+            ))
+            .into());
         }
         scene.adhesion = Some(with_parameter(&scene, parameter, value));
     }
@@ -71,13 +100,16 @@ pub(super) fn scene_with<'a>(
 /// Returns the adhesion of a scene by a parameter. The range of attraction stays.
 fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> Adhesion {
     let by_parameter = Adhesion::by_parameter(parameter, value);
-    scene.adhesion.map_or(by_parameter, |adhesion| adhesion.with_parameter(parameter, value))
+    scene.adhesion.map_or(by_parameter, |adhesion| {
+        adhesion.with_parameter(parameter, value)
+    })
 }
 
 /// Returns path and value of the shortest wave that has this number of springs. The value is a mode, or a wavelength if the
 /// scene has wavelengths.
 fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
-    let [points, length] = ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
+    let [points, length] =
+        ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
     match tree.get("roughness.wavelengths.1") {
         Some(_) => ("roughness.wavelengths.1", springs * length / points),
         None => ("roughness.modes.1", (points / springs).round()),
@@ -114,7 +146,11 @@ fn force_unit(scene: &Scene) -> Option<f64> {
 
 /// Replaces the loading of a scene by a preload of this axis and separation, if the scene determines the unit of the axis.
 pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
-    if let Some(unit) = if axis.unit == "N" { Some(1.0) } else { force_unit(scene) } {
+    if let Some(unit) = if axis.unit == "N" {
+        Some(1.0)
+    } else {
+        force_unit(scene)
+    } {
         scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
     }
 }
@@ -138,8 +174,13 @@ impl Axis {
     /// ```
     pub fn set_all(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
         let mut scene = scene_with(document.scene(), values.iter().copied())?;
-        let moves_parameter = values.iter().any(|(axis, _)| axis.target.parameter().is_some());
-        let by_work = document.scene().adhesion.filter(|one| moves_parameter && one.parameter().is_none());
+        let moves_parameter = values
+            .iter()
+            .any(|(axis, _)| axis.target.parameter().is_some());
+        let by_work = document
+            .scene()
+            .adhesion
+            .filter(|one| moves_parameter && one.parameter().is_none());
         if let Some(adhesion) = by_work {
             let work = governing(&scene).and_then(|known| known.work_of_adhesion);
             scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);
@@ -166,20 +207,60 @@ mod tests {
     #[test]
     fn numbers_are_set_as_by_overrides() {
         for (base, path, value, overrides) in [
-            ("rough-sphere", "roughness.hurst", 0.55, ("roughness.hurst", "0.55")),
-            ("rough-sphere", "roughness.modes.1", 64.0, ("roughness.modes.1", "64")),
-            ("rough-sphere", "numerics.points", 8192.0, ("numerics.points", "8192")),
-            ("rough-sphere", "loading.0.0", 2.5e-5, ("loading.0.0", "2.5e-5")),
-            ("rough-sphere", "adhesion.kappa", 1.5, ("adhesion", "(kappa: 1.5)")),
+            (
+                "rough-sphere",
+                "roughness.hurst",
+                0.55,
+                ("roughness.hurst", "0.55"),
+            ),
+            (
+                "rough-sphere",
+                "roughness.modes.1",
+                64.0,
+                ("roughness.modes.1", "64"),
+            ),
+            (
+                "rough-sphere",
+                "numerics.points",
+                8192.0,
+                ("numerics.points", "8192"),
+            ),
+            (
+                "rough-sphere",
+                "loading.0.0",
+                2.5e-5,
+                ("loading.0.0", "2.5e-5"),
+            ),
+            (
+                "rough-sphere",
+                "adhesion.kappa",
+                1.5,
+                ("adhesion", "(kappa: 1.5)"),
+            ),
             (
                 "rough-sphere",
                 "adhesion.elastic_energy_ratio",
                 0.5,
                 ("adhesion", "(elastic_energy_ratio: 0.5)"),
             ),
-            ("rough-sphere", "adhesion.work", 0.015, ("adhesion.work", "0.015")),
-            ("rough-sphere", "springs_per_wave", 8.0, ("roughness.modes.1", "2048")),
-            ("kendall-punch", "form.radius", 2.5e-5, ("form.radius", "2.5e-5")),
+            (
+                "rough-sphere",
+                "adhesion.work",
+                0.015,
+                ("adhesion.work", "0.015"),
+            ),
+            (
+                "rough-sphere",
+                "springs_per_wave",
+                8.0,
+                ("roughness.modes.1", "2048"),
+            ),
+            (
+                "kendall-punch",
+                "form.radius",
+                2.5e-5,
+                ("form.radius", "2.5e-5"),
+            ),
         ] {
             let document = open(base).unwrap();
             let mut scene = with(document.scene(), path, value).unwrap();
@@ -193,48 +274,104 @@ mod tests {
 
     #[test]
     fn axes_move_waves_in_metres() {
-        let waves = [("roughness.modes", "None"), ("roughness.wavelengths", "25 µm, 0.2 µm")];
+        let waves = [
+            ("roughness.modes", "None"),
+            ("roughness.wavelengths", "25 µm, 0.2 µm"),
+        ];
         let waves = waves.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = open("pressure-sensitive").unwrap().set_all(&waves).unwrap();
         for (path, value, set) in [
-            ("roughness.wavelengths.0", 5e-5, ("roughness.wavelengths.0", "50 µm")),
-            ("roughness.wavelengths.1", 4e-7, ("roughness.wavelengths", "(2.5e-5, 4e-7)")),
+            (
+                "roughness.wavelengths.0",
+                5e-5,
+                ("roughness.wavelengths.0", "50 µm"),
+            ),
+            (
+                "roughness.wavelengths.1",
+                4e-7,
+                ("roughness.wavelengths", "(2.5e-5, 4e-7)"),
+            ),
             ("roughness.roll_off", 1e-5, ("roughness.roll_off", "10 µm")),
-            ("springs_per_wave", 16.0, ("roughness.wavelengths.1", "9.765625e-8")),
+            (
+                "springs_per_wave",
+                16.0,
+                ("roughness.wavelengths.1", "9.765625e-8"),
+            ),
         ] {
             let axis = Axis::new(path, Spacing::List, vec![value], document.scene()).unwrap();
             let scene = with(document.scene(), path, value).unwrap();
-            assert_eq!(&scene, &**document.set(set.0, set.1).unwrap().scene(), "{path}");
-            assert_eq!(&scene, &**Axis::set_all(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
+            assert_eq!(
+                &scene,
+                &**document.set(set.0, set.1).unwrap().scene(),
+                "{path}"
+            );
+            assert_eq!(
+                &scene,
+                &**Axis::set_all(&document, &[(&axis, value)]).unwrap().scene(),
+                "{path}"
+            );
             assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
         }
         // A longer line has the same waves: more modes.
-        let modes =
-            |document: &Document| document.scene().spectrum().map(|spectrum| (spectrum.first, spectrum.last));
-        for (length, nearest) in [("100 µm", (4, 500)), ("120 µm", (5, 600)), ("250 µm", (10, 1250))] {
-            assert_eq!(modes(&document.set("length", length).unwrap()), Some(nearest), "{length}");
+        let modes = |document: &Document| {
+            document
+                .scene()
+                .spectrum()
+                .map(|spectrum| (spectrum.first, spectrum.last))
+        };
+        for (length, nearest) in [
+            ("100 µm", (4, 500)),
+            ("120 µm", (5, 600)),
+            ("250 µm", (10, 1250)),
+        ] {
+            assert_eq!(
+                modes(&document.set("length", length).unwrap()),
+                Some(nearest),
+                "{length}"
+            );
         }
-        let as_modes = [("roughness.modes", "(4, 500)"), ("roughness.wavelengths", "None")];
-        let as_modes = document.set_all(&as_modes.map(|(path, value)| (path.to_owned(), value.to_owned())));
+        let as_modes = [
+            ("roughness.modes", "(4, 500)"),
+            ("roughness.wavelengths", "None"),
+        ];
+        let as_modes =
+            document.set_all(&as_modes.map(|(path, value)| (path.to_owned(), value.to_owned())));
         let gaps = |document: &Document| {
             let mut simulation = Simulation::default();
-            simulation.make_line(document.scene()).unwrap().0.gaps.clone()
+            simulation
+                .make_line(document.scene())
+                .unwrap()
+                .0
+                .gaps
+                .clone()
         };
         assert_eq!(gaps(&document), gaps(&as_modes.unwrap()));
     }
 
     #[test]
     fn a_document_is_moved_in_its_own_terms() {
-        let by_kappa = open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap();
+        let by_kappa = open("pressure-sensitive")
+            .unwrap()
+            .set("numerics.points", "2048")
+            .unwrap();
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
         let axes = Plan::of_map(by_kappa.scene()).unwrap().axes;
         for document in [by_kappa.clone(), by_work] {
             let moved = Axis::set_all(&document, &[(&axes[1], 0.4), (&axes[0], 3.0)]).unwrap();
-            let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
+            let (before, after) = (
+                document.scene().adhesion.unwrap(),
+                moved.scene().adhesion.unwrap(),
+            );
             assert_eq!(before.work().is_some(), after.work().is_some());
-            let [kappa, hurst] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
-            assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
-            let governing = Simulation::default().make_line(moved.scene()).map(|(_, _, governing)| governing);
+            let [kappa, hurst] =
+                [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
+            assert!(
+                (kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4,
+                "{kappa} {hurst}"
+            );
+            let governing = Simulation::default()
+                .make_line(moved.scene())
+                .map(|(_, _, governing)| governing);
             assert!((governing.unwrap().kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9);
         }
         assert!(Axis::set_all(&by_kappa, &[(&axes[0], f64::NAN)]).is_err());

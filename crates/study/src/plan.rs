@@ -26,8 +26,16 @@ const MOST_FORCES: u64 = 1000;
 /// Groups of axes that set the same quantity. A plan may have one axis of each group.
 const SAME: [&[&str]; 3] = [
     &[PRELOAD, "preload_in_N"],
-    &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
-    &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
+    &[
+        "springs_per_wave",
+        "roughness.modes.1",
+        "roughness.wavelengths.1",
+    ],
+    &[
+        "adhesion.work",
+        "adhesion.kappa",
+        "adhesion.elastic_energy_ratio",
+    ],
 ];
 
 /// Checked plan of a study: a scene, axes along which its numbers vary, random profiles, and quantities to record. A *cell* is
@@ -72,7 +80,11 @@ pub struct StiffnessRange {
 impl Default for StiffnessRange {
     /// Returns 17 forces from 10⁻⁴ to 10⁻² in units of E* h L.
     fn default() -> Self {
-        StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
+        StiffnessRange {
+            from: 1.0e-4,
+            to: 1.0e-2,
+            count: 17,
+        }
     }
 }
 
@@ -122,7 +134,11 @@ impl Plan {
 
     /// Returns the indices of the values for combination `number` of these axes, of which the last one varies fastest. The
     /// index is 0 on the other axes.
-    pub(super) fn places_on(&self, axes: impl DoubleEndedIterator<Item = usize>, number: u64) -> Vec<usize> {
+    pub(super) fn places_on(
+        &self,
+        axes: impl DoubleEndedIterator<Item = usize>,
+        number: u64,
+    ) -> Vec<usize> {
         let (mut rest, mut places) = (number, vec![0; self.axes.len()]);
         for axis in axes.rev() {
             let count = self.axes[axis].count();
@@ -133,7 +149,10 @@ impl Plan {
     }
 
     pub(super) fn cell_at(&self, places: &[usize]) -> u64 {
-        places.iter().zip(&self.axes).fold(0, |cell, (place, axis)| cell * axis.count() + *place as u64)
+        places
+            .iter()
+            .zip(&self.axes)
+            .fold(0, |cell, (place, axis)| cell * axis.count() + *place as u64)
     }
 
     pub(super) fn value(&self, cell: u64, axis: usize) -> f64 {
@@ -143,14 +162,20 @@ impl Plan {
 
     /// Returns the values on all axes in [cell](Plan) number `cell`, in the order of the axes.
     pub fn values(&self, cell: u64) -> Vec<f64> {
-        (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
+        (0..self.axes.len())
+            .map(|axis| self.value(cell, axis))
+            .collect()
     }
 
     /// Returns the values on all axes in [cell](Plan) number `cell` as text, such as `adhesion.kappa = 6.0`.
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
-        if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
+        if all.is_empty() {
+            "the scene itself".into()
+        } else {
+            all.join(", ")
+        }
     }
 
     /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the axes. A preload axis is the
@@ -189,17 +214,24 @@ impl Plan {
                 wrong.push(format!("axis {path}: given twice"));
             }
             let same = SAME.iter().find(|same| same.contains(path));
-            let other =
-                before.iter().find(|other| same.is_some_and(|same| same.contains(other)) && *other != path);
-            wrong.extend(
-                other.map(|other| format!("axis {path}: {other} sets it as well; allowed: one of them")),
-            );
+            let other = before
+                .iter()
+                .find(|other| same.is_some_and(|same| same.contains(other)) && *other != path);
+            wrong.extend(other.map(|other| {
+                format!("axis {path}: {other} sets it as well; allowed: one of them")
+            }));
         }
         if !(1..=MOST_LINES).contains(&self.lines) {
-            wrong.push(format!("profiles = {}: allowed: from 1 to {MOST_LINES}", self.lines));
+            wrong.push(format!(
+                "profiles = {}: allowed: from 1 to {MOST_LINES}",
+                self.lines
+            ));
         }
         if self.lines > 1 && self.scene.seed().is_none() {
-            wrong.push(format!("profiles = {}: {}; allowed: {}", self.lines, ONE_PROFILE.0, ONE_PROFILE.1));
+            wrong.push(format!(
+                "profiles = {}: {}; allowed: {}",
+                self.lines, ONE_PROFILE.0, ONE_PROFILE.1
+            ));
         }
         if self.record.is_empty() {
             wrong.push("record = []: allowed: at least one quantity".into());
@@ -210,7 +242,9 @@ impl Plan {
             }
         }
         let preloads = self.axes.iter().find(|axis| axis.is_of_preloads());
-        if let Some(value) = preloads.and_then(|axis| axis.values.iter().find(|value| **value <= 0.0)) {
+        if let Some(value) =
+            preloads.and_then(|axis| axis.values.iter().find(|value| **value <= 0.0))
+        {
             wrong.push(format!("preload {value:?}: allowed: above 0"));
         }
         let StiffnessRange { from, to, count } = self.stiffness;
@@ -220,7 +254,8 @@ impl Plan {
                  to {MOST_FORCES}"
             ));
         }
-        let by_roughness = preloads.is_some_and(|axis| axis.unit != "N") || self.records(Needs::Stiffness);
+        let by_roughness =
+            preloads.is_some_and(|axis| axis.unit != "N") || self.records(Needs::Stiffness);
         if self.scene.roughness.is_none() && by_roughness {
             wrong.push(
                 "preloads and exponents count forces in units of E* h L, and this scene is smooth; \
@@ -228,10 +263,24 @@ impl Plan {
                     .into(),
             );
         }
-        let cells = self.axes.iter().map(Axis::count).try_fold(1_u64, u64::checked_mul);
-        let counts = || self.axes.iter().map(|axis| axis.count().to_string()).collect::<Vec<_>>().join(" × ");
+        let cells = self
+            .axes
+            .iter()
+            .map(Axis::count)
+            .try_fold(1_u64, u64::checked_mul);
+        let counts = || {
+            self.axes
+                .iter()
+                .map(|axis| axis.count().to_string())
+                .collect::<Vec<_>>()
+                .join(" × ")
+        };
         match cells.filter(|cells| *cells <= Plan::MOST_CELLS) {
-            None => wrong.push(format!("{} cells; allowed: at most {}", counts(), Plan::MOST_CELLS)),
+            None => wrong.push(format!(
+                "{} cells; allowed: at most {}",
+                counts(),
+                Plan::MOST_CELLS
+            )),
             Some(cells) if cells.saturating_mul(self.lines) > MOST_RECORDS => wrong.push(format!(
                 "{} cells on {} profiles; allowed: at most {MOST_RECORDS} together",
                 counts(),
@@ -245,11 +294,19 @@ impl Plan {
     /// Returns the errors of title and notice, by the rules of a scene, and of a hash without a measured file.
     fn errors_of_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
-        let texts = Scene { title, notice, ..self.scene.clone() };
+        let texts = Scene {
+            title,
+            notice,
+            ..self.scene.clone()
+        };
         let errors = texts.checked().err();
         let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
-        let mut wrong: Vec<String> =
-            errors.iter().flat_map(SceneErrors::iter).filter(is_text).map(SceneError::to_string).collect();
+        let mut wrong: Vec<String> = errors
+            .iter()
+            .flat_map(SceneErrors::iter)
+            .filter(is_text)
+            .map(SceneError::to_string)
+            .collect();
         if self.measured_sha256.is_some() && self.scene.measured_files().is_empty() {
             wrong.push(
                 "measured_sha256: allowed with roughness: Measured and form: Table; this scene has no such file".into(),
@@ -262,9 +319,15 @@ impl Plan {
     pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
         let (mut wrong, mut more) = (Vec::new(), 0_u64);
         for cell in self.extremes(MOST_CHECKED) {
-            let Err(errors) = self.scene_of(cell) else { continue };
+            let Err(errors) = self.scene_of(cell) else {
+                continue;
+            };
             if wrong.len() < MOST_NAMED {
-                wrong.push(format!("cell {cell} ({}): {}", self.coordinates(cell), errors.first()));
+                wrong.push(format!(
+                    "cell {cell} ({}): {}",
+                    self.coordinates(cell),
+                    errors.first()
+                ));
             } else {
                 more += 1;
             }
@@ -289,8 +352,11 @@ impl Plan {
             let order = axis.order();
             let mut ends = vec![order[0], order[order.len() - 1]];
             ends.dedup();
-            let with_end =
-                |cell: &Vec<usize>| ends.iter().map(|end| [&cell[..], &[*end]].concat()).collect::<Vec<_>>();
+            let with_end = |cell: &Vec<usize>| {
+                ends.iter()
+                    .map(|end| [&cell[..], &[*end]].concat())
+                    .collect::<Vec<_>>()
+            };
             cells = cells.iter().flat_map(with_end).collect();
         }
         let numbers = cells.into_iter().map(|mut cell| {
@@ -314,7 +380,12 @@ mod tests {
         for preset in presets() {
             let document = open(preset.name).unwrap();
             let scene = document.scene();
-            let paths = ["numerics.points", "springs_per_wave", "adhesion.kappa", "roughness.modes.1"];
+            let paths = [
+                "numerics.points",
+                "springs_per_wave",
+                "adhesion.kappa",
+                "roughness.modes.1",
+            ];
             let more = paths.iter().filter_map(|path| {
                 let axis = Axis::new(path, Spacing::List, Vec::new(), scene).ok()?;
                 Some((axis.clone(), axis.value_in(scene, None)?))
@@ -324,8 +395,15 @@ mod tests {
                 .chain(more)
                 .map(|(axis, value)| {
                     let near = [0.03, 0.3, 0.9, 1.0, 1.1, 3.0, 30.0].map(|factor| factor * value);
-                    let values =
-                        near.map(|value| if axis.is_whole() { value.round() } else { value }).to_vec();
+                    let values = near
+                        .map(|value| {
+                            if axis.is_whole() {
+                                value.round()
+                            } else {
+                                value
+                            }
+                        })
+                        .to_vec();
                     Axis { values, ..axis }
                 })
                 .collect();
@@ -338,7 +416,10 @@ mod tests {
                             ..axis.clone()
                         };
                         let axes = vec![part(one), part(other)];
-                        let plan = Plan { axes, ..Plan::of_scene(scene, 1, &[Quantity::Regime]) };
+                        let plan = Plan {
+                            axes,
+                            ..Plan::of_scene(scene, 1, &[Quantity::Regime])
+                        };
                         let is_allowed = |cell| plan.scene_of(cell).is_ok();
                         let ends = plan.extremes(0);
                         assert_eq!(ends.len(), 4);

@@ -85,7 +85,8 @@ impl Plan {
     pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, StudyError> {
         if is_file_name(name_or_path) {
             let text = read_regular_text(Path::new(name_or_path), LONGEST_TEXT);
-            let text = text.map_err(|error| StudyError::Plan(vec![format!("{name_or_path}: {error}")]))?;
+            let text =
+                text.map_err(|error| StudyError::Plan(vec![format!("{name_or_path}: {error}")]))?;
             return Plan::parse(&text, name_or_path, changes);
         }
         let plan = Plan::built_in(name_or_path)?;
@@ -123,7 +124,8 @@ impl Plan {
             record: record.to_vec(),
             ..PlanText::default()
         };
-        let plan = Plan::of(read, with_absolute_paths(document), Some(profiles)).map_err(StudyError::Plan)?;
+        let plan = Plan::of(read, with_absolute_paths(document), Some(profiles))
+            .map_err(StudyError::Plan)?;
         plan.check_cells().map_err(StudyError::Plan)?;
         Ok(plan)
     }
@@ -133,12 +135,15 @@ impl Plan {
     /// # Errors
     /// Returns an error if there is no plan of this name.
     pub fn built_in(name: &str) -> Result<&'static Preset, StudyError> {
-        Plan::BUILT_IN.iter().find(|plan| plan.name == name).ok_or_else(|| {
-            let names: Vec<_> = Plan::BUILT_IN.iter().map(|plan| plan.name).collect();
-            let (near, names) = (did_you_mean(name, names.iter().copied()), names.join(", "));
-            let message = "there is no such file and no such built-in plan";
-            StudyError::Plan(vec![format!("{name}: {message}{near} (built-in: {names})")])
-        })
+        Plan::BUILT_IN
+            .iter()
+            .find(|plan| plan.name == name)
+            .ok_or_else(|| {
+                let names: Vec<_> = Plan::BUILT_IN.iter().map(|plan| plan.name).collect();
+                let (near, names) = (did_you_mean(name, names.iter().copied()), names.join(", "));
+                let message = "there is no such file and no such built-in plan";
+                StudyError::Plan(vec![format!("{name}: {message}{near} (built-in: {names})")])
+            })
     }
 
     /// Reads and checks the text of a plan. `name` is usually the path of the plan. Error messages begin with `name`, and the
@@ -157,7 +162,9 @@ impl Plan {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |what: String| StudyError::Plan(vec![format!("{name}: {what}")]);
         if text.len() > LONGEST_TEXT {
-            return Err(refused(format!("the plan is too long: at most {LONGEST_TEXT} bytes are read")));
+            return Err(refused(format!(
+                "the plan is too long: at most {LONGEST_TEXT} bytes are read"
+            )));
         }
         let read: PlanText = read_ron(text).map_err(|error| {
             let (offset, error) = explain(text, &error);
@@ -175,12 +182,27 @@ impl Plan {
     }
 
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
-        let PlanText { title, notice, axes, preloads, record, stiffness, measured_sha256, .. } = read;
+        let PlanText {
+            title,
+            notice,
+            axes,
+            preloads,
+            record,
+            stiffness,
+            measured_sha256,
+            ..
+        } = read;
         if axes.len() > MOST_AXES {
-            return Err(vec![format!("{} axes; allowed: at most {MOST_AXES}", axes.len())]);
+            return Err(vec![format!(
+                "{} axes; allowed: at most {MOST_AXES}",
+                axes.len()
+            )]);
         }
         let preloads = Some(preloads).filter(|values| !values.is_empty());
-        let preloads = preloads.map(|values| AxisText::List { path: PRELOAD.into(), values });
+        let preloads = preloads.map(|values| AxisText::List {
+            path: PRELOAD.into(),
+            values,
+        });
         let (mut wrong, mut read_axes) = (Vec::new(), Vec::new());
         for axis in axes.into_iter().chain(preloads) {
             match Axis::of(&axis, &scene) {
@@ -202,7 +224,11 @@ impl Plan {
             measured_sha256,
         };
         wrong.extend(plan.errors());
-        if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
+        if wrong.is_empty() {
+            Ok(plan)
+        } else {
+            Err(wrong)
+        }
     }
 
     /// Returns the plan as the text of a plan file in RON that contains the scene itself instead of the path of a scene file.
@@ -222,15 +248,29 @@ impl Plan {
                 line(name, ron_string(text));
             }
         }
-        line("scene", to_ron(&self.scene).trim_end().replace('\n', "\n    "));
-        let axes: String = self.axes.iter().map(|axis| format!("        {},\n", in_ron(axis))).collect();
+        line(
+            "scene",
+            to_ron(&self.scene).trim_end().replace('\n', "\n    "),
+        );
+        let axes: String = self
+            .axes
+            .iter()
+            .map(|axis| format!("        {},\n", in_ron(axis)))
+            .collect();
         line("axes", format!("[\n{axes}    ]"));
         line("profiles", self.lines.to_string());
         line("seed", self.seed.to_string());
         let names: Vec<_> = self.record.iter().map(|quantity| quantity.name()).collect();
         line("record", format!("[{}]", names.join(", ")));
         let StiffnessRange { from, to, count } = self.stiffness;
-        line("stiffness", format!("(from: {}, to: {}, count: {count})", ron_float(from), ron_float(to)));
+        line(
+            "stiffness",
+            format!(
+                "(from: {}, to: {}, count: {count})",
+                ron_float(from),
+                ron_float(to)
+            ),
+        );
         if let Some(hash) = &self.measured_sha256 {
             line("measured_sha256", ron_string(hash));
         }
@@ -250,18 +290,39 @@ fn in_ron(axis: &Axis) -> String {
     };
     let [from, to] =
         [axis.values.first(), axis.values.last()].map(|end| ron_float(*end.unwrap_or(&f64::NAN)));
-    format!("{kind}(path: {path}, from: {from}, to: {to}, count: {})", axis.count())
+    format!(
+        "{kind}(path: {path}, from: {from}, to: {to}, count: {})",
+        axis.count()
+    )
 }
 
 fn in_plan(wrong: Vec<String>, name: &str) -> StudyError {
-    StudyError::Plan(wrong.into_iter().map(|wrong| format!("{name}: {wrong}")).collect())
+    StudyError::Plan(
+        wrong
+            .into_iter()
+            .map(|wrong| format!("{name}: {wrong}"))
+            .collect(),
+    )
 }
 
 /// Returns the scene of a plan with all replaced fields and with absolute paths.
-fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, StudyError> {
-    let in_scene =
-        |errors: SceneErrors| in_plan(errors.to_string().lines().map(str::to_owned).collect(), name);
-    let one_of = |given: &str| Err(in_plan(vec![format!("{given}; allowed: one of them")], name));
+fn resolved_scene(
+    read: &PlanText,
+    name: &str,
+    set: &[(String, String)],
+) -> Result<Scene, StudyError> {
+    let in_scene = |errors: SceneErrors| {
+        in_plan(
+            errors.to_string().lines().map(str::to_owned).collect(),
+            name,
+        )
+    };
+    let one_of = |given: &str| {
+        Err(in_plan(
+            vec![format!("{given}; allowed: one of them")],
+            name,
+        ))
+    };
     let document = match (&read.base, &read.scene) {
         (Some(_), Some(_)) => return one_of("`base` and `scene` are given"),
         (None, None) => return one_of("neither `base` nor `scene` is given"),
@@ -273,7 +334,12 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
             open(if is_file { &beside } else { base }).map_err(in_scene)?
         }
     };
-    let set: Vec<_> = read.set.clone().into_iter().chain(set.iter().cloned()).collect();
+    let set: Vec<_> = read
+        .set
+        .clone()
+        .into_iter()
+        .chain(set.iter().cloned())
+        .collect();
     let document = document.set_all(&set).map_err(in_scene)?;
     Ok(with_absolute_paths(&document))
 }
@@ -283,7 +349,10 @@ fn with_absolute_paths(document: &Document) -> Scene {
     let mut scene = Scene::clone(document.scene());
     scene.rename_measured_files(|file| {
         let path = document.resolve(file);
-        std::path::absolute(&path).unwrap_or(path).display().to_string()
+        std::path::absolute(&path)
+            .unwrap_or(path)
+            .display()
+            .to_string()
     });
     scene
 }

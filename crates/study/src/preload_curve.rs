@@ -20,7 +20,10 @@ const SAME: f64 = 1e-9;
 
 /// Returns the error of a single profile.
 fn failed(error: RunError) -> StudyError {
-    StudyError::Run { place: String::new(), error }
+    StudyError::Run {
+        place: String::new(),
+        error,
+    }
 }
 
 /// Adhesion force of a scene as a function of the preload, for the scene's own profile and for further random profiles.
@@ -54,7 +57,10 @@ impl PreloadCurve {
         report: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<PreloadCurve, StudyError> {
         let begun = begun.filter(|begun| begun.axis.scale() == scale && begun.staircase.is_whole());
-        let mut curve = begun.map_or_else(|| Self::begin((scene, outcome), scale, simulation, stop), Ok)?;
+        let mut curve = begun.map_or_else(
+            || Self::begin((scene, outcome), scale, simulation, stop),
+            Ok,
+        )?;
         if !curve.staircase.is_whole() {
             let axis = curve.axis.clone();
             let found = Staircase::find(scene, &axis, simulation, stop, &mut |part| {
@@ -65,7 +71,10 @@ impl PreloadCurve {
         }
         let mut results = curve.results.clone();
         let done = results.extend((std::mem::take(simulation), 1), stop, &mut |part| {
-            report(&PreloadCurve { results: part.clone(), ..curve.clone() });
+            report(&PreloadCurve {
+                results: part.clone(),
+                ..curve.clone()
+            });
         });
         done?;
         Ok(PreloadCurve { results, ..curve })
@@ -80,23 +89,39 @@ impl PreloadCurve {
     ) -> Result<Self, StudyError> {
         if scene.numerics.solver != Solver::Exact {
             let found = "many preloads at once with the stepwise solver";
-            return Err(StudyError::refused(Some("numerics.solver"), found, "the exact solver"));
+            return Err(StudyError::refused(
+                Some("numerics.solver"),
+                found,
+                "the exact solver",
+            ));
         }
         if scene.adhesion.is_none() {
             let found = "without adhesion nothing holds the bodies together";
-            return Err(StudyError::refused(Some("adhesion"), found, "a scene with adhesion"));
+            return Err(StudyError::refused(
+                Some("adhesion"),
+                found,
+                "a scene with adhesion",
+            ));
         }
-        let Figures { preload, adhesion_force, .. } = outcome.figures;
-        let preload = preload.filter(|&force| force > 0.0).or(adhesion_force).filter(|&force| force > 0.0);
+        let Figures {
+            preload,
+            adhesion_force,
+            ..
+        } = outcome.figures;
+        let preload = preload
+            .filter(|&force| force > 0.0)
+            .or(adhesion_force)
+            .filter(|&force| force > 0.0);
         let preload = preload.ok_or_else(|| {
             let found = "no stage presses the bodies together";
             StudyError::refused(Some("loading"), found, "a stage with a force above 0 N")
         })?;
         let mut touch = 0.0;
-        let touched = simulation.reverse(scene, (&[Move::ToTouch], &[]), stop, &mut |_, reversal| {
-            touch = reversal.turn.force;
-            Ok(())
-        });
+        let touched =
+            simulation.reverse(scene, (&[Move::ToTouch], &[]), stop, &mut |_, reversal| {
+                touch = reversal.turn.force;
+                Ok(())
+            });
         touched.map_err(failed)?;
         let last = (PRELOADS - 1) as f64;
         let (low, high) = match scale {
@@ -109,7 +134,11 @@ impl PreloadCurve {
         let axis = Axis::of_preloads((scale.number(low), scale.number(high)), PRELOADS, scale)?;
         let lines = scene.seed().map_or(1, |_| Self::PROFILES as u64);
         let results = Results::begin(scene, &Results::OF_PRELOADS, lines, Some(&axis));
-        Ok(PreloadCurve { axis, staircase: Staircase::default(), results: results? })
+        Ok(PreloadCurve {
+            axis,
+            staircase: Staircase::default(),
+            results: results?,
+        })
     }
 
     /// Returns true if the curve is complete: the staircase, and all [`PreloadCurve::PROFILES`] random profiles.
@@ -141,13 +170,19 @@ mod tests {
     const LINEAR: AxisScale = AxisScale::Linear;
 
     fn computed(name: &str) -> (CheckedScene, Outcome) {
-        let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 2048).unwrap();
+        let scene = open(name)
+            .unwrap()
+            .scene()
+            .with(|scene| scene.numerics.points = 2048)
+            .unwrap();
         let outcome = outcome(&scene);
         (scene, outcome)
     }
 
     fn outcome(scene: &CheckedScene) -> Outcome {
-        Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap()
+        Simulation::default()
+            .run(scene, &|| false, &mut |_, _, _| Ok(()))
+            .unwrap()
     }
 
     fn curve(
@@ -155,14 +190,24 @@ mod tests {
         scale: AxisScale,
     ) -> Result<PreloadCurve, StudyError> {
         let simulation = &mut Simulation::default();
-        PreloadCurve::compute((scene, outcome), scale, None, simulation, &|| false, &mut |_| ())
+        PreloadCurve::compute(
+            (scene, outcome),
+            scale,
+            None,
+            simulation,
+            &|| false,
+            &mut |_| (),
+        )
     }
 
     #[test]
     fn the_curve_grows_and_continues_where_it_was_stopped() {
         let computed = computed("pressure-sensitive");
-        let (simulation, profiles, parts) =
-            (&mut Simulation::default(), AtomicUsize::new(0), AtomicUsize::new(0));
+        let (simulation, profiles, parts) = (
+            &mut Simulation::default(),
+            AtomicUsize::new(0),
+            AtomicUsize::new(0),
+        );
         let stop = || profiles.load(Relaxed) >= 3;
         let mut last = None;
         let mut see = |curve: &PreloadCurve| {
@@ -170,11 +215,20 @@ mod tests {
             parts.fetch_add(1, Relaxed);
             last = Some(curve.clone());
         };
-        let done =
-            PreloadCurve::compute((&computed.0, &computed.1), LINEAR, None, simulation, &stop, &mut see);
+        let done = PreloadCurve::compute(
+            (&computed.0, &computed.1),
+            LINEAR,
+            None,
+            simulation,
+            &stop,
+            &mut see,
+        );
         let begun = last.unwrap();
         assert!(
-            done.is_err() && begun.staircase.is_whole() && begun.profiles() == 3 && parts.load(Relaxed) > 4
+            done.is_err()
+                && begun.staircase.is_whole()
+                && begun.profiles() == 3
+                && parts.load(Relaxed) > 4
         );
         let mut first = None;
         let mut see = |part: &PreloadCurve| {
@@ -189,15 +243,29 @@ mod tests {
             &mut see,
         );
         let whole = whole.unwrap();
-        assert_eq!((first, whole.profiles(), whole.is_whole()), (Some(4), PreloadCurve::PROFILES, true));
+        assert_eq!(
+            (first, whole.profiles(), whole.is_whole()),
+            (Some(4), PreloadCurve::PROFILES, true)
+        );
         assert_eq!(curve(&computed, LINEAR).unwrap(), whole);
         // The preload of the scene is among those of the axis, and its adhesion force on the staircase.
         let figures = computed.1.figures;
         let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
-        let at = whole.staircase.forces.iter().find(|at| (at.0 / preload - 1.0).abs() < SAME).unwrap();
+        let at = whole
+            .staircase
+            .forces
+            .iter()
+            .find(|at| (at.0 / preload - 1.0).abs() < SAME)
+            .unwrap();
         assert!((at.1 / force - 1.0).abs() < 1e-9);
-        assert_eq!(whole.at(preload).map(|all| all.count), Some(PreloadCurve::PROFILES));
-        assert_eq!((whole.at(0.7 * preload), whole.axis.values[0]), (None, whole.staircase.touch.0));
+        assert_eq!(
+            whole.at(preload).map(|all| all.count),
+            Some(PreloadCurve::PROFILES)
+        );
+        assert_eq!(
+            (whole.at(0.7 * preload), whole.axis.values[0]),
+            (None, whole.staircase.touch.0)
+        );
         // Another axis is another curve.
         let ratios = curve(&computed, AxisScale::Logarithmic).unwrap();
         let (first, last) = (ratios.axis.values[0], ratios.axis.values[PRELOADS - 1]);
@@ -210,14 +278,32 @@ mod tests {
         assert_eq!(curve(&one, LINEAR).unwrap().profiles(), 1);
         let scene = one.0.clone();
         let steps = scene.with(|scene| {
-            (scene.numerics.solver, scene.numerics.edges) = (Solver::Stepwise { step: 1e-9 }, Edges::Grid);
+            (scene.numerics.solver, scene.numerics.edges) =
+                (Solver::Stepwise { step: 1e-9 }, Edges::Grid);
         });
         one.0 = steps.unwrap();
-        assert!(curve(&one, LINEAR).unwrap_err().to_string().contains("exact solver"));
-        let scene = scene.with(|scene| scene.loading = vec![Move::ToIndentation(-1e-9)]).unwrap();
+        assert!(
+            curve(&one, LINEAR)
+                .unwrap_err()
+                .to_string()
+                .contains("exact solver")
+        );
+        let scene = scene
+            .with(|scene| scene.loading = vec![Move::ToIndentation(-1e-9)])
+            .unwrap();
         one = (scene.clone(), outcome(&scene));
-        assert!(curve(&one, LINEAR).unwrap_err().to_string().contains("presses"));
+        assert!(
+            curve(&one, LINEAR)
+                .unwrap_err()
+                .to_string()
+                .contains("presses")
+        );
         one.0 = scene.with(|scene| scene.adhesion = None).unwrap();
-        assert!(curve(&one, LINEAR).unwrap_err().to_string().contains("adhesion"));
+        assert!(
+            curve(&one, LINEAR)
+                .unwrap_err()
+                .to_string()
+                .contains("adhesion")
+        );
     }
 }

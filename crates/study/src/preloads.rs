@@ -14,8 +14,7 @@ use std::ops::RangeInclusive;
 
 /// Usual number of preloads, and what a text of preloads may be.
 const USUAL: usize = 64;
-const ALLOWED: &str =
-    "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
+const ALLOWED: &str = "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
 /// Share of the axis of preloads within which each step of a staircase is located.
 const FINEST: f64 = 1.0 / 2048.0;
@@ -68,8 +67,11 @@ impl Axis {
     /// ```
     pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), StudyError> {
         let refused = |found| StudyError::refused(None, found, "two numbers, such as 1..20");
-        let (from, to) = text.split_once("..").ok_or_else(|| refused(format!("{text:?}")))?;
-        let number = |text: &str| parse_quantity(text, unit).map_err(|error| refused(error.to_string()));
+        let (from, to) = text
+            .split_once("..")
+            .ok_or_else(|| refused(format!("{text:?}")))?;
+        let number =
+            |text: &str| parse_quantity(text, unit).map_err(|error| refused(error.to_string()));
         Ok((number(from)?, number(to)?))
     }
 
@@ -78,7 +80,11 @@ impl Axis {
     ///
     /// # Errors
     /// Returns an error if a force or the number of preloads is not allowed.
-    pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, StudyError> {
+    pub fn of_preloads(
+        (from, to): (f64, f64),
+        count: usize,
+        scale: AxisScale,
+    ) -> Result<Axis, StudyError> {
         check_ends(from, to, count as u64, *Axis::PRELOADS.end() as u64)?;
         let range = LEG_FORCE.range;
         if !(range.contains(from) && range.contains(to)) {
@@ -93,7 +99,11 @@ impl Axis {
         let inner = |index: usize| low + (high - low) * (index as f64 / (count - 1) as f64);
         let inner = (1..count - 1).map(|index| scale.number(inner(index)).clamp(from, to));
         Ok(Axis {
-            spacing: if is_logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
+            spacing: if is_logarithmic {
+                Spacing::Logarithmic
+            } else {
+                Spacing::Linear
+            },
             values: std::iter::once(from).chain(inner).chain([to]).collect(),
             ..Axis::of_preload()
         })
@@ -158,19 +168,39 @@ impl Staircase {
     ) -> Result<Staircase, RunError> {
         let mut solve = |ends: &[Move]| -> Result<Vec<(f64, f64)>, RunError> {
             let mut solved = vec![(0.0, 0.0); ends.len()];
-            simulation.reverse(scene, (ends, &[]), stop, &mut |index, reversal: Reversal| {
-                solved[index] = (reversal.turn.force, reversal.adhesion_force().unwrap_or(0.0));
-                Ok(())
-            })?;
+            simulation.reverse(
+                scene,
+                (ends, &[]),
+                stop,
+                &mut |index, reversal: Reversal| {
+                    solved[index] = (
+                        reversal.turn.force,
+                        reversal.adhesion_force().unwrap_or(0.0),
+                    );
+                    Ok(())
+                },
+            )?;
             Ok(solved)
         };
         let scale = preloads.scale();
         let ends = solve(&[Move::ToTouch, Move::ToZeroForce])?;
         let (touch, zero_force) = (ends[0], ends[1].1);
-        if let Some(&preload) = preloads.values.first().filter(|preload| **preload < touch.0) {
-            return Err(RunError::BelowTouch { preload, touch: touch.0 });
+        if let Some(&preload) = preloads
+            .values
+            .first()
+            .filter(|preload| **preload < touch.0)
+        {
+            return Err(RunError::BelowTouch {
+                preload,
+                touch: touch.0,
+            });
         }
-        let mut all = Staircase { scale, touch, zero_force, forces: Vec::new() };
+        let mut all = Staircase {
+            scale,
+            touch,
+            zero_force,
+            forces: Vec::new(),
+        };
         let mut missing = preloads.values.clone();
         while !missing.is_empty() {
             let ends: Vec<Move> = missing.iter().map(|&force| Move::ToForce(force)).collect();
@@ -192,13 +222,18 @@ impl Staircase {
     /// Returns the middles of the intervals of preloads that contain a step and are still wide.
     fn halves(&self) -> Vec<f64> {
         let at = |point: &(f64, f64)| self.scale.coordinate(point.0);
-        let [Some(low), Some(high)] = [self.forces.first(), self.forces.last()].map(|end| end.map(at)) else {
+        let [Some(low), Some(high)] =
+            [self.forces.first(), self.forces.last()].map(|end| end.map(at))
+        else {
             return Vec::new();
         };
         let middle = |pair: &[(f64, f64)]| {
-            let ([from, to], steps) =
-                ([at(&pair[0]), at(&pair[1])], pair[1].1 - pair[0].1 > SAME * pair[1].1);
-            (steps && to - from > FINEST * (high - low)).then(|| self.scale.number(f64::midpoint(from, to)))
+            let ([from, to], steps) = (
+                [at(&pair[0]), at(&pair[1])],
+                pair[1].1 - pair[0].1 > SAME * pair[1].1,
+            );
+            (steps && to - from > FINEST * (high - low))
+                .then(|| self.scale.number(f64::midpoint(from, to)))
         };
         self.forces.windows(2).filter_map(middle).collect()
     }
@@ -206,7 +241,12 @@ impl Staircase {
     /// Returns the staircase as a polygonal line for a chart: its corners, each with preload and adhesion force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
-        self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()
+        self.forces
+            .first()
+            .copied()
+            .into_iter()
+            .chain(self.forces.windows(2).flat_map(corner))
+            .collect()
     }
 }
 
@@ -235,13 +275,20 @@ impl Results {
     /// each computed profile. The axis of the study must have preloads in N; `None` if this axis has no values.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
-        let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));
+        let nearest =
+            (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));
         nearest.map(|cell| self.forces_in(cell))
     }
 
     fn forces_in(&self, cell: u64) -> (f64, Vec<f64>) {
-        let force = |(line, _)| self.value(cell, line, Quantity::AdhesionForce).unwrap_or(0.0);
-        (self.plan.value(cell, 0), self.records_of(cell).map(force).collect())
+        let force = |(line, _)| {
+            self.value(cell, line, Quantity::AdhesionForce)
+                .unwrap_or(0.0)
+        };
+        (
+            self.plan.value(cell, 0),
+            self.records_of(cell).map(force).collect(),
+        )
     }
 }
 
@@ -260,9 +307,21 @@ mod tests {
         Axis::of_preloads(ends, count, AxisScale::Linear).unwrap()
     }
 
-    fn solved(document: &Document, preloads: &Axis, lines: u64, jobs: usize) -> Result<Results, String> {
+    fn solved(
+        document: &Document,
+        preloads: &Axis,
+        lines: u64,
+        jobs: usize,
+    ) -> Result<Results, String> {
         let (scene, folder) = (document.scene(), document.resolve(""));
-        let results = Results::of_scene(scene, &folder, &Results::OF_PRELOADS, lines, Some(preloads), jobs);
+        let results = Results::of_scene(
+            scene,
+            &folder,
+            &Results::OF_PRELOADS,
+            lines,
+            Some(preloads),
+            jobs,
+        );
         results.map_err(|error| error.to_string())
     }
 
@@ -270,24 +329,46 @@ mod tests {
     fn adhesion_grows_with_the_preload_over_sixteen_profiles() {
         let document = open("pressure-sensitive").unwrap();
         let preloads = preloads((0.0, 2e-5), 9);
-        assert_eq!((preloads.values[0], preloads.values[8], preloads.values.len()), (0.0, 2e-5, 9));
+        assert_eq!(
+            (
+                preloads.values[0],
+                preloads.values[8],
+                preloads.values.len()
+            ),
+            (0.0, 2e-5, 9)
+        );
         let results = solved(&document, &preloads, 16, 2).unwrap();
         // One profile is the scene itself, loaded to one of the forces.
         let scene = document.scene().with_seed(results.plan().seed_of(3));
         let loading = vec![Move::ToForce(preloads.values[4]), Move::ToSeparation];
         let scene = scene.with(|scene| scene.loading = loading).unwrap();
-        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = Simulation::default()
+            .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         let found = |quantity| results.value(4, 3, quantity);
-        assert_eq!(found(Quantity::AdhesionForce), outcome.figures.adhesion_force);
-        assert_eq!(found(Quantity::DissipatedEnergy), outcome.figures.dissipated_energy);
+        assert_eq!(
+            found(Quantity::AdhesionForce),
+            outcome.figures.adhesion_force
+        );
+        assert_eq!(
+            found(Quantity::DissipatedEnergy),
+            outcome.figures.dissipated_energy
+        );
         for line in 0..16 {
             let curve: Vec<f64> = (0..9).map(|cell| results.forces_in(cell).1[line]).collect();
             assert!(curve.windows(2).all(|pair| pair[0] <= pair[1]), "{curve:?}");
         }
-        let means: Vec<f64> = results.spread_of_adhesion().iter().map(|(_, one)| one.mean).collect();
+        let means: Vec<f64> = results
+            .spread_of_adhesion()
+            .iter()
+            .map(|(_, one)| one.mean)
+            .collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
         // Twice the preload about doubles the mean.
-        assert!(means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2], "{means:?}");
+        assert!(
+            means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2],
+            "{means:?}"
+        );
         assert!(means[0] < 0.1 * means[8], "{means:?}");
         assert_eq!(solved(&document, &preloads, 16, 1), Ok(results));
     }
@@ -295,12 +376,23 @@ mod tests {
     #[test]
     fn smooth_bodies_have_but_one_profile() {
         let (smooth, preloads) = (open("jkr-sphere").unwrap(), preloads((0.0, 1e-6), 2));
-        assert_eq!(solved(&smooth, &preloads, 2, 1), Err(StudyError::fixed_profile().to_string()));
+        assert_eq!(
+            solved(&smooth, &preloads, 2, 1),
+            Err(StudyError::fixed_profile().to_string())
+        );
         let one = solved(&smooth, &preloads, 1, 1).unwrap();
-        assert_eq!((one.plan().cells(), one.spread_of_adhesion()), (2, Vec::new()));
-        let stepwise = smooth.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();
+        assert_eq!(
+            (one.plan().cells(), one.spread_of_adhesion()),
+            (2, Vec::new())
+        );
+        let stepwise = smooth
+            .set("numerics.solver", "Stepwise(step: 1e-9)")
+            .unwrap();
         let error = solved(&stepwise, &preloads, 1, 1).unwrap_err();
-        assert!(error.starts_with("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
+        assert!(
+            error.starts_with("numerics.solver = Stepwise: reversals need the exact solver"),
+            "{error}"
+        );
     }
 
     /// Preloads in N are those of runs of their own, also of a smooth body, and a plan keeps their unit.
@@ -312,16 +404,38 @@ mod tests {
                  values: [2e-6, 1e-5])], record: [adhesion_force, dissipated_energy])"
             );
             let plan = Plan::parse(&text, base, &Changes::default()).unwrap();
-            assert_eq!(Plan::parse(&plan.to_ron(), base, &Changes::default()).unwrap(), plan);
-            let streak = Streak { cells: 0..2, line: 0 };
-            let records = Recorder::new(&plan, Simulation::default(), &|| false).record(&streak).unwrap();
+            assert_eq!(
+                Plan::parse(&plan.to_ron(), base, &Changes::default()).unwrap(),
+                plan
+            );
+            let streak = Streak {
+                cells: 0..2,
+                line: 0,
+            };
+            let records = Recorder::new(&plan, Simulation::default(), &|| false)
+                .record(&streak)
+                .unwrap();
             for (force, record) in [2e-6, 1e-5].into_iter().zip(records) {
                 let loading = vec![Move::ToForce(force), Move::ToSeparation];
-                let scene = plan.scene_of(0).unwrap().with(|scene| scene.loading = loading).unwrap();
-                let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-                let Figures { adhesion_force, dissipated_energy, .. } = outcome.figures;
+                let scene = plan
+                    .scene_of(0)
+                    .unwrap()
+                    .with(|scene| scene.loading = loading)
+                    .unwrap();
+                let outcome = Simulation::default()
+                    .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+                    .unwrap();
+                let Figures {
+                    adhesion_force,
+                    dissipated_energy,
+                    ..
+                } = outcome.figures;
                 let record: Vec<_> = record.into_iter().map(Some).collect();
-                assert_eq!(record, [adhesion_force, dissipated_energy], "{base} {force}");
+                assert_eq!(
+                    record,
+                    [adhesion_force, dissipated_energy],
+                    "{base} {force}"
+                );
             }
         }
     }
@@ -331,39 +445,75 @@ mod tests {
     #[test]
     fn a_staircase_has_its_steps_where_a_fine_grid_has_them() {
         let document = open("pressure-sensitive").unwrap();
-        let scene = document.scene().with(|scene| scene.numerics.points = 2048).unwrap();
+        let scene = document
+            .scene()
+            .with(|scene| scene.numerics.points = 2048)
+            .unwrap();
         let find = |ends, count, scale| {
             let axis = Axis::of_preloads(ends, count, scale).unwrap();
             let mut parts = Vec::new();
-            let found = Staircase::find(&scene, &axis, &mut Simulation::default(), &|| false, &mut |part| {
-                parts.push(part.forces.len());
-            });
+            let found = Staircase::find(
+                &scene,
+                &axis,
+                &mut Simulation::default(),
+                &|| false,
+                &mut |part| {
+                    parts.push(part.forces.len());
+                },
+            );
             found.map(|found| (found, parts))
         };
         let (coarse, parts) = find((0.0, 4e-5), 5, AxisScale::Linear).unwrap();
         let (fine, _) = find((0.0, 4e-5), 512, AxisScale::Linear).unwrap();
-        assert!(parts[0] == 5 && parts.windows(2).all(|pair| pair[0] < pair[1]), "{parts:?}");
+        assert!(
+            parts[0] == 5 && parts.windows(2).all(|pair| pair[0] < pair[1]),
+            "{parts:?}"
+        );
         let at = |all: &Staircase, preload: f64| {
-            all.forces[all.forces.partition_point(|point| point.0 <= preload).saturating_sub(1)].1
+            all.forces[all
+                .forces
+                .partition_point(|point| point.0 <= preload)
+                .saturating_sub(1)]
+            .1
         };
         let width = FINEST * 4e-5;
         let mut steps = 0;
         for (preload, force) in fine.forces {
-            let (before, after) = (at(&coarse, preload - 2.0 * width), at(&coarse, preload + 2.0 * width));
-            assert!(before <= force * (1.0 + 1e-9) && force <= after * (1.0 + 1e-9), "{preload}");
+            let (before, after) = (
+                at(&coarse, preload - 2.0 * width),
+                at(&coarse, preload + 2.0 * width),
+            );
+            assert!(
+                before <= force * (1.0 + 1e-9) && force <= after * (1.0 + 1e-9),
+                "{preload}"
+            );
             steps += usize::from(before < after);
         }
         assert!(steps > 2, "{steps}");
         // Level, then upright: never a ramp.
-        assert!(coarse.line().windows(2).all(|pair| pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1));
+        assert!(
+            coarse
+                .line()
+                .windows(2)
+                .all(|pair| pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1)
+        );
         let (touch, adhesion) = coarse.touch;
         assert!(touch < 0.0 && adhesion <= coarse.zero_force);
         let (drawn, _) = find((touch, -touch), 9, AxisScale::Linear).unwrap();
-        assert_eq!((drawn.forces[0], at(&drawn, 0.0)), ((touch, adhesion), coarse.zero_force));
-        let below = RunError::BelowTouch { preload: 2.0 * touch, touch };
+        assert_eq!(
+            (drawn.forces[0], at(&drawn, 0.0)),
+            ((touch, adhesion), coarse.zero_force)
+        );
+        let below = RunError::BelowTouch {
+            preload: 2.0 * touch,
+            touch,
+        };
         assert_eq!(find((2.0 * touch, 1e-5), 9, AxisScale::Linear), Err(below));
         let (ratios, _) = find((1e-9, 1e-3), 64, AxisScale::Logarithmic).unwrap();
-        assert_eq!((ratios.forces[0].0, ratios.forces[ratios.forces.len() - 1].0), (1e-9, 1e-3));
+        assert_eq!(
+            (ratios.forces[0].0, ratios.forces[ratios.forces.len() - 1].0),
+            (1e-9, 1e-3)
+        );
     }
 
     #[test]
@@ -373,7 +523,10 @@ mod tests {
         assert_eq!(values("-1e-6 .. 2e-6:4"), [-1e-6, 0.0, 1e-6, 2e-6]);
         for text in ["1nN..1uN:4:log", "1nN..1uN:log:4"] {
             let values = values(text);
-            assert!(values.len() == 4 && (values[1] / 1e-8 - 1.0).abs() < 1e-12, "{values:?}");
+            assert!(
+                values.len() == 4 && (values[1] / 1e-8 - 1.0).abs() < 1e-12,
+                "{values:?}"
+            );
         }
         for (wrong, allowed) in [
             ("", "two forces"),

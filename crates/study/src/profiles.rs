@@ -26,10 +26,17 @@ pub(super) fn on_profiles<R: Send>(
     receive: &mut dyn FnMut(u64, R),
 ) -> Result<(), StudyError> {
     let most = jobs.clamp(1, lines.len().max(1));
-    let jobs = (2..=most).rev().find(|jobs| plan.memory(*jobs as u64).is_ok()).unwrap_or(1);
+    let jobs = (2..=most)
+        .rev()
+        .find(|jobs| plan.memory(*jobs as u64).is_ok())
+        .unwrap_or(1);
     let solved = |simulation: &mut Simulation, line| {
         solve(simulation, line).map_err(|error| {
-            let place = if plan.lines > 1 { format!("seed {}: ", plan.seed_of(line)) } else { String::new() };
+            let place = if plan.lines > 1 {
+                format!("seed {}: ", plan.seed_of(line))
+            } else {
+                String::new()
+            };
             StudyError::Run { place, error }
         })
     };
@@ -42,7 +49,10 @@ pub(super) fn on_profiles<R: Send>(
     simulations.push(simulation);
     let simulations = Mutex::new(simulations);
     let worker = |sender: Sender<(u64, R)>| {
-        let own = simulations.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let own = simulations
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .pop();
         let (mut simulation, solved) = (own.unwrap_or_default(), &solved);
         move |number: u64| {
             let line = lines[number as usize];
@@ -52,7 +62,10 @@ pub(super) fn on_profiles<R: Send>(
         }
     };
     let count = lines.len() as u64;
-    on_threads_received(count, jobs, worker, &mut |(line, solved)| receive(line, solved)).map(drop)
+    on_threads_received(count, jobs, worker, &mut |(line, solved)| {
+        receive(line, solved)
+    })
+    .map(drop)
 }
 
 /// Returns results for the numbers below `count`, computed on `jobs` threads, each with its own `worker`. `receive` gets
@@ -70,7 +83,9 @@ pub(super) fn on_threads_received<M: Send, R: Send, W: FnMut(u64) -> Result<R, S
     let worker = &worker;
     std::thread::scope(|scope| {
         let work = move || on_threads(count, jobs, || worker(sender.clone()));
-        let threads = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
+        let threads = Builder::new()
+            .spawn_scoped(scope, work)
+            .map_err(StudyError::NoThread)?;
         receiver.iter().for_each(receive);
         threads.join().unwrap_or_else(|panic| resume_unwind(panic))
     })

@@ -196,8 +196,10 @@ quantities! {
 
 impl Quantity {
     /// Both adhesion forces without a preload, F_a(d=0) and F_a(F=0), each divided by the ideal adhesion force F_a,max.
-    pub const ADHESION_SHARES: [Quantity; 2] =
-        [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
+    pub const ADHESION_SHARES: [Quantity; 2] = [
+        Quantity::FirstTouchAdhesionShare,
+        Quantity::ZeroForceAdhesionShare,
+    ];
 
     /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
@@ -205,12 +207,20 @@ impl Quantity {
     /// Returns where the loading turns for the regimes that are shown on a map of this quantity: `turned at zero force` for
     /// [`Quantity::RegimeAfterZeroForce`], and `turned at first touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
-        if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }
+        if self == Quantity::RegimeAfterZeroForce {
+            "turned at zero force"
+        } else {
+            "turned at first touch"
+        }
     }
 
     /// Returns the text of [`Quantity::protocol`] in short: `F=0` for zero force, `d=0` for first touch.
     pub fn short_protocol(self) -> &'static str {
-        if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "d=0" }
+        if self == Quantity::RegimeAfterZeroForce {
+            "F=0"
+        } else {
+            "d=0"
+        }
     }
 
     /// Returns true if the quantity is a regime of adhesion, which is not a number.
@@ -239,7 +249,11 @@ impl Quantity {
 
     /// Returns the symbol of the quantity, or its name if it has no symbol.
     pub const fn symbol_or_name(self) -> &'static str {
-        if self.symbol().is_empty() { self.name() } else { self.symbol() }
+        if self.symbol().is_empty() {
+            self.name()
+        } else {
+            self.symbol()
+        }
     }
 
     /// Returns the quantity with this symbol or name. The words of a name may be separated by blanks, hyphens or `_`.
@@ -259,17 +273,30 @@ impl Quantity {
         let name = text.to_lowercase().replace([' ', '-'], "_");
         let is_named = |one: &Quantity| one.symbol() == text || one.name() == name;
         let found: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_named).collect();
-        let names = |all: &[Quantity]| all.iter().map(|one| one.name()).collect::<Vec<_>>().join(", ");
+        let names = |all: &[Quantity]| {
+            all.iter()
+                .map(|one| one.name())
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
         match found[..] {
             [one] => Ok(one),
             [] => {
-                let words = Quantity::ALL.into_iter().flat_map(|one| [one.name(), one.symbol()]);
+                let words = Quantity::ALL
+                    .into_iter()
+                    .flat_map(|one| [one.name(), one.symbol()]);
                 // A letter or two is near to anything.
                 let near = did_you_mean(&name, words.filter(|word| word.chars().count() > 2));
                 let all = format!(" (quantities: {})", names(&Quantity::ALL));
-                Err(format!("{text:?} is no quantity{}", if near.is_empty() { all } else { near }))
+                Err(format!(
+                    "{text:?} is no quantity{}",
+                    if near.is_empty() { all } else { near }
+                ))
             }
-            ref several => Err(format!("{text:?} has several meanings; allowed: {}", names(several))),
+            ref several => Err(format!(
+                "{text:?} has several meanings; allowed: {}",
+                names(several)
+            )),
         }
     }
 
@@ -290,11 +317,15 @@ impl Quantity {
     /// Returns the value of the quantity in a case in its SI unit; NaN if the case has none. The value of a regime is its
     /// index in [`asperity_scene::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
-        (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
+        (self.row().of)(case)
+            .filter(|value| value.is_finite())
+            .unwrap_or(f64::NAN)
     }
 }
 
 /// Returns the regime that a recorded value means; `None` for NaN.
 pub(super) fn regime_of(value: f64) -> Option<Regime> {
-    Regime::ALL.get(Some(value as usize).filter(|_| !value.is_nan())?).copied()
+    Regime::ALL
+        .get(Some(value as usize).filter(|_| !value.is_nan())?)
+        .copied()
 }

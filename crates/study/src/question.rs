@@ -105,7 +105,9 @@ impl Question {
         // The symbol F_a(F=0) has the sign itself.
         let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
         let refused = |found: String| StudyError::refused(None, found, example);
-        let (name, value) = text.rsplit_once('=').ok_or_else(|| refused(format!("{text:?}")))?;
+        let (name, value) = text
+            .rsplit_once('=')
+            .ok_or_else(|| refused(format!("{text:?}")))?;
         let quantity = Quantity::named(name).map_err(refused)?;
         if quantity.is_regime() {
             return Err(refused(format!("{} is not a number", quantity.name())));
@@ -114,9 +116,13 @@ impl Question {
             .map_err(|error| refused(format!("value of {}: {error}", quantity.symbol_or_name())))?;
         let (least, most) = quantity.bounds();
         if target < least || target > most {
-            let [found, least, end] = [target, least, most].map(|one| format_quantity(one, quantity.unit()));
-            let allowed =
-                if most.is_finite() { format!("from {least} to {end}") } else { format!("at least {least}") };
+            let [found, least, end] =
+                [target, least, most].map(|one| format_quantity(one, quantity.unit()));
+            let allowed = if most.is_finite() {
+                format!("from {least} to {end}")
+            } else {
+                format!("at least {least}")
+            };
             let found = format!("{} = {found}", quantity.symbol_or_name());
             return Err(StudyError::refused(None, found, allowed));
         }
@@ -138,30 +144,49 @@ impl Question {
         profiles: u64,
         simulation: &mut Simulation,
     ) -> Result<Question, StudyError> {
-        let failed = |error| StudyError::Run { place: String::new(), error };
+        let failed = |error| StudyError::Run {
+            place: String::new(),
+            error,
+        };
         let mut base = Scene::clone(scene);
         let (axis, (scale, usual)) = if path == PRELOAD {
             if scene.numerics.solver != Solver::Exact {
                 return Err(failed(RunError::NeedsExactSolver));
             }
             let reach = simulation.reach(scene).map_err(failed)?;
-            let force = |stage: &Move| if let Move::ToForce(force) = stage { Some(*force) } else { None };
+            let force = |stage: &Move| {
+                if let Move::ToForce(force) = stage {
+                    Some(*force)
+                } else {
+                    None
+                }
+            };
             let own = scene.loading.iter().filter_map(force).fold(0.0, f64::max);
-            let usual = if own > 0.0 { FACTOR * own } else { DEEPER * reach.full_contact.0 };
+            let usual = if own > 0.0 {
+                FACTOR * own
+            } else {
+                DEEPER * reach.full_contact.0
+            };
             // Within reach of every profile, wherever its full contact is.
             let most = usual.min(reach.force - reach.full_contact.0);
             (Axis::of_preload(), (AxisScale::Linear, Some((0.0, most))))
         } else {
             let axis = Axis::new(path, Spacing::List, Vec::new(), scene)?;
             let (_, _, governing) = simulation.make_line(scene).map_err(failed)?;
-            let by_parameter = base.adhesion.filter(|one| path == WORK && one.parameter().is_some());
+            let by_parameter = base
+                .adhesion
+                .filter(|one| path == WORK && one.parameter().is_some());
             if let Some((adhesion, work)) = by_parameter.zip(governing.work_of_adhesion) {
                 // The work of adhesion that follows from κ or e_el/γ becomes a number of the scene.
                 base.adhesion = Some(adhesion.with_work(work));
             }
             let present = axis.value_in(&base, Some(&governing));
             let present = present.ok_or_else(|| {
-                StudyError::refused(Some(path), "the scene has no such number", "a number that the scene has")
+                StudyError::refused(
+                    Some(path),
+                    "the scene has no such number",
+                    "a number that the scene has",
+                )
             })?;
             let range = usual_range(&axis, present);
             (axis, range)
@@ -170,7 +195,14 @@ impl Question {
         let plan = Plan::of_scene(&base, profiles, &recorded(&axis, quantity));
         // A number below zero has no range around it.
         let searched = usual.unwrap_or((f64::NAN, f64::NAN));
-        Ok(Question { axis, quantity, target, searched, scale, plan })
+        Ok(Question {
+            axis,
+            quantity,
+            target,
+            searched,
+            scale,
+            plan,
+        })
     }
 
     /// Returns an error for an empty range.
@@ -181,12 +213,16 @@ impl Question {
             return self.check_allowed();
         }
         let [first, last] = [from, to].map(|end| format_quantity(end, self.axis.unit));
-        let refused = |found, allowed| Err(StudyError::refused(Some(&self.axis.path), found, allowed));
+        let refused =
+            |found, allowed| Err(StudyError::refused(Some(&self.axis.path), found, allowed));
         if from.is_nan() {
             let found = "there is no usual range around a number that is not above 0".to_owned();
             return refused(found, "a range: --range A..B");
         }
-        refused(format!("range {first} to {last}"), "two finite numbers, the first below the second")
+        refused(
+            format!("range {first} to {last}"),
+            "two finite numbers, the first below the second",
+        )
     }
 
     /// Returns an error for a range without an allowed number, such as a whole one.
@@ -196,8 +232,16 @@ impl Question {
         }
         let range = format_range(self.searched, 4, self.axis.unit);
         let waves = "a range with a number for which whole waves fit on the length";
-        let allowed = if self.allowed() == Allowed::Whole { "a range with a whole number" } else { waves };
-        Err(StudyError::refused(Some(&self.axis.path), format!("range {range}"), allowed))
+        let allowed = if self.allowed() == Allowed::Whole {
+            "a range with a whole number"
+        } else {
+            waves
+        };
+        Err(StudyError::refused(
+            Some(&self.axis.path),
+            format!("range {range}"),
+            allowed,
+        ))
     }
 
     /// Returns the number of random profiles on which the question is answered.
@@ -233,7 +277,10 @@ impl Question {
         let scene = &self.plan.scene;
         let is_loop = match scene.loading[..] {
             [Move::ToTouch | Move::ToZeroForce, Move::ToSeparation] => true,
-            [Move::ToForce(press) | Move::ToIndentation(press), Move::ToSeparation] => press >= 0.0,
+            [
+                Move::ToForce(press) | Move::ToIndentation(press),
+                Move::ToSeparation,
+            ] => press >= 0.0,
             _ => false,
         };
         let is_loop_force = match self.quantity {
@@ -253,7 +300,10 @@ impl Question {
     /// Returns true if the waves of the roughness are given by wavelengths and the sought number changes how many of them fit
     /// on the length. Only numbers at which a whole number of waves fits are answers.
     pub fn is_of_whole_waves(&self) -> bool {
-        matches!(self.allowed(), Allowed::Fractions(_) | Allowed::Multiples(_))
+        matches!(
+            self.allowed(),
+            Allowed::Fractions(_) | Allowed::Multiples(_)
+        )
     }
 
     /// Returns the values that the sought number can have.
@@ -283,35 +333,56 @@ impl Question {
 /// Returns the same quantity turned at first touch, for an adhesion force over the preload, which never falls.
 pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
-        (Target::Preload { .. }, Quantity::AdhesionForce) => Some(Quantity::FirstTouchAdhesionForce),
-        (Target::Preload { .. }, Quantity::AdhesionShare) => Some(Quantity::FirstTouchAdhesionShare),
+        (Target::Preload { .. }, Quantity::AdhesionForce) => {
+            Some(Quantity::FirstTouchAdhesionForce)
+        }
+        (Target::Preload { .. }, Quantity::AdhesionShare) => {
+            Some(Quantity::FirstTouchAdhesionShare)
+        }
         _ => None,
     }
 }
 
 /// Returns the quantities that are recorded at each number: the quantity of the question, then one that the search needs.
 fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
-    let follows_steps = matches!(quantity, Quantity::AdhesionCoefficient | Quantity::PullOffIndentation);
+    let follows_steps = matches!(
+        quantity,
+        Quantity::AdhesionCoefficient | Quantity::PullOffIndentation
+    );
     let steps = (axis.is_of_preloads() && follows_steps).then_some(Quantity::AdhesionForce);
-    std::iter::once(quantity).chain(at_touch(axis, quantity)).chain(steps).collect()
+    std::iter::once(quantity)
+        .chain(at_touch(axis, quantity))
+        .chain(steps)
+        .collect()
 }
 
 /// Returns the scale and the range on which a number is searched whose value in the scene is `present`.
 fn usual_range(axis: &Axis, present: f64) -> (AxisScale, Option<(f64, f64)>) {
-    let ends = if let Target::Number(field) = axis.target { field.range.ends() } else { None };
+    let ends = if let Target::Number(field) = axis.target {
+        field.range.ends()
+    } else {
+        None
+    };
     let (least, most) = ends.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
     let inside = MARGIN * (most - least);
     if most - least <= NARROW {
         return (AxisScale::Linear, Some((least + inside, most - inside)));
     }
     let around = ((present / FACTOR).max(least), (present * FACTOR).min(most));
-    (AxisScale::Logarithmic, Some(around).filter(|_| present > 0.0))
+    (
+        AxisScale::Logarithmic,
+        Some(around).filter(|_| present > 0.0),
+    )
 }
 
 impl Answer {
     /// Returns the number of the profile: the first crossing, or the smallest preload that reaches the target.
     pub(super) fn value(&self, question: &Question) -> Option<f64> {
         let already = question.seeks_least_preload() && self.reached[0];
-        if already { Some(question.searched.0) } else { self.crossings.first().copied() }
+        if already {
+            Some(question.searched.0)
+        } else {
+            self.crossings.first().copied()
+        }
     }
 }

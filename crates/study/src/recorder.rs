@@ -31,7 +31,13 @@ pub(super) struct Recorder<'p> {
 impl<'p> Recorder<'p> {
     /// Creates a recorder that stops within a case as soon as `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
-        Recorder { plan, simulation, profile: None, warnings: Vec::new(), stop }
+        Recorder {
+            plan,
+            simulation,
+            profile: None,
+            warnings: Vec::new(),
+            stop,
+        }
     }
 
     /// Returns the premises that the cases recorded so far do not meet, each list with the number of the cell, and forgets them.
@@ -49,12 +55,25 @@ impl<'p> Recorder<'p> {
             Err(error) if is_of_machine(&error) => Err(error),
             Err(error) if streak.cells.end - streak.cells.start == 1 => {
                 let reason = error.to_string();
-                Ok(vec![Err(printable(reason.lines().next().unwrap_or_default()).into_owned())])
+                Ok(vec![Err(printable(
+                    reason.lines().next().unwrap_or_default(),
+                )
+                .into_owned())])
             }
             // Of several preloads some may be within reach.
             Err(_) => {
-                let one = |cell| self.record_each(&Streak { cells: cell..cell + 1, line: streak.line });
-                Ok(streak.cells.clone().map(one).collect::<Result<Vec<_>, _>>()?.concat())
+                let one = |cell| {
+                    self.record_each(&Streak {
+                        cells: cell..cell + 1,
+                        line: streak.line,
+                    })
+                };
+                Ok(streak
+                    .cells
+                    .clone()
+                    .map(one)
+                    .collect::<Result<Vec<_>, _>>()?
+                    .concat())
             }
         }
     }
@@ -65,7 +84,10 @@ impl<'p> Recorder<'p> {
     /// The profile or the contact fails, or `stop` returned true.
     pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
         let plan = self.plan;
-        let scene = plan.scene_of(streak.cells.start)?.with_seed(plan.seed_of(streak.line)).stripped();
+        let scene = plan
+            .scene_of(streak.cells.start)?
+            .with_seed(plan.seed_of(streak.line))
+            .stripped();
         let profile = self.profile_record(&scene)?;
         let (_, _, governing) = self.simulation.make_line(&scene)?;
         let mut loops = Vec::new();
@@ -75,7 +97,8 @@ impl<'p> Recorder<'p> {
                     // Preloads in units of E* h L, or in N.
                     let unit = || governing.force_unit(scene.length).unwrap_or(f64::NAN);
                     let unit = if preloads.unit == "N" { 1.0 } else { unit() };
-                    let press = |preload: &f64| vec![Move::ToForce(preload * unit), Move::ToSeparation];
+                    let press =
+                        |preload: &f64| vec![Move::ToForce(preload * unit), Move::ToSeparation];
                     let first = streak.cells.start as usize % preloads.values.len();
                     let count = (streak.cells.end - streak.cells.start) as usize;
                     loops.extend(preloads.values[first..first + count].iter().map(press));
@@ -96,12 +119,18 @@ impl<'p> Recorder<'p> {
         let zero_force = each.get(count).filter(|_| needs_zero_force);
         let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
         each.truncate(count);
-        each.resize((streak.cells.end - streak.cells.start) as usize, LoadingOutcome::default());
+        each.resize(
+            (streak.cells.end - streak.cells.start) as usize,
+            LoadingOutcome::default(),
+        );
         let of_scene = self.simulation.warnings(&scene)?;
         let mut records = Vec::with_capacity(each.len());
         for (loading, cell) in each.into_iter().zip(streak.cells.clone()) {
             let smooth = match touch_regime || regime {
-                true => self.simulation.smooth_adhesion_force(&scene, &governing, &loading.figures)?,
+                true => {
+                    self.simulation
+                        .smooth_adhesion_force(&scene, &governing, &loading.figures)?
+                }
                 false => None,
             };
             let warnings = [&loading.warnings[..], &of_scene].concat();
@@ -115,7 +144,12 @@ impl<'p> Recorder<'p> {
                 loading,
                 warnings,
             };
-            records.push(plan.record.iter().map(|quantity| quantity.of(&case)).collect());
+            records.push(
+                plan.record
+                    .iter()
+                    .map(|quantity| quantity.of(&case))
+                    .collect(),
+            );
             if !case.warnings.is_empty() {
                 self.warnings.push((cell, case.warnings));
             }
@@ -131,9 +165,10 @@ impl<'p> Recorder<'p> {
         loops: Vec<Vec<Move>>,
     ) -> Result<(Vec<LoadingOutcome>, Option<f64>), RunError> {
         let press = |legs: &Vec<Move>| match legs[..] {
-            [press @ (Move::ToForce(_) | Move::ToTouch | Move::ToZeroForce), Move::ToSeparation] => {
-                Some(press)
-            }
+            [
+                press @ (Move::ToForce(_) | Move::ToTouch | Move::ToZeroForce),
+                Move::ToSeparation,
+            ] => Some(press),
             _ => None,
         };
         let turned: Option<Vec<Move>> = loops.iter().map(press).collect();
@@ -142,14 +177,22 @@ impl<'p> Recorder<'p> {
             let ends = [&[Move::ToTouch], turned.as_slice()].concat();
             let mut each = vec![LoadingOutcome::default(); ends.len()];
             let own_profile = self.simulation.profile(scene)?;
-            self.simulation.reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
-                each[index] = LoadingOutcome::of_reversal(ends[index], &reversal, &own_profile);
-                Ok(())
-            })?;
+            self.simulation
+                .reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
+                    each[index] = LoadingOutcome::of_reversal(ends[index], &reversal, &own_profile);
+                    Ok(())
+                })?;
             let at_touch = each.remove(0).figures.adhesion_force;
-            return Ok((each, at_touch.filter(|_| governing.adhesive_work().is_some())));
+            return Ok((
+                each,
+                at_touch.filter(|_| governing.adhesive_work().is_some()),
+            ));
         }
-        let loops = if loops.is_empty() { vec![vec![Move::ToTouch, Move::ToSeparation]] } else { loops };
+        let loops = if loops.is_empty() {
+            vec![vec![Move::ToTouch, Move::ToSeparation]]
+        } else {
+            loops
+        };
         let (mut each, mut first_touch) = (Vec::with_capacity(loops.len()), None);
         for one in loops {
             let outcome = self.run(&scene.with(|scene| scene.loading = one)?)?;
@@ -165,15 +208,24 @@ impl<'p> Recorder<'p> {
     }
 
     fn profile_record(&mut self, scene: &CheckedScene) -> Result<ProfileRecord, RunError> {
-        let (heights, stiffness) = (self.plan.records(Needs::Heights), self.plan.records(Needs::Stiffness));
+        let (heights, stiffness) = (
+            self.plan.records(Needs::Heights),
+            self.plan.records(Needs::Stiffness),
+        );
         if !heights && !stiffness {
             return Ok(ProfileRecord::default());
         }
         let amplitude = self.simulation.make_line(scene)?.2.amplitude;
         let nonadhesive = scene.with(|scene| {
             (scene.adhesion, scene.loading) = (None, vec![Move::ToTouch]);
-            if let (Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }), Some(amplitude)) =
-                (&mut scene.roughness, amplitude)
+            if let (
+                Some(Roughness::SelfAffine {
+                    rms_height,
+                    rms_gradient,
+                    ..
+                }),
+                Some(amplitude),
+            ) = (&mut scene.roughness, amplitude)
             {
                 // The amplitude may depend on the adhesion.
                 (*rms_height, *rms_gradient) = (Some(amplitude.rms_height), None);
@@ -187,7 +239,9 @@ impl<'p> Recorder<'p> {
         let mut record = ProfileRecord::default();
         if heights {
             // Without the form, which is the same on all profiles.
-            let (line, ..) = self.simulation.make_line(&nonadhesive.with(|scene| scene.form = None)?)?;
+            let (line, ..) = self
+                .simulation
+                .make_line(&nonadhesive.with(|scene| scene.form = None)?)?;
             record = ProfileRecord::of_gaps(&line.gaps, line.deepest);
         }
         if stiffness {
@@ -201,16 +255,32 @@ impl<'p> Recorder<'p> {
     /// spring is stretched, so the stiffness is E* times the contact length.
     fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
-        let Some(unit) = governing.force_unit(scene.length) else { return Ok(None) };
+        let Some(unit) = governing.force_unit(scene.length) else {
+            return Ok(None);
+        };
         let StiffnessRange { from, to, count } = self.plan.stiffness;
         let step = (to / from).ln() / (count - 1) as f64;
         let force = |index: u64| unit * from * (step * index as f64).exp();
-        let loading = (0..count).map(|index| Move::ToForce(force(index))).collect();
+        let loading = (0..count)
+            .map(|index| Move::ToForce(force(index)))
+            .collect();
         let outcome = self.run(&scene.with(|scene| scene.loading = loading)?)?;
-        let points = outcome.history.legs.iter().filter_map(|leg| leg.curve.last());
-        let points: Vec<_> = points.filter(|point| point.force > 0.0 && point.indentation > 0.0).collect();
-        let lengths: Vec<_> = points.iter().map(|at| (at.force.ln(), at.contact_length.ln())).collect();
-        let forces: Vec<_> = points.iter().map(|at| (at.indentation.ln(), at.force.ln())).collect();
+        let points = outcome
+            .history
+            .legs
+            .iter()
+            .filter_map(|leg| leg.curve.last());
+        let points: Vec<_> = points
+            .filter(|point| point.force > 0.0 && point.indentation > 0.0)
+            .collect();
+        let lengths: Vec<_> = points
+            .iter()
+            .map(|at| (at.force.ln(), at.contact_length.ln()))
+            .collect();
+        let forces: Vec<_> = points
+            .iter()
+            .map(|at| (at.indentation.ln(), at.force.ln()))
+            .collect();
         Ok(slope(&lengths).zip(slope(&forces)))
     }
 }

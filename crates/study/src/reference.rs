@@ -30,7 +30,11 @@ impl ReferenceOptions {
     /// `maps` is the number of squares. `None` means 12 squares for a scene with adhesion, and 24 without adhesion.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
-        ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
+        ReferenceOptions {
+            cells: 64,
+            maps,
+            lines: LINES_PER_MAP * maps,
+        }
     }
 }
 
@@ -176,7 +180,9 @@ pub enum ReferenceEvent {
 impl Reference {
     /// Returns the comparison of the adhesion force, or of the indentation at the preload if the scene has no adhesion.
     pub fn headline(&self) -> Option<&Compared> {
-        self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
+        self.adhesion_force
+            .as_ref()
+            .or(self.loading.last().map(|last| &last.indentation))
     }
 }
 
@@ -194,8 +200,19 @@ mod tests {
         maps: u64,
         jobs: usize,
     ) -> Result<Reference, StudyError> {
-        let options = ReferenceOptions { cells, maps, lines: 16 * maps };
-        Reference::of(scene, options, Simulation::default(), jobs, &|| false, &mut |_| ())
+        let options = ReferenceOptions {
+            cells,
+            maps,
+            lines: 16 * maps,
+        };
+        Reference::of(
+            scene,
+            options,
+            Simulation::default(),
+            jobs,
+            &|| false,
+            &mut |_| (),
+        )
     }
 
     /// A rough square with modes 1 to 4, which a coarse grid resolves.
@@ -208,7 +225,11 @@ mod tests {
     fn with_loading(document: &Document, loading: &str) -> Reference {
         let document = document.set("loading", loading).unwrap();
         let found = reference(document.scene(), 32, 1, 1).unwrap();
-        Reference { seconds: [0.0; 2], seconds_of_square: 0.0, ..found }
+        Reference {
+            seconds: [0.0; 2],
+            seconds_of_square: 0.0,
+            ..found
+        }
     }
 
     /// For a sphere the line is exact, so that both models agree to the error of the grid, and this error is named.
@@ -216,11 +237,17 @@ mod tests {
     fn a_sphere_is_the_same_in_both_models() {
         let scene = open("jkr-sphere").unwrap();
         let found = reference(scene.scene(), 64, 3, 1).unwrap();
-        assert_eq!((found.options.maps, found.options.lines, found.waves), (1, 1, None));
+        assert_eq!(
+            (found.options.maps, found.options.lines, found.waves),
+            (1, 1, None)
+        );
         assert!(found.loading.len() >= 3, "{:?}", found.left_out);
         for loaded in &found.loading {
             for compared in [loaded.indentation, loaded.stiffness] {
-                assert!(compared.difference().abs() < compared.grid.unwrap() + 0.03, "{loaded:?}");
+                assert!(
+                    compared.difference().abs() < compared.grid.unwrap() + 0.03,
+                    "{loaded:?}"
+                );
             }
         }
         let last = found.loading.last().unwrap();
@@ -230,7 +257,10 @@ mod tests {
         assert!((force.ratio - 1.0).abs() < 0.15, "{force:?}");
         let budget = found.budget;
         assert!(found.line_is_exact && found.roughness.is_none());
-        assert_eq!((budget.model, budget.sample, budget.largest), (Some(0.0), None, "grid"));
+        assert_eq!(
+            (budget.model, budget.sample, budget.largest),
+            (Some(0.0), None, "grid")
+        );
         assert!(budget.grid >= Some((force.ratio - 1.0).abs()), "{budget:?}");
     }
 
@@ -238,14 +268,23 @@ mod tests {
     #[test]
     fn only_the_line_of_a_rising_body_is_exact() {
         let sphere = open("jkr-sphere").unwrap();
-        let steep = sphere.set("form", "WavySphere(radius: 1.0e-4, amplitude: 1.0e-7, wavelength: 1.0e-6)");
-        let cut = sphere.set("loading", "[ToForce(10.0), ToSeparation]").unwrap();
+        let steep = sphere.set(
+            "form",
+            "WavySphere(radius: 1.0e-4, amplitude: 1.0e-7, wavelength: 1.0e-6)",
+        );
+        let cut = sphere
+            .set("loading", "[ToForce(10.0), ToSeparation]")
+            .unwrap();
         let cut = cut.set("length", "1.0e-6");
         let flat = sphere.set("form", "None");
         for document in [steep, cut, flat] {
             let document = document.unwrap();
             let found = reference(document.scene(), 32, 1, 1);
-            assert!(found.is_err() || !found.unwrap().line_is_exact, "{:?}", document.scene());
+            assert!(
+                found.is_err() || !found.unwrap().line_is_exact,
+                "{:?}",
+                document.scene()
+            );
         }
     }
 
@@ -259,23 +298,46 @@ mod tests {
         for loaded in &found.loading {
             // Two squares scatter by a half.
             assert!((0.4..2.5).contains(&loaded.stiffness.ratio), "{loaded:?}");
-            assert!(loaded.cells >= Loaded::LEAST_CELLS && loaded.grid().is_some(), "{loaded:?}");
+            assert!(
+                loaded.cells >= Loaded::LEAST_CELLS && loaded.grid().is_some(),
+                "{loaded:?}"
+            );
         }
         assert_eq!(found.loading.len() + found.left_out.len(), 6);
         for left_out in &found.left_out {
-            assert!(left_out.cells < Loaded::LEAST_CELLS && left_out.grid > Some(64), "{left_out:?}");
+            assert!(
+                left_out.cells < Loaded::LEAST_CELLS && left_out.grid > Some(64),
+                "{left_out:?}"
+            );
         }
         let (seconds, seconds_of_square) = (found.seconds, found.seconds_of_square);
-        let same = Reference { seconds, seconds_of_square, ..reference(scene.scene(), 64, 2, 1).unwrap() };
+        let same = Reference {
+            seconds,
+            seconds_of_square,
+            ..reference(scene.scene(), 64, 2, 1).unwrap()
+        };
         assert_eq!(same, found);
-        assert!(found.budget.solver <= 1e-8 && found.budget.grid.is_some() && found.budget.sample.is_some());
+        assert!(
+            found.budget.solver <= 1e-8
+                && found.budget.grid.is_some()
+                && found.budget.sample.is_some()
+        );
         // Equal heights without adhesion, and equal elastic energy with adhesion.
         let roughness = found.roughness.unwrap();
         let line = roughness.line;
-        assert!((roughness.half_space.rms_height / line.rms_height - 1.0).abs() < 1e-12, "{roughness:?}");
+        assert!(
+            (roughness.half_space.rms_height / line.rms_height - 1.0).abs() < 1e-12,
+            "{roughness:?}"
+        );
         let adhesive = roughness.adhesive_half_space.unwrap();
-        assert!((adhesive.elastic_energy / line.elastic_energy - 1.0).abs() < 1e-12, "{roughness:?}");
-        assert!((adhesive.rms_height / line.rms_height - 1.0).abs() < 0.035, "{roughness:?}");
+        assert!(
+            (adhesive.elastic_energy / line.elastic_energy - 1.0).abs() < 1e-12,
+            "{roughness:?}"
+        );
+        assert!(
+            (adhesive.rms_height / line.rms_height - 1.0).abs() < 0.035,
+            "{roughness:?}"
+        );
     }
 
     /// Only the last loop is compared, which begins after the last separation and ends in separation.
@@ -283,7 +345,10 @@ mod tests {
     fn the_last_loop_is_compared() {
         let square = coarse_square();
         let alone = with_loading(&square, "[ToForce(3.0e-5), ToSeparation]");
-        assert_eq!(alone.compared_loading, [Move::ToForce(3.0e-5), Move::ToSeparation]);
+        assert_eq!(
+            alone.compared_loading,
+            [Move::ToForce(3.0e-5), Move::ToSeparation]
+        );
         for loading in [
             "[ToForce(3.0e-5), ToSeparation, ToForce(3.0e-5), ToSeparation]",
             "[ToForce(9.0e-5), ToSeparation, ToForce(3.0e-5), ToSeparation]",
@@ -293,19 +358,23 @@ mod tests {
             assert_eq!(with_loading(&square, loading), alone, "{loading}");
         }
         let smaller = with_loading(&square, "[ToForce(1.0e-5), ToSeparation]");
-        let [loss, less] =
-            [alone, smaller].map(|found| found.dissipated_energy.map(|energy| energy.half_space.mean));
+        let [loss, less] = [alone, smaller]
+            .map(|found| found.dissipated_energy.map(|energy| energy.half_space.mean));
         assert!(less < loss, "{less:?} {loss:?}");
     }
 
     /// Squares and lines turn at the same indentation, whatever the force there.
     #[test]
     fn an_indentation_is_the_same_for_all() {
-        let document = coarse_square().set("adhesion.elastic_energy_ratio", "6.0").unwrap();
+        let document = coarse_square()
+            .set("adhesion.elastic_energy_ratio", "6.0")
+            .unwrap();
         let turn = 1.5e-6;
         let mut found = Vec::new();
         for (stage, stiffness) in [("ToIndentation", "None"), ("ToDisplacement", "Some(1e12)")] {
-            let document = document.set("loading", &format!("[{stage}({turn:e}), ToSeparation]")).unwrap();
+            let document = document
+                .set("loading", &format!("[{stage}({turn:e}), ToSeparation]"))
+                .unwrap();
             let document = document.set("loading_stiffness", stiffness).unwrap();
             let mut deepest = Vec::new();
             let mut report = |event| {
@@ -313,14 +382,35 @@ mod tests {
                     deepest.push(curve.iter().map(|point| point.0).fold(0.0, f64::max));
                 }
             };
-            let options = ReferenceOptions { cells: 32, maps: 3, lines: 48 };
+            let options = ReferenceOptions {
+                cells: 32,
+                maps: 3,
+                lines: 48,
+            };
             let simulation = Simulation::default();
-            let reference =
-                Reference::of(document.scene(), options, simulation, 1, &|| false, &mut report).unwrap();
+            let reference = Reference::of(
+                document.scene(),
+                options,
+                simulation,
+                1,
+                &|| false,
+                &mut report,
+            )
+            .unwrap();
             assert_eq!(deepest.len(), 3);
-            assert!(deepest.iter().all(|deepest| (deepest / turn - 1.0).abs() < 0.02), "{deepest:?}");
+            assert!(
+                deepest
+                    .iter()
+                    .all(|deepest| (deepest / turn - 1.0).abs() < 0.02),
+                "{deepest:?}"
+            );
             if stage == "ToIndentation" {
-                assert!(deepest.iter().all(|deepest| (deepest / turn - 1.0).abs() < 1e-8), "{deepest:?}");
+                assert!(
+                    deepest
+                        .iter()
+                        .all(|deepest| (deepest / turn - 1.0).abs() < 1e-8),
+                    "{deepest:?}"
+                );
             }
             let last = reference.loading.last().unwrap();
             assert_eq!(last.force, reference.preload);
@@ -340,53 +430,83 @@ mod tests {
         let document = coarse_square().set("numerics.samples", "2").unwrap();
         let few = reference(document.scene(), 32, 1, 1).unwrap();
         let many = reference(coarse_square().scene(), 32, 1, 1).unwrap();
-        assert_eq!((few.loading, few.adhesion_force), (many.loading, many.adhesion_force));
+        assert_eq!(
+            (few.loading, few.adhesion_force),
+            (many.loading, many.adhesion_force)
+        );
         assert_eq!(few.dissipated_energy, many.dissipated_energy);
     }
 
     #[test]
     fn contacts_of_a_few_cells_are_left_out() {
         let light = with_loading(&coarse_square(), "[ToForce(1.0e-9), ToSeparation]");
-        assert!(light.loading.is_empty() && light.left_out.len() == 6, "{light:?}");
-        assert!(light.adhesion_force.is_some() && light.left_out[5].cells < 4.0, "{:?}", light.left_out);
+        assert!(
+            light.loading.is_empty() && light.left_out.len() == 6,
+            "{light:?}"
+        );
+        assert!(
+            light.adhesion_force.is_some() && light.left_out[5].cells < 4.0,
+            "{:?}",
+            light.left_out
+        );
         assert_eq!(light.left_out[0].grid, Some(256), "{:?}", light.left_out);
         let bare = coarse_square().set("adhesion", "None").unwrap();
         let bare = bare.set("loading", "[ToForce(1.0e-9)]").unwrap();
         let refused = reference(bare.scene(), 32, 1, 1).unwrap_err().to_string();
-        let expected = "32 cells: at the preload 1 cells of a square are in contact; allowed: at least 20";
+        let expected =
+            "32 cells: at the preload 1 cells of a square are in contact; allowed: at least 20";
         assert!(refused.starts_with(expected), "{refused}");
-        assert!(refused.ends_with("by a larger preload or 256 cells along the side"), "{refused}");
+        assert!(
+            refused.ends_with("by a larger preload or 256 cells along the side"),
+            "{refused}"
+        );
     }
 
     /// A row of the table of docs/line-and-three-dimensions.md agrees with fewer squares, within the intervals of both.
     #[test]
     fn the_table_of_the_page_is_that_of_the_squares() {
         let page = std::fs::read_to_string(format!("{DOCS}line-and-three-dimensions.md")).unwrap();
-        let row = page.lines().find(|line| line.starts_with("| 0.8 | 0.3 |")).unwrap();
+        let row = page
+            .lines()
+            .find(|line| line.starts_with("| 0.8 | 0.3 |"))
+            .unwrap();
         let stated: Vec<(f64, f64)> = row
             .split('|')
             .filter_map(|cell| cell.split_once(" ± "))
             .map(|(ratio, error)| (ratio.trim().parse().unwrap(), error.trim().parse().unwrap()))
             .collect();
         let document = open(&format!("{DOCS}examples/rough-square.ron")).unwrap();
-        let document = document.set("adhesion.elastic_energy_ratio", "0.3").unwrap();
+        let document = document
+            .set("adhesion.elastic_energy_ratio", "0.3")
+            .unwrap();
         let found = reference(document.scene(), 64, 3, 2).unwrap();
         let last = found.loading.last().unwrap().indentation;
-        let pulled = [found.adhesion_force, found.first_touch_adhesion_force, found.dissipated_energy]
-            .map(Option::unwrap);
+        let pulled = [
+            found.adhesion_force,
+            found.first_touch_adhesion_force,
+            found.dissipated_energy,
+        ]
+        .map(Option::unwrap);
         assert_eq!(stated.len(), 4);
         for ((ratio, error), found) in stated.into_iter().zip(pulled.into_iter().chain([last])) {
             let off = (found.ratio - ratio).abs();
-            assert!(off < error.hypot(found.error.unwrap()), "{ratio} ± {error}: {found:?}");
+            assert!(
+                off < error.hypot(found.error.unwrap()),
+                "{ratio} ± {error}: {found:?}"
+            );
             // Three squares scatter more than twelve, but no number is another one by a factor of two.
-            assert!((0.5..2.0).contains(&(found.ratio / ratio)), "{ratio}: {found:?}");
+            assert!(
+                (0.5..2.0).contains(&(found.ratio / ratio)),
+                "{ratio}: {found:?}"
+            );
         }
     }
 
     #[test]
     fn what_has_no_square_is_refused() {
         let scene = open("pressure-sensitive").unwrap();
-        let refused = |scene: &CheckedScene, cells| reference(scene, cells, 1, 1).unwrap_err().to_string();
+        let refused =
+            |scene: &CheckedScene, cells| reference(scene, cells, 1, 1).unwrap_err().to_string();
         assert_eq!(
             refused(scene.scene(), 48),
             "48 cells along a side; allowed: a power of two from 32 to 8192"
@@ -397,7 +517,10 @@ mod tests {
             }
         });
         let error = refused(&longer.unwrap(), 64);
-        assert!(error.contains("at least 128 cells along the side"), "{error}");
+        assert!(
+            error.contains("at least 128 cells along the side"),
+            "{error}"
+        );
         let loadings = [
             vec![Move::ToTouch, Move::ToSeparation],
             vec![Move::ToZeroForce, Move::ToSeparation],
@@ -405,7 +528,11 @@ mod tests {
         ];
         for loading in loadings {
             let touch = scene.scene().with(|scene| scene.loading = loading).unwrap();
-            assert!(refused(&touch, 64).starts_with("the loading has no preload"), "{}", refused(&touch, 64));
+            assert!(
+                refused(&touch, 64).starts_with("the loading has no preload"),
+                "{}",
+                refused(&touch, 64)
+            );
         }
     }
 }

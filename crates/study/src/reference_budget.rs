@@ -51,7 +51,11 @@ impl ReferenceBudget {
             budget.add(compared, bodies);
         }
         let mut most = solver;
-        for (name, error) in [("grid", budget.grid), ("sample", budget.sample), ("model", budget.model)] {
+        for (name, error) in [
+            ("grid", budget.grid),
+            ("sample", budget.sample),
+            ("model", budget.model),
+        ] {
             if let Some(error) = error
                 && error >= most
                 && error > 0.0
@@ -75,7 +79,11 @@ impl ReferenceBudget {
             return;
         }
         // Bodies that are not random have no error of a sample.
-        let sample = if bodies.are_random { compared.error } else { Some(0.0) };
+        let sample = if bodies.are_random {
+            compared.error
+        } else {
+            Some(0.0)
+        };
         if let (Some(sample), Some(grid)) = (sample, compared.grid) {
             self.model = Some((difference.abs() - sample - grid * compared.ratio).max(0.0));
         }
@@ -87,12 +95,23 @@ mod tests {
     use super::super::compared::Values;
     use super::*;
 
-    const RANDOM: Bodies = Bodies { are_random: true, line_is_exact: false };
+    const RANDOM: Bodies = Bodies {
+        are_random: true,
+        line_is_exact: false,
+    };
 
     /// A ratio of `lines`/2 with the error `error` in a comparison whose coarse squares differ by `grid`.
     fn compared(lines: f64, error: Option<f64>, grid: Option<f64>) -> Compared {
-        let values = Values { lines: vec![lines; 2], squares: vec![2.0; 2], coarse: Vec::new() };
-        Compared { error, grid, ..values.compared().unwrap() }
+        let values = Values {
+            lines: vec![lines; 2],
+            squares: vec![2.0; 2],
+            coarse: Vec::new(),
+        };
+        Compared {
+            error,
+            grid,
+            ..values.compared().unwrap()
+        }
     }
 
     #[test]
@@ -105,32 +124,56 @@ mod tests {
         assert_eq!((coarse.model, coarse.largest), (Some(0.0), "grid"));
         // 8 against 2: 3 above 1, of which 1 is the sample and 4 times 0.1 the grid.
         let far = budget(compared(8.0, Some(1.0), Some(0.1)));
-        assert!((far.model.unwrap() - 1.6).abs() < 1e-12 && far.largest == "model", "{far:?}");
+        assert!(
+            (far.model.unwrap() - 1.6).abs() < 1e-12 && far.largest == "model",
+            "{far:?}"
+        );
         assert!((far.sample.unwrap() - 0.25).abs() < 1e-12);
         let below = budget(compared(1.0, Some(0.1), Some(0.2)));
-        assert!((below.model.unwrap() - 0.3).abs() < 1e-12 && below.difference == Some(-0.5), "{below:?}");
+        assert!(
+            (below.model.unwrap() - 0.3).abs() < 1e-12 && below.difference == Some(-0.5),
+            "{below:?}"
+        );
     }
 
     #[test]
     fn an_unknown_error_leaves_the_model_unknown() {
         for (error, grid) in [(None, Some(0.1)), (Some(0.1), None), (None, None)] {
             let compared = compared(8.0, error, grid);
-            assert_eq!(ReferenceBudget::new(1e-9, Some(&compared), RANDOM).model, None);
+            assert_eq!(
+                ReferenceBudget::new(1e-9, Some(&compared), RANDOM).model,
+                None
+            );
         }
         let none = ReferenceBudget::new(1e-9, None, RANDOM);
-        assert_eq!((none.difference, none.model, none.largest), (None, None, "solver"));
+        assert_eq!(
+            (none.difference, none.model, none.largest),
+            (None, None, "solver")
+        );
     }
 
     /// A smooth square differs from a line of the same length, and the line of a body of revolution is exact.
     #[test]
     fn a_smooth_body_has_no_sample() {
         let alone = compared(2.2, None, Some(0.03));
-        let flat = Bodies { are_random: false, line_is_exact: false };
+        let flat = Bodies {
+            are_random: false,
+            line_is_exact: false,
+        };
         let budget = ReferenceBudget::new(0.0, Some(&alone), flat);
-        assert!((budget.model.unwrap() - 0.067).abs() < 1e-12 && budget.largest == "model", "{budget:?}");
-        let sphere = Bodies { are_random: false, line_is_exact: true };
+        assert!(
+            (budget.model.unwrap() - 0.067).abs() < 1e-12 && budget.largest == "model",
+            "{budget:?}"
+        );
+        let sphere = Bodies {
+            are_random: false,
+            line_is_exact: true,
+        };
         let budget = ReferenceBudget::new(0.0, Some(&alone), sphere);
-        assert!((budget.grid.unwrap() - 0.1).abs() < 1e-12 && budget.largest == "grid", "{budget:?}");
+        assert!(
+            (budget.grid.unwrap() - 0.1).abs() < 1e-12 && budget.largest == "grid",
+            "{budget:?}"
+        );
         assert_eq!(budget.model, Some(0.0));
         let same = ReferenceBudget::new(1e-9, Some(&compared(2.0, None, None)), sphere);
         assert_eq!((same.grid, same.largest), (Some(0.0), "solver"));

@@ -38,11 +38,25 @@ impl SquareTime {
         let mut smaller = LEAST_CELLS;
         loop {
             let begun = Instant::now();
-            let loads = body.load(smaller, seed, loading, Watch { stop, loaded: &|| () })?.count;
+            let loads = body
+                .load(
+                    smaller,
+                    seed,
+                    loading,
+                    Watch {
+                        stop,
+                        loaded: &|| (),
+                    },
+                )?
+                .count;
             let seconds = begun.elapsed().as_secs_f64();
             if 2 * smaller >= cells || seconds > LEAST_TIMED {
                 let of_finest = seconds * growth.powi((cells / smaller).ilog2() as i32);
-                return Ok(SquareTime { seconds: of_finest * (1.0 + growth.recip()), loads, is_adhesive });
+                return Ok(SquareTime {
+                    seconds: of_finest * (1.0 + growth.recip()),
+                    loads,
+                    is_adhesive,
+                });
             }
             smaller *= 2;
         }
@@ -60,20 +74,39 @@ impl SquareTime {
 }
 
 /// Refuses a comparison of `maps` squares of `cells` cells along the side if it takes longer than a day.
-pub fn check_time(cells: usize, maps: u64, threads: usize, time: &SquareTime) -> Result<(), StudyError> {
+pub fn check_time(
+    cells: usize,
+    maps: u64,
+    threads: usize,
+    time: &SquareTime,
+) -> Result<(), StudyError> {
     let seconds = time.of_squares(maps, threads);
     if seconds <= LONGEST {
         return Ok(());
     }
     let most = threads as f64 * LONGEST / time.seconds;
-    let halvings = (seconds / LONGEST).log(GROWTH[usize::from(time.is_adhesive)]).ceil();
+    let halvings = (seconds / LONGEST)
+        .log(GROWTH[usize::from(time.is_adhesive)])
+        .ceil();
     let grid = (cells >> (halvings as u32).min(usize::BITS - 1)).max(LEAST_CELLS);
-    let squares = if most >= 1.0 { format!(", or at most {} squares", most as u64) } else { String::new() };
+    let squares = if most >= 1.0 {
+        format!(", or at most {} squares", most as u64)
+    } else {
+        String::new()
+    };
     let days = format_rounded(seconds / LONGEST, 2, "1");
-    let squares_found = if maps == 1 { "square takes" } else { "squares take" };
+    let squares_found = if maps == 1 {
+        "square takes"
+    } else {
+        "squares take"
+    };
     let found = format!("{maps} {squares_found} about {days} days, longer than one day");
     let allowed = format!("a grid of at most {grid} cells along the side{squares}");
-    Err(StudyError::refused(Some(&format!("{cells} cells")), found, allowed))
+    Err(StudyError::refused(
+        Some(&format!("{cells} cells")),
+        found,
+        allowed,
+    ))
 }
 
 #[cfg(test)]
@@ -82,8 +115,16 @@ mod tests {
 
     #[test]
     fn what_takes_longer_than_a_day_is_refused() {
-        let time = |days: f64| SquareTime { seconds: days * LONGEST, loads: 100, is_adhesive: false };
-        let refused = |maps, days| check_time(1024, maps, 1, &time(days)).unwrap_err().to_string();
+        let time = |days: f64| SquareTime {
+            seconds: days * LONGEST,
+            loads: 100,
+            is_adhesive: false,
+        };
+        let refused = |maps, days| {
+            check_time(1024, maps, 1, &time(days))
+                .unwrap_err()
+                .to_string()
+        };
         assert!(check_time(1024, 24, 1, &time(1.0 / 24.0)).is_ok());
         assert!(check_time(1024, 24, 2, &time(2.0 / 24.0)).is_ok());
         assert_eq!(
@@ -91,8 +132,15 @@ mod tests {
             "1024 cells: 24 squares take about 3 days, longer than one day; allowed: a grid of at most 512 cells \
              along the side, or at most 8 squares"
         );
-        assert!(refused(24, 50.0 / 24.0).ends_with("allowed: a grid of at most 128 cells along the side"));
-        let never = SquareTime { seconds: 1e300, loads: 1, is_adhesive: true };
+        assert!(
+            refused(24, 50.0 / 24.0)
+                .ends_with("allowed: a grid of at most 128 cells along the side")
+        );
+        let never = SquareTime {
+            seconds: 1e300,
+            loads: 1,
+            is_adhesive: true,
+        };
         let never = check_time(8192, 1, 1, &never).unwrap_err().to_string();
         assert!(never.contains("at most 32 cells"), "{never}");
         assert!((time(1.0).share_of_load(4) - 0.0025).abs() < 1e-15);

@@ -48,12 +48,16 @@ impl Resolved {
     ) -> Result<Resolved, StudyError> {
         check_cells(cells)?;
         if scene.measured_as_line() {
-            let allowed =
-                "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
-            return Err(StudyError::refused(None, "the measured profile itself is the line", allowed));
+            let allowed = "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
+            return Err(StudyError::refused(
+                None,
+                "the measured profile itself is the line",
+                allowed,
+            ));
         }
         let (line, _, governing) = simulation.make_line(scene).map_err(of_scene)?;
-        let line_is_exact = scene.roughness.is_none() && scene.form.is_some() && rises_everywhere(&line.gaps);
+        let line_is_exact =
+            scene.roughness.is_none() && scene.form.is_some() && rises_everywhere(&line.gaps);
         let mut changed = Scene::clone(scene);
         // The work of adhesion stays where waves are left out.
         if let Some((adhesion, work)) = scene.adhesion.zip(governing.work_of_adhesion) {
@@ -77,26 +81,45 @@ impl Resolved {
             line_is_exact,
         };
         let finest = cells as u64 / CELLS_PER_WAVE;
-        let points = |last: u64| (SPRINGS_PER_WAVE * last).next_power_of_two().max(LEAST_SPRINGS);
+        let points = |last: u64| {
+            (SPRINGS_PER_WAVE * last)
+                .next_power_of_two()
+                .max(LEAST_SPRINGS)
+        };
         let mut keep = |first: u64, whole: u64| {
             let last = whole.min(finest);
-            (resolved.waves, resolved.omitted) = (Some((first, last)), (last < whole).then_some(whole));
-            if first <= last { Ok(last) } else { Err(too_few(cells, first)) }
+            (resolved.waves, resolved.omitted) =
+                (Some((first, last)), (last < whole).then_some(whole));
+            if first <= last {
+                Ok(last)
+            } else {
+                Err(too_few(cells, first))
+            }
         };
         if let (Some(spectrum), Some(amplitude)) = (scene.spectrum(), governing.amplitude) {
             let last = keep(spectrum.first, spectrum.last)?;
             let kept = asperity_surface::SelfAffine { last, ..spectrum };
             let first = amplitude.rms_height / spectrum.relative_rms();
-            let Some(Roughness::SelfAffine { rms_height, rms_gradient, modes, wavelengths, .. }) =
-                &mut changed.roughness
+            let Some(Roughness::SelfAffine {
+                rms_height,
+                rms_gradient,
+                modes,
+                wavelengths,
+                ..
+            }) = &mut changed.roughness
             else {
                 unreachable!("a spectrum is that of self-affine roughness")
             };
             (*rms_height, *rms_gradient) = (Some(first * kept.relative_rms()), None);
             (*modes, *wavelengths) = (Some((kept.first, kept.last)), None);
             changed.numerics.points = points(last);
-            let amplitude = kept.unit_amplitude(scene.length).scaled(first * kept.relative_rms());
-            let spectrum = Spectrum::SelfAffine { spectrum: kept, amplitude: first };
+            let amplitude = kept
+                .unit_amplitude(scene.length)
+                .scaled(first * kept.relative_rms());
+            let spectrum = Spectrum::SelfAffine {
+                spectrum: kept,
+                amplitude: first,
+            };
             resolved.roughen(spectrum, (kept.first, kept.last), amplitude);
         } else if let Some(line) = simulation.equivalent_line() {
             let (first, whole) = line.modes(scene.length, usize::MAX)?;
@@ -107,7 +130,9 @@ impl Resolved {
             let amplitude = line.amplitude_of_modes(scene.length, (first, last));
             resolved.roughen(Spectrum::Measured(line), (first, last), amplitude);
         }
-        resolved.line = changed.checked().map_err(|errors| of_scene(errors.into()))?;
+        resolved.line = changed
+            .checked()
+            .map_err(|errors| of_scene(errors.into()))?;
         Ok(resolved)
     }
 
@@ -140,21 +165,36 @@ impl Resolved {
 /// Returns true if a profile with these gaps rises everywhere on both sides of its deepest point.
 fn rises_everywhere(gaps: &[f64]) -> bool {
     let deepest = gaps.iter().copied().fold(0.0, f64::max);
-    let summit = (0..gaps.len()).min_by(|one, other| gaps[*one].total_cmp(&gaps[*other])).unwrap_or(0);
+    let summit = (0..gaps.len())
+        .min_by(|one, other| gaps[*one].total_cmp(&gaps[*other]))
+        .unwrap_or(0);
     let rises = |inner: f64, outer: f64| outer >= inner - ROUNDING * deepest;
-    gaps[summit..].windows(2).all(|pair| rises(pair[0], pair[1]))
-        && gaps[..=summit].windows(2).all(|pair| rises(pair[1], pair[0]))
+    gaps[summit..]
+        .windows(2)
+        .all(|pair| rises(pair[0], pair[1]))
+        && gaps[..=summit]
+            .windows(2)
+            .all(|pair| rises(pair[1], pair[0]))
 }
 
 /// Converts an error of the scene itself.
 pub(super) fn of_scene(error: RunError) -> StudyError {
-    StudyError::Run { place: String::new(), error }
+    StudyError::Run {
+        place: String::new(),
+        error,
+    }
 }
 
 fn too_few(cells: usize, first: u64) -> StudyError {
     StudyError::refused(
         Some(&format!("{cells} cells")),
-        format!("the longest wave of the scene has {} cells", cells as u64 / first),
-        format!("at least {} cells along the side", (CELLS_PER_WAVE * first).next_power_of_two()),
+        format!(
+            "the longest wave of the scene has {} cells",
+            cells as u64 / first
+        ),
+        format!(
+            "at least {} cells along the side",
+            (CELLS_PER_WAVE * first).next_power_of_two()
+        ),
     )
 }

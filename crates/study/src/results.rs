@@ -77,7 +77,12 @@ impl PartialEq for Results {
 
 impl std::fmt::Debug for Results {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} of {} records", self.count(), self.plan.records_in_all())
+        write!(
+            f,
+            "{} of {} records",
+            self.count(),
+            self.plan.records_in_all()
+        )
     }
 }
 
@@ -89,9 +94,15 @@ fn same(one: &[f64], other: &[f64]) -> bool {
 
 /// Counts a warning of one more profile.
 fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
-    match counted.iter_mut().find(|known| known.warning.name() == warning.name()) {
+    match counted
+        .iter_mut()
+        .find(|known| known.warning.name() == warning.name())
+    {
         Some(known) => known.profiles += 1,
-        None => counted.push(CountedWarning { warning: warning.clone(), profiles: 1 }),
+        None => counted.push(CountedWarning {
+            warning: warning.clone(),
+            profiles: 1,
+        }),
     }
 }
 
@@ -110,7 +121,9 @@ impl Results {
     pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
         let (records, mut values) = (plan.records_in_all(), Vec::new());
         let count = records as usize * plan.record.len();
-        values.try_reserve_exact(count).map_err(|_| StudyError::TooManyRecords(records))?;
+        values
+            .try_reserve_exact(count)
+            .map_err(|_| StudyError::TooManyRecords(records))?;
         values.resize(count, f64::NAN);
         Ok(Results {
             plan,
@@ -135,10 +148,16 @@ impl Results {
     ) -> Result<Results, StudyError> {
         StudyError::check_profiles(scene, lines)?;
         if preloads.is_some() && scene.numerics.solver != Solver::Exact {
-            return Err(StudyError::Run { place: String::new(), error: RunError::NeedsExactSolver });
+            return Err(StudyError::Run {
+                place: String::new(),
+                error: RunError::NeedsExactSolver,
+            });
         }
         let axes = preloads.into_iter().cloned().collect();
-        Results::empty(Plan { axes, ..Plan::of_scene(scene, lines, record) })
+        Results::empty(Plan {
+            axes,
+            ..Plan::of_scene(scene, lines, record)
+        })
     }
 
     /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the scene are relative to `folder`.
@@ -156,7 +175,11 @@ impl Results {
     ) -> Result<Results, StudyError> {
         let mut results = Results::begin(scene, record, lines, preloads)?;
         let simulation = Simulation::new(folder.to_path_buf());
-        let simulation = if lines == 1 { simulation.for_one_scene() } else { simulation };
+        let simulation = if lines == 1 {
+            simulation.for_one_scene()
+        } else {
+            simulation
+        };
         results.extend((simulation, jobs), &|| false, &mut |_| ())?;
         Ok(results)
     }
@@ -186,7 +209,12 @@ impl Results {
         stop: &Stop<'_>,
         report: &mut dyn FnMut(&Results),
     ) -> Result<(), StudyError> {
-        self.compute(workers, stop, |recorder, streak| recorder.record_each(streak), report)
+        self.compute(
+            workers,
+            stop,
+            |recorder, streak| recorder.record_each(streak),
+            report,
+        )
     }
 
     fn compute(
@@ -199,13 +227,22 @@ impl Results {
         let plan = self.plan.clone();
         let missing: Vec<u64> = (0..plan.lines).filter(|line| !self.has(0, *line)).collect();
         let solve = |simulation: &mut Simulation, line| {
-            let streak = Streak { cells: 0..plan.cells(), line };
+            let streak = Streak {
+                cells: 0..plan.cells(),
+                line,
+            };
             with_recorder(&plan, simulation, stop, |recorder| {
                 Ok((record(recorder, &streak)?, recorder.take_warnings()))
             })
         };
-        on_profiles(&plan, &missing, workers, solve, &mut |line, (records, warnings)| {
-            (0..).zip(records).for_each(|(cell, one)| self.set_record(cell * plan.lines + line, one));
+        on_profiles(&plan, &missing, workers, solve, &mut |line,
+                                                           (
+            records,
+            warnings,
+        )| {
+            (0..)
+                .zip(records)
+                .for_each(|(cell, one)| self.set_record(cell * plan.lines + line, one));
             for (cell, of_cell) in warnings {
                 self.warnings.insert(cell * plan.lines + line, of_cell);
             }
@@ -242,8 +279,11 @@ impl Results {
             }
         }
         let plan = &results.plan;
-        let failure = |(cell, line, reason): (u64, u64, &str)| (cell, plan.seed_of(line), reason.to_owned());
-        let missing: Vec<u64> = (0..plan.cells()).filter(|cell| !results.is_whole(*cell)).collect();
+        let failure =
+            |(cell, line, reason): (u64, u64, &str)| (cell, plan.seed_of(line), reason.to_owned());
+        let missing: Vec<u64> = (0..plan.cells())
+            .filter(|cell| !results.is_whole(*cell))
+            .collect();
         let merged = Merged {
             records: results.count(),
             failed: results.failed.len() as u64,
@@ -260,13 +300,29 @@ impl Results {
     }
 
     /// Returns the error for two different records with the same index, of which the second is in the file `other`.
-    fn conflict(&self, folder: &Folder, files: &[ShardFile], place: u64, other: &ShardFile) -> StudyError {
+    fn conflict(
+        &self,
+        folder: &Folder,
+        files: &[ShardFile],
+        place: u64,
+        other: &ShardFile,
+    ) -> StudyError {
         let is_there = |record: Result<Option<Record>, StudyError>| matches!(record, Ok(Some((found, _))) if found == place);
-        let has = |file: &&ShardFile| folder.records(file).is_ok_and(|mut records| records.any(is_there));
+        let has = |file: &&ShardFile| {
+            folder
+                .records(file)
+                .is_ok_and(|mut records| records.any(is_there))
+        };
         let one = files.iter().find(has).unwrap_or(other);
-        let (cell, seed) = (place / self.plan.lines, self.plan.seed_of(place % self.plan.lines));
+        let (cell, seed) = (
+            place / self.plan.lines,
+            self.plan.seed_of(place % self.plan.lines),
+        );
         let place = format!("cell {cell}, seed {seed} ({})", self.plan.coordinates(cell));
-        StudyError::Conflict { place, files: [one.path.clone(), other.path.clone()] }
+        StudyError::Conflict {
+            place,
+            files: [one.path.clone(), other.path.clone()],
+        }
     }
 
     fn count(&self) -> u64 {
@@ -303,19 +359,29 @@ impl Results {
     /// the reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
-        self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
+        self.failed
+            .iter()
+            .map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
     }
 
     /// Returns the reason why a record has no values; `None` if it has values or is missing.
     pub(super) fn reason(&self, cell: u64, line: u64) -> Option<&str> {
-        self.failed.get(&(cell * self.plan.lines + line)).map(String::as_str)
+        self.failed
+            .get(&(cell * self.plan.lines + line))
+            .map(String::as_str)
     }
 
     /// Returns the reason why a cell has no values, if it cannot be computed on any profile.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
-        let reasons = || self.failed.range(places.clone()).map(|(_, reason)| reason.as_str());
-        (reasons().count() as u64 == self.plan.lines).then(|| reasons().next()).flatten()
+        let reasons = || {
+            self.failed
+                .range(places.clone())
+                .map(|(_, reason)| reason.as_str())
+        };
+        (reasons().count() as u64 == self.plan.lines)
+            .then(|| reasons().next())
+            .flatten()
     }
 
     /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with the number of these
@@ -324,7 +390,11 @@ impl Results {
     pub fn warnings(&self, cell: u64) -> Vec<CountedWarning> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut counted: Vec<CountedWarning> = Vec::new();
-        for warning in self.warnings.range(places).flat_map(|(_, warnings)| warnings) {
+        for warning in self
+            .warnings
+            .range(places)
+            .flat_map(|(_, warnings)| warnings)
+        {
             count(&mut counted, warning);
         }
         counted
@@ -335,8 +405,10 @@ impl Results {
         let mut counted: Vec<CountedWarning> = Vec::new();
         for line in 0..self.plan.lines {
             let places = (0..self.plan.cells()).map(|cell| cell * self.plan.lines + line);
-            let of_profile: Vec<&Warning> =
-                places.filter_map(|place| self.warnings.get(&place)).flatten().collect();
+            let of_profile: Vec<&Warning> = places
+                .filter_map(|place| self.warnings.get(&place))
+                .flatten()
+                .collect();
             let mut names = BTreeSet::new();
             for warning in of_profile {
                 if names.insert(warning.name()) {
@@ -361,7 +433,10 @@ impl Results {
 
     fn at(&self, place: u64) -> Option<&[f64]> {
         let columns = self.plan.record.len();
-        let values = self.values.get(place as usize * columns..)?.get(..columns)?;
+        let values = self
+            .values
+            .get(place as usize * columns..)?
+            .get(..columns)?;
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
@@ -369,7 +444,9 @@ impl Results {
     /// `None` if the quantity is not recorded or has no value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
-        self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
+        self.record(cell, line)
+            .map(|values| values[column])
+            .filter(|value| !value.is_nan())
     }
 
     /// Returns the regime of adhesion of a [cell](Plan) on the profile with the index `line`; `None` if it is not recorded or
@@ -395,8 +472,13 @@ impl Results {
 
     /// Returns the values of a quantity in a [cell](Plan), in the SI unit of the quantity, on all profiles with a value.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
-        let Some(column) = self.plan.column(quantity) else { return Vec::new() };
-        self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
+        let Some(column) = self.plan.column(quantity) else {
+            return Vec::new();
+        };
+        self.records_of(cell)
+            .map(|(_, values)| values[column])
+            .filter(|value| !value.is_nan())
+            .collect()
     }
 
     /// Returns the statistics of a quantity over the profiles of a [cell](Plan); `None` if no profile has a value.
@@ -421,18 +503,26 @@ impl Results {
     /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
-        Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))
+        Quantity::REGIMES
+            .map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))
     }
 
     /// Returns the recorded quantities except regimes, on scales for the whole study.
     pub(super) fn layers(&self) -> Vec<GridLayer> {
-        let recorded = self.plan.record.iter().filter(|quantity| !quantity.is_regime());
-        recorded.map(|quantity| self.layer(*quantity, None)).collect()
+        let recorded = self
+            .plan
+            .record
+            .iter()
+            .filter(|quantity| !quantity.is_regime());
+        recorded
+            .map(|quantity| self.layer(*quantity, None))
+            .collect()
     }
 
     /// Returns a recorded quantity with a scale for the whole study, either the given one or one that suits all means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
-        let means = (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
+        let means =
+            (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         GridLayer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
@@ -460,14 +550,26 @@ impl Results {
         }
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up);
         let fixed = others.map(|axis| axes[axis].at(places[axis])).collect();
-        Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), fixed, layers, cells)
+        Grid::new(
+            axes[across].ascending(),
+            up.map(|up| axes[up].ascending()),
+            fixed,
+            layers,
+            cells,
+        )
     }
 
     /// Returns a cell with the statistics of these quantities; `None` without records.
     pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<GridCell> {
-        let statistics = quantities.iter().map(|quantity| self.statistics(cell, *quantity)).collect();
+        let statistics = quantities
+            .iter()
+            .map(|quantity| self.statistics(cell, *quantity))
+            .collect();
         let regimes = self.regimes(cell);
-        (regimes[0].profiles() > 0).then_some(GridCell { statistics, regimes })
+        (regimes[0].profiles() > 0).then_some(GridCell {
+            statistics,
+            regimes,
+        })
     }
 }
 
@@ -479,7 +581,12 @@ mod tests {
     fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {
         let other_nan = f64::from_bits(f64::NAN.to_bits() | 1);
         assert!(same(&[1.0, f64::NAN], &[1.0, other_nan]));
-        for (one, other) in [(1.0, 1.0_f64.next_up()), (0.0, -0.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+        for (one, other) in [
+            (1.0, 1.0_f64.next_up()),
+            (0.0, -0.0),
+            (f64::NAN, 1.0),
+            (1.0, f64::NAN),
+        ] {
             assert!(!same(&[2.0, one], &[2.0, other]), "{one} {other}");
         }
     }

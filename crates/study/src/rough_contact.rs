@@ -31,8 +31,12 @@ const PASTEWKA_ROBBINS: Criterion = Criterion::new(
     "Pastewka, Robbins: PNAS 111 (2014) 3298",
     1.029_162_738_875_668,
 );
-const BEARING_AREA: Criterion =
-    Criterion::new("bearing area 2018", "h/h_c", "Ciavarella: Meccanica 53 (2018) 241", 1.0);
+const BEARING_AREA: Criterion = Criterion::new(
+    "bearing area 2018",
+    "h/h_c",
+    "Ciavarella: Meccanica 53 (2018) 241",
+    1.0,
+);
 const FULLER_TABOR: Criterion = Criterion::new(
     "Fuller & Tabor 1975",
     "θ",
@@ -56,7 +60,12 @@ pub(super) struct RoughContact {
 
 impl RoughContact {
     pub(super) fn criteria(&self) -> Vec<Criterion> {
-        vec![self.persson_tosatti(), self.pastewka_robbins(), self.bearing_area(), self.fuller_tabor()]
+        vec![
+            self.persson_tosatti(),
+            self.pastewka_robbins(),
+            self.bearing_area(),
+            self.fuller_tabor(),
+        ]
     }
 
     /// Returns the rms mean curvature c of the surface in 1/m: half of its rms Laplacian, which is the rms curvature of the
@@ -68,7 +77,10 @@ impl RoughContact {
     /// Elastic energy of the bodies pressed flat, divided by the work of adhesion, Persson and Tosatti (2001). Bodies
     /// conform where they gain more energy than they store. The limit for ever shorter waves exists only for H > ½.
     fn persson_tosatti(&self) -> Criterion {
-        let rough = self.spectrum.map(|spectrum| spectrum.hurst).filter(|hurst| *hurst <= 0.5);
+        let rough = self
+            .spectrum
+            .map(|spectrum| spectrum.hurst)
+            .filter(|hurst| *hurst <= 0.5);
         let rough = rough.map(|hurst| format!("H {}, needs H > 0.5", number(hurst)));
         let value = self.amplitude.elastic_energy(1.0) / self.stretch;
         PERSSON_TOSATTI.judge(value, &[long_ranged(self.tabor_number), rough])
@@ -84,8 +96,12 @@ impl RoughContact {
         let (gradient, range) = (self.amplitude.rms_gradient, self.range);
         let scale = gradient.powi(2) / self.mean_curvature();
         let share = range / (16.0 / 3.0 * scale);
-        let far = (share >= MOST_OF_GAP)
-            .then(|| format!("z₀ is {} of (16/3)g²/c, needs less than {MOST_OF_GAP}", number(share)));
+        let far = (share >= MOST_OF_GAP).then(|| {
+            format!(
+                "z₀ is {} of (16/3)g²/c, needs less than {MOST_OF_GAP}",
+                number(share)
+            )
+        });
         let value = gradient * range / (2.0 * self.stretch) * (scale / range).powf(2.0 / 3.0);
         PASTEWKA_ROBBINS.judge(value, &[far])
     }
@@ -94,16 +110,32 @@ impl RoughContact {
     /// the repulsion 0.75 q_L h E* e^(−2u/h) at some mean gap u, with the normal density φ: h_c² = ℓλ_L e²/(0.75·√(2π)·2π)
     /// = 0.626 ℓλ_L, published as 0.6; Ciavarella (2018).
     fn bearing_area(&self) -> Criterion {
-        let Some(SelfAffine { hurst, first, roll_off_mode, .. }) = self.spectrum else {
+        let Some(SelfAffine {
+            hurst,
+            first,
+            roll_off_mode,
+            ..
+        }) = self.spectrum
+        else {
             let reason = "needs a self-affine spectrum of H near 0.8".to_owned();
-            return Criterion { reason: Some(reason), ..BEARING_AREA };
+            return Criterion {
+                reason: Some(reason),
+                ..BEARING_AREA
+            };
         };
-        let soft = self.tabor_number.filter(|number| *number >= Governing::LEAST_TABOR_NUMBER);
+        let soft = self
+            .tabor_number
+            .filter(|number| *number >= Governing::LEAST_TABOR_NUMBER);
         let soft = soft.map(|of| {
-            format!("μ {}, needs stiff bodies, less than {}", number(of), Governing::LEAST_TABOR_NUMBER)
+            format!(
+                "μ {}, needs stiff bodies, less than {}",
+                number(of),
+                Governing::LEAST_TABOR_NUMBER
+            )
         });
         let [low, high] = HURST_OF_BEARING_AREA;
-        let other = (hurst < low || hurst > high).then(|| format!("H {}, needs H near 0.8", number(hurst)));
+        let other =
+            (hurst < low || hurst > high).then(|| format!("H {}, needs H near 0.8", number(hurst)));
         let longest = self.length / roll_off_mode.max(first as f64);
         let critical = (E.powi(2) / (0.75 * TAU.sqrt() * TAU) * self.stretch * longest).sqrt();
         BEARING_AREA.judge(self.amplitude.rms_height / critical, &[soft, other])
@@ -125,7 +157,11 @@ impl RoughContact {
         let judged = FULLER_TABOR.judge(theta, &[long_ranged(self.tabor_number), joined]);
         if judged.sticks == Some(false) && theta <= NEVER_BONDS {
             let reason = Some(format!("from 1 to {NEVER_BONDS}: adheres under pressure"));
-            return Criterion { sticks: None, reason, ..judged };
+            return Criterion {
+                sticks: None,
+                reason,
+                ..judged
+            };
         }
         judged
     }
@@ -143,7 +179,12 @@ impl Summits {
     /// Summits by the moments m₀ = h², m₂ = g²/2, m₄ = (3/8)⟨(∇²z)²⟩ of profiles cut from the surface: σ² = m₀(1 −
     /// 0.8968/α) with Nayak's bandwidth α = m₀m₄/m₂² (Bush, Gibson and Keogh 1976), density (m₄/m₂)/(6π√3) (Nayak 1971).
     fn of(amplitude: Amplitude) -> Summits {
-        let Amplitude { rms_height, rms_gradient, rms_curvature, .. } = amplitude;
+        let Amplitude {
+            rms_height,
+            rms_gradient,
+            rms_curvature,
+            ..
+        } = amplitude;
         let (second, fourth) = (0.5 * rms_gradient.powi(2), 0.375 * rms_curvature.powi(2));
         let bandwidth = (rms_height / second).powi(2) * fourth;
         Summits {
@@ -158,11 +199,30 @@ mod tests {
     use super::*;
 
     /// A self-affine contact of this H, whose waves begin at the roll-off of 1/100 of the length and end at 1/`ratio` of it.
-    fn contact(hurst: f64, longest: f64, ratio: u64, height: f64, stretch: f64, range: f64) -> RoughContact {
-        let spectrum = SelfAffine { hurst, first: 100, last: 100 * ratio, roll_off_mode: 0.0 };
+    fn contact(
+        hurst: f64,
+        longest: f64,
+        ratio: u64,
+        height: f64,
+        stretch: f64,
+        range: f64,
+    ) -> RoughContact {
+        let spectrum = SelfAffine {
+            hurst,
+            first: 100,
+            last: 100 * ratio,
+            roll_off_mode: 0.0,
+        };
         let length = 100.0 * longest;
         let amplitude = spectrum.unit_amplitude(length).scaled(height);
-        RoughContact { amplitude, stretch, range, spectrum: Some(spectrum), length, tabor_number: None }
+        RoughContact {
+            amplitude,
+            stretch,
+            range,
+            spectrum: Some(spectrum),
+            length,
+            tabor_number: None,
+        }
     }
 
     fn near(found: f64, expected: f64, error: f64) -> bool {
@@ -173,7 +233,11 @@ mod tests {
     fn root(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
         for _ in 0..200 {
             let middle = (low * high).sqrt();
-            if function(middle) < 0.0 { low = middle } else { high = middle }
+            if function(middle) < 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         low
     }
@@ -188,7 +252,12 @@ mod tests {
             }
         }
         // Contact-Mechanics Challenge (Müser et al. 2017), on a profile of ten times its length.
-        let spectrum = SelfAffine { hurst: 0.8, first: 10, last: 10_000, roll_off_mode: 50.0 };
+        let spectrum = SelfAffine {
+            hurst: 0.8,
+            first: 10,
+            last: 10_000,
+            roll_off_mode: 50.0,
+        };
         let unit = spectrum.unit_amplitude(1e-3);
         let challenge = RoughContact {
             amplitude: unit.scaled(1.0 / unit.rms_gradient),
@@ -197,9 +266,17 @@ mod tests {
             ..contact(0.8, 1e-4, 200, 1e-6, 0.05 / 25e6, 2.07e-9)
         };
         assert_eq!(number(1e6 * challenge.amplitude.rms_height), "0.78");
-        let values = challenge.criteria().iter().map(|row| number(row.value.unwrap())).collect::<Vec<_>>();
+        let values = challenge
+            .criteria()
+            .iter()
+            .map(|row| number(row.value.unwrap()))
+            .collect::<Vec<_>>();
         assert_eq!(values[..3], ["41", "5.6", "4.9"]);
-        assert!(challenge.criteria()[..3].iter().all(|row| row.sticks == Some(false)));
+        assert!(
+            challenge.criteria()[..3]
+                .iter()
+                .all(|row| row.sticks == Some(false))
+        );
     }
 
     /// e_el/γ of Persson and Tosatti for a self-affine spectrum, in closed form.
@@ -211,19 +288,32 @@ mod tests {
             let (zeta, q) = (ratio as f64, TAU / longest);
             let bands = (1.0 - zeta.powf(1.0 - 2.0 * hurst)) / (1.0 - zeta.powf(-2.0 * hurst));
             let expected = height.powi(2) * q * 0.5 * hurst / (2.0 * hurst - 1.0) * bands / stretch;
-            assert!(near(found.value.unwrap(), expected, 0.01), "{hurst}: {found:?} {expected}");
+            assert!(
+                near(found.value.unwrap(), expected, 0.01),
+                "{hurst}: {found:?} {expected}"
+            );
             assert_eq!(found.sticks, Some(expected < 1.0));
         }
         let rough = contact(0.3, 1e-4, 100, 1e-7, 1e-8, 3e-10).persson_tosatti();
         assert_eq!(rough.sticks, None);
-        assert!(rough.words().ends_with("does not hold: H 0.3, needs H > 0.5"), "{}", rough.words());
+        assert!(
+            rough
+                .words()
+                .ends_with("does not hold: H 0.3, needs H > 0.5"),
+            "{}",
+            rough.words()
+        );
     }
 
     /// The threshold of P from the balance of forces itself: the gap beside a contact strip of width d and radius R = 2/c,
     /// integrated, gives the width that attracts.
     #[test]
     fn the_edge_of_spots_attracts_as_much_as_they_repel_at_the_threshold() {
-        assert!(near(PASTEWKA_ROBBINS.threshold, PI * (3.0_f64 / 16.0).powf(2.0 / 3.0), 1e-15));
+        assert!(near(
+            PASTEWKA_ROBBINS.threshold,
+            PI * (3.0_f64 / 16.0).powf(2.0 / 3.0),
+            1e-15
+        ));
         let soft = contact(0.8, 1e-4, 300, 4e-7, 1e-8, 1e-12);
         let (gradient, curvature) = (soft.amplitude.rms_gradient, soft.mean_curvature());
         let (diameter, radius) = (4.0 * gradient / curvature, 2.0 / curvature);
@@ -240,11 +330,16 @@ mod tests {
         let width = root(1e-9 * half, half, |s| gap(s) - soft.range);
         // Attraction (γ/z₀)·s on the perimeter against E*(g/2)·d/π, with the perimeter per area π/d.
         let stretch = gradient / 2.0 * diameter / PI * soft.range / width;
-        let found = RoughContact { stretch, ..soft }.pastewka_robbins().value.unwrap();
+        let found = RoughContact { stretch, ..soft }
+            .pastewka_robbins()
+            .value
+            .unwrap();
         assert!(near(found, PASTEWKA_ROBBINS.threshold, 1e-3), "{found}");
         // Attraction that reaches over the gaps between the spots.
         let far = contact(0.8, 1e-4, 1000, 3e-7, 1e-8, 1e-8).pastewka_robbins();
-        assert!(far.sticks.is_none() && far.reason.unwrap().starts_with("does not hold: z₀ is 0.1"));
+        assert!(
+            far.sticks.is_none() && far.reason.unwrap().starts_with("does not hold: z₀ is 0.1")
+        );
     }
 
     /// h_c from the balance of attraction and repulsion at all mean gaps.
@@ -263,8 +358,18 @@ mod tests {
         let critical = root(1e-9, 1e-5, net);
         let found = contact(0.8, longest, 200, critical, stretch, 3e-10).bearing_area();
         assert!(near(found.value.unwrap(), 1.0, 1e-5), "{found:?}");
-        assert!(near((stretch * longest).sqrt() / critical, 0.6_f64.sqrt().recip(), 0.03), "published 0.6");
-        let soft = RoughContact { tabor_number: Some(189.0), ..contact(0.8, 1e-4, 200, 1e-7, 1e-8, 3e-10) };
+        assert!(
+            near(
+                (stretch * longest).sqrt() / critical,
+                0.6_f64.sqrt().recip(),
+                0.03
+            ),
+            "published 0.6"
+        );
+        let soft = RoughContact {
+            tabor_number: Some(189.0),
+            ..contact(0.8, 1e-4, 200, 1e-7, 1e-8, 3e-10)
+        };
         assert_eq!(
             soft.bearing_area().reason.unwrap(),
             "does not hold: μ 190, needs stiff bodies, less than 5"
@@ -278,7 +383,9 @@ mod tests {
         const STEP: f64 = 0.6;
         let mut state = 1_u64;
         let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         // Waves of one length, and of lengths over a factor of three, whose shortest is 2π.
@@ -287,8 +394,11 @@ mod tests {
             for _ in 0..surfaces {
                 let mut z = vec![0.0; SIDE * SIDE];
                 for _ in 0..60 {
-                    let (q, angle, phase) =
-                        (lowest + (1.0 - lowest) * random(), TAU * random(), TAU * random());
+                    let (q, angle, phase) = (
+                        lowest + (1.0 - lowest) * random(),
+                        TAU * random(),
+                        TAU * random(),
+                    );
                     let (x, y) = (q * STEP * angle.cos(), q * STEP * angle.sin());
                     for (index, z) in z.iter_mut().enumerate() {
                         *z += ((index % SIDE) as f64 * x + (index / SIDE) as f64 * y + phase).cos();
@@ -299,7 +409,9 @@ mod tests {
                     for column in 1..SIDE - 1 {
                         let at = |dy: usize, dx: usize| z[(row + dy - 1) * SIDE + column + dx - 1];
                         let own = at(1, 1);
-                        let beside = (0..9).filter(|place| *place != 4).map(|place| at(place / 3, place % 3));
+                        let beside = (0..9)
+                            .filter(|place| *place != 4)
+                            .map(|place| at(place / 3, place % 3));
                         heights.extend(beside.fold(own, f64::max).eq(&own).then_some(own));
                     }
                 }
@@ -315,12 +427,23 @@ mod tests {
             let expected = Summits::of(amplitude);
             let area = f64::from(surfaces) * ((SIDE - 2) as f64 * STEP).powi(2);
             let found = heights.len() as f64 / area;
-            assert!(near(found, expected.density, 0.1), "{lowest}: {found} {}", expected.density);
+            assert!(
+                near(found, expected.density, 0.1),
+                "{lowest}: {found} {}",
+                expected.density
+            );
             let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-            let spread = (heights.iter().map(|height| (height - mean).powi(2)).sum::<f64>()
+            let spread = (heights
+                .iter()
+                .map(|height| (height - mean).powi(2))
+                .sum::<f64>()
                 / heights.len() as f64)
                 .sqrt();
-            assert!(near(spread, expected.height, 0.1), "{lowest}: {spread} {}", expected.height);
+            assert!(
+                near(spread, expected.height, 0.1),
+                "{lowest}: {spread} {}",
+                expected.height
+            );
         }
     }
 
@@ -328,13 +451,27 @@ mod tests {
     #[test]
     fn theta_is_hertzian_repulsion_over_pull_off_force() {
         let narrow = contact(0.8, 1e-5, 2, 1e-8, 1e-9, 3e-10);
-        let (sigma, radius) = (Summits::of(narrow.amplitude).height, 1.0 / narrow.mean_curvature());
+        let (sigma, radius) = (
+            Summits::of(narrow.amplitude).height,
+            1.0 / narrow.mean_curvature(),
+        );
         let hertz = 4.0 / 3.0 * radius.sqrt() * sigma.powf(1.5);
         let pull_off = 1.5 * PI * radius * narrow.stretch;
         let found = narrow.fuller_tabor();
-        assert!(near(found.value.unwrap() * 16.0 / 9.0 / TAU, hertz / pull_off, 1e-12), "{found:?}");
+        assert!(
+            near(
+                found.value.unwrap() * 16.0 / 9.0 / TAU,
+                hertz / pull_off,
+                1e-12
+            ),
+            "{found:?}"
+        );
         let verdict = |stretch: f64| {
-            RoughContact { stretch, ..contact(0.8, 1e-5, 2, 1e-8, 1e-9, 3e-10) }.fuller_tabor()
+            RoughContact {
+                stretch,
+                ..contact(0.8, 1e-5, 2, 1e-8, 1e-9, 3e-10)
+            }
+            .fuller_tabor()
         };
         let theta = found.value.unwrap();
         let at = |wanted: f64| verdict(1e-9 * theta / wanted);
@@ -342,8 +479,16 @@ mod tests {
             [0.9, 1.1, 11.9, 12.1].map(|theta| at(theta).sticks),
             [Some(true), None, None, Some(false)]
         );
-        assert_eq!(at(5.0).words(), "θ = 5; from 1 to 12: adheres under pressure");
+        assert_eq!(
+            at(5.0).words(),
+            "θ = 5; from 1 to 12: adheres under pressure"
+        );
         let broad = contact(0.8, 1e-4, 1000, 3e-7, 1e-8, 3e-10).fuller_tabor();
-        assert!(broad.reason.unwrap().contains("would cover 7.9 times the area"));
+        assert!(
+            broad
+                .reason
+                .unwrap()
+                .contains("would cover 7.9 times the area")
+        );
     }
 }

@@ -79,7 +79,12 @@ pub fn run_study(
     let cells = Cells::of(plan);
     let done = folder.done()?;
     let (total, before) = count(folder, &cells, &done, shard);
-    let mut progress = StudyProgress { done: before, before, total, elapsed: Duration::ZERO };
+    let mut progress = StudyProgress {
+        done: before,
+        before,
+        total,
+        elapsed: Duration::ZERO,
+    };
     report(&progress);
     if progress.is_complete() {
         return Ok(progress);
@@ -90,9 +95,18 @@ pub fn run_study(
     let (path, mut file) = folder.new_file(shard)?;
     let units: &[u64] = &shard.units(cells.units()).collect::<Vec<u64>>();
     let (done, plan) = (&done, plan);
-    let is_missing =
-        |streak: &Streak| streak.cells.clone().any(|cell| !done[(cell * plan.lines + streak.line) as usize]);
-    let streaks = Streaks { cells: &cells, units, is_missing: &is_missing, profile: profile.as_ref() };
+    let is_missing = |streak: &Streak| {
+        streak
+            .cells
+            .clone()
+            .any(|cell| !done[(cell * plan.lines + streak.line) as usize])
+    };
+    let streaks = Streaks {
+        cells: &cells,
+        units,
+        is_missing: &is_missing,
+        profile: profile.as_ref(),
+    };
     let (sender, receiver) = sync_channel(WAITING);
     let work = move || {
         let send = move |streak: Streak, records: Vec<Recorded>| {
@@ -107,9 +121,13 @@ pub fn run_study(
         streaks.compute(plan, threads, stop, &send)
     };
     std::thread::scope(|scope| {
-        let threads = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
+        let threads = Builder::new()
+            .spawn_scoped(scope, work)
+            .map_err(StudyError::NoThread)?;
         let written = write((&path, &mut file), receiver, clock, &mut progress, report);
-        threads.join().unwrap_or_else(|panic| resume_unwind(panic))?;
+        threads
+            .join()
+            .unwrap_or_else(|panic| resume_unwind(panic))?;
         written.map_err(StudyError::unwritable(&path))
     })?;
     report(&progress);
@@ -128,11 +146,17 @@ fn write(
     let (mut synced, mut reported) = (Instant::now(), Instant::now());
     let (mut pending, mut elapsed) = (0, Duration::ZERO);
     loop {
-        let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
+        let wait = if pending > 0 {
+            SYNC.saturating_sub(synced.elapsed())
+        } else {
+            TICK
+        };
         let first = receiver.recv_timeout(wait);
         let ended = first == Err(RecvTimeoutError::Disconnected);
         if let Ok(first) = first {
-            let text: String = std::iter::once(first).chain(receiver.try_iter().take(WAITING)).collect();
+            let text: String = std::iter::once(first)
+                .chain(receiver.try_iter().take(WAITING))
+                .collect();
             file.write_all(text.as_bytes())?;
             elapsed = clock.elapsed();
             pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
@@ -144,7 +168,9 @@ fn write(
         }
         if reported.elapsed() >= TICK {
             if !path.exists() {
-                return Err(io::Error::other("the file has been removed while the study was computed"));
+                return Err(io::Error::other(
+                    "the file has been removed while the study was computed",
+                ));
             }
             report(progress);
             reported = Instant::now();

@@ -53,9 +53,18 @@ struct Suspect {
 
 impl Scan {
     /// Scans the range of the coordinates.
-    pub fn of(coordinates: Coordinates, target: f64, compute: &mut Compute<'_>) -> Result<Scan, RunError> {
+    pub fn of(
+        coordinates: Coordinates,
+        target: f64,
+        compute: &mut Compute<'_>,
+    ) -> Result<Scan, RunError> {
         let (numbers, is_complete) = coordinates.spread(INTERVALS, MOST_TRIED);
-        let mut scan = Scan { coordinates, target, tried: Vec::new(), is_complete };
+        let mut scan = Scan {
+            coordinates,
+            target,
+            tried: Vec::new(),
+            is_complete,
+        };
         scan.add(&numbers, compute)?;
         scan.complete(compute)?;
         while !scan.is_complete {
@@ -73,9 +82,16 @@ impl Scan {
         let is_known = |tried: &Tried| !tried.value.is_nan();
         let first = self.tried.iter().position(is_known).unwrap_or(0);
         let last = self.tried.iter().rposition(is_known).unwrap_or(0);
-        let ends = [first.saturating_sub(1), (last + 1).min(self.tried.len() - 1)];
-        let between = self.coordinates.all_between(ends.map(|point| self.tried[point].number), MOST_TRIED);
-        let Some(mut numbers) = between.filter(|_| !self.is_complete) else { return Ok(()) };
+        let ends = [
+            first.saturating_sub(1),
+            (last + 1).min(self.tried.len() - 1),
+        ];
+        let between = self
+            .coordinates
+            .all_between(ends.map(|point| self.tried[point].number), MOST_TRIED);
+        let Some(mut numbers) = between.filter(|_| !self.is_complete) else {
+            return Ok(());
+        };
         numbers.retain(|number| self.tried.iter().all(|tried| tried.number != *number));
         self.is_complete = true;
         self.add(&numbers, compute)
@@ -83,9 +99,13 @@ impl Scan {
 
     fn add(&mut self, numbers: &[f64], compute: &mut Compute<'_>) -> Result<(), RunError> {
         let values = compute(numbers)?;
-        let tried = numbers.iter().zip(values).map(|(&number, value)| Tried { number, value });
+        let tried = numbers
+            .iter()
+            .zip(values)
+            .map(|(&number, value)| Tried { number, value });
         self.tried.extend(tried);
-        self.tried.sort_by(|one, other| one.number.total_cmp(&other.number));
+        self.tried
+            .sort_by(|one, other| one.number.total_cmp(&other.number));
         Ok(())
     }
 
@@ -98,7 +118,11 @@ impl Scan {
             let by_urgency = other.urgency.total_cmp(&one.urgency);
             one.is_beyond.cmp(&other.is_beyond).then(by_urgency)
         });
-        let mut numbers: Vec<f64> = suspects.iter().take(left).map(|suspect| suspect.middle).collect();
+        let mut numbers: Vec<f64> = suspects
+            .iter()
+            .take(left)
+            .map(|suspect| suspect.middle)
+            .collect();
         numbers.sort_by(f64::total_cmp);
         numbers
     }
@@ -112,7 +136,11 @@ impl Scan {
             let ends = [self.tried[index].number, self.tried[index + 1].number];
             if urgency > 1.0 && self.width(index) > NARROWEST * self.coordinates.length() {
                 let middle = self.coordinates.middle(ends);
-                suspects.extend(middle.map(|middle| Suspect { middle, is_beyond, urgency }));
+                suspects.extend(middle.map(|middle| Suspect {
+                    middle,
+                    is_beyond,
+                    urgency,
+                }));
             }
             is_beyond |= self.is_crossed(index);
         }
@@ -135,13 +163,17 @@ impl Scan {
 
     /// Returns true if the quantity passes the target between number `index` and the next one.
     fn is_crossed(&self, index: usize) -> bool {
-        let sides = [side(self.tried[index], self.target), side(self.tried[index + 1], self.target)];
+        let sides = [
+            side(self.tried[index], self.target),
+            side(self.tried[index + 1], self.target),
+        ];
         matches!(sides, [Some(one), Some(other)] if one != other)
     }
 
     /// Width of interval `index` in coordinates.
     fn width(&self, index: usize) -> f64 {
-        let places = [index, index + 1].map(|point| self.coordinates.coordinate(self.tried[point].number));
+        let places =
+            [index, index + 1].map(|point| self.coordinates.coordinate(self.tried[point].number));
         places[1] - places[0]
     }
 
@@ -157,31 +189,51 @@ impl Scan {
         }
         let distances = [(from - self.target).abs(), (to - self.target).abs()];
         // Beyond both ends of an interval without a crossing, between the ends of one that has a crossing.
-        let distance =
-            if self.is_crossed(index) { 0.5 * (to - from).abs() } else { distances[0].min(distances[1]) };
+        let distance = if self.is_crossed(index) {
+            0.5 * (to - from).abs()
+        } else {
+            distances[0].min(distances[1])
+        };
         let mut deviation = self.deviation(index);
         if self.turns(index) {
             deviation = deviation.max(CLOSE * self.spread());
         }
         let deviation = SAFETY * deviation;
-        if deviation > 0.0 { deviation / distance } else { 0.0 }
+        if deviation > 0.0 {
+            deviation / distance
+        } else {
+            0.0
+        }
     }
 
     /// Returns true if interval `index` has an end at which the quantity is closer to the target than at the numbers beside it,
     /// and on the same side.
     fn turns(&self, index: usize) -> bool {
         let distance = |point: usize| (self.tried[point].value - self.target).abs();
-        let end = if distance(index) <= distance(index + 1) { index } else { index + 1 };
-        let beside = [end.checked_sub(1), Some(end + 1).filter(|point| *point < self.tried.len())];
+        let end = if distance(index) <= distance(index + 1) {
+            index
+        } else {
+            index + 1
+        };
+        let beside = [
+            end.checked_sub(1),
+            Some(end + 1).filter(|point| *point < self.tried.len()),
+        ];
         beside.into_iter().flatten().all(|point| {
-            let same_side = side(self.tried[point], self.target) == side(self.tried[end], self.target);
+            let same_side =
+                side(self.tried[point], self.target) == side(self.tried[end], self.target);
             same_side && distance(point) >= distance(end)
         })
     }
 
     /// Returns the difference of the largest and the smallest value of the quantity.
     fn spread(&self) -> f64 {
-        let values = || self.tried.iter().map(|tried| tried.value).filter(|value| !value.is_nan());
+        let values = || {
+            self.tried
+                .iter()
+                .map(|tried| tried.value)
+                .filter(|value| !value.is_nan())
+        };
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
     }
 
@@ -190,8 +242,9 @@ impl Scan {
     fn deviation(&self, index: usize) -> f64 {
         let width = self.width(index);
         let first = index.saturating_sub(3);
-        let mut deviations: Vec<f64> =
-            (first..=index + 4).filter_map(|point| self.deviation_at(point, width)).collect();
+        let mut deviations: Vec<f64> = (first..=index + 4)
+            .filter_map(|point| self.deviation_at(point, width))
+            .collect();
         deviations.sort_by(f64::total_cmp);
         deviations.get(deviations.len() / 2).copied().unwrap_or(0.0)
     }

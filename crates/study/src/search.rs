@@ -28,7 +28,14 @@ impl Question {
         line: u64,
         stop: &dyn Fn() -> bool,
     ) -> Result<(Answer, Option<String>), RunError> {
-        let search = Search { question: self, simulation, line, stop, known: Vec::new(), refused: None };
+        let search = Search {
+            question: self,
+            simulation,
+            line,
+            stop,
+            known: Vec::new(),
+            refused: None,
+        };
         search.answer()
     }
 }
@@ -49,7 +56,11 @@ impl Search<'_> {
     fn answer(mut self) -> Result<(Answer, Option<String>), RunError> {
         let question = self.question;
         let mut answer = Answer {
-            seed: question.plan.scene.seed().map(|_| question.plan.seed_of(self.line)),
+            seed: question
+                .plan
+                .scene
+                .seed()
+                .map(|_| question.plan.seed_of(self.line)),
             ..Answer::default()
         };
         // The check of the question found an allowed number.
@@ -61,10 +72,19 @@ impl Search<'_> {
                 Course::Unknown => self.scan(&coordinates, &mut answer)?,
             }
         }
-        self.known.sort_by(|one, other| one.number.total_cmp(&other.number));
-        let with_value: Vec<&Tried> = self.known.iter().filter(|tried| !tried.value.is_nan()).collect();
-        let is_reached = |tried: Option<&&Tried>| tried.is_some_and(|tried| tried.value >= question.target);
-        answer.reached = [is_reached(with_value.first()), is_reached(with_value.last())];
+        self.known
+            .sort_by(|one, other| one.number.total_cmp(&other.number));
+        let with_value: Vec<&Tried> = self
+            .known
+            .iter()
+            .filter(|tried| !tried.value.is_nan())
+            .collect();
+        let is_reached =
+            |tried: Option<&&Tried>| tried.is_some_and(|tried| tried.value >= question.target);
+        answer.reached = [
+            is_reached(with_value.first()),
+            is_reached(with_value.last()),
+        ];
         let least = with_value.iter().map(|tried| tried.value).reduce(f64::min);
         let most = with_value.iter().map(|tried| tried.value).reduce(f64::max);
         answer.reachable = least.zip(most);
@@ -74,11 +94,19 @@ impl Search<'_> {
     }
 
     /// Searches a quantity that never turns: two numbers bracket its only crossing.
-    fn search_one_way(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
+    fn search_one_way(
+        &mut self,
+        coordinates: &Coordinates,
+        answer: &mut Answer,
+    ) -> Result<(), RunError> {
         let (numbers, _) = coordinates.spread(1, 1);
         let records = self.compute(&numbers)?;
         answer.is_proven = true;
-        let touch = |values: &Vec<f64>| values.get(1).is_some_and(|force| *force >= self.question.target);
+        let touch = |values: &Vec<f64>| {
+            values
+                .get(1)
+                .is_some_and(|force| *force >= self.question.target)
+        };
         let has_touch = at_touch(&self.question.axis, self.question.quantity).is_some();
         answer.at_touch = has_touch && records.first().is_some_and(touch);
         let tried: Vec<Tried> = self.known.clone();
@@ -98,20 +126,31 @@ impl Search<'_> {
         if to <= 0.0 || target <= 0.0 {
             // The ratio exists above 0 N only, and it is zero only where F_a is zero: up to its first step.
             let stairs = self.climb(&[from.max(0.0), to])?;
-            let is_zero = stairs.first().is_some_and(|stair| stair.adhesion_force <= 0.0);
-            answer.crossings.extend((to > 0.0 && is_zero).then_some(from.max(0.0)));
+            let is_zero = stairs
+                .first()
+                .is_some_and(|stair| stair.adhesion_force <= 0.0);
+            answer
+                .crossings
+                .extend((to > 0.0 && is_zero).then_some(from.max(0.0)));
             return Ok(());
         }
-        let found = ratio_crossings([from.max(0.0), to], target, &mut |numbers| self.climb(numbers))?;
+        let found = ratio_crossings([from.max(0.0), to], target, &mut |numbers| {
+            self.climb(numbers)
+        })?;
         answer.may_miss = found.may_miss;
         answer.crossings = found.numbers;
         Ok(())
     }
 
     /// Searches a quantity that is constant wherever F_a is.
-    fn search_steps(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
+    fn search_steps(
+        &mut self,
+        coordinates: &Coordinates,
+        answer: &mut Answer,
+    ) -> Result<(), RunError> {
         let target = self.question.target;
-        let (pairs, may_miss) = step_crossings(coordinates, target, &mut |numbers| self.climb(numbers))?;
+        let (pairs, may_miss) =
+            step_crossings(coordinates, target, &mut |numbers| self.climb(numbers))?;
         answer.is_proven = !may_miss;
         answer.may_miss = may_miss;
         let first = self.known.first().filter(|first| first.value == target);
@@ -126,13 +165,20 @@ impl Search<'_> {
     fn scan(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
         let target = self.question.target;
         let scan = Scan::of(*coordinates, target, &mut |numbers| {
-            Ok(self.compute(numbers)?.iter().map(|values| values[0]).collect())
+            Ok(self
+                .compute(numbers)?
+                .iter()
+                .map(|values| values[0])
+                .collect())
         })?;
         answer.is_proven = scan.is_complete();
         // The number of patches and the place of the smallest force jump without a warning, and profiles with other numbers of
         // waves are other profiles.
         let jumps = coordinates.is_discrete()
-            || matches!(self.question.quantity, Quantity::Fragments | Quantity::PullOffIndentation);
+            || matches!(
+                self.question.quantity,
+                Quantity::Fragments | Quantity::PullOffIndentation
+            );
         answer.may_miss = scan.may_miss() || (jumps && !scan.is_complete());
         // The first number may have the target itself.
         let first = scan.tried.first().filter(|first| first.value == target);
@@ -166,22 +212,34 @@ impl Search<'_> {
     }
 
     /// Returns the number between two others at which the quantity passes the target, or comes to rest on it.
-    fn crossing(&mut self, coordinates: &Coordinates, from: Tried, to: Tried) -> Result<f64, RunError> {
+    fn crossing(
+        &mut self,
+        coordinates: &Coordinates,
+        from: Tried,
+        to: Tried,
+    ) -> Result<f64, RunError> {
         let target = self.question.target;
         let (mut from, mut end) = (from, to);
         let mut falls_onto = side(from, target) != Some(Ordering::Less) && end.value == target;
         loop {
             let way = Passage { target, falls_onto };
-            let number = passage(coordinates, way, [from, end], &mut |number| self.value(number))?;
+            let number = passage(coordinates, way, [from, end], &mut |number| {
+                self.value(number)
+            })?;
             if from.value < target || number == from.number {
                 return Ok(number);
             }
-            let reached = Tried { number, value: self.value(number)? };
+            let reached = Tried {
+                number,
+                value: self.value(number)?,
+            };
             match side(reached, target) {
                 // A plateau on the target ends here. It may begin earlier.
                 Some(Ordering::Equal) if !falls_onto => (end, falls_onto) = (reached, true),
                 // The quantity falls through the target on the way.
-                Some(Ordering::Less) if from.value.is_nan() => (from, falls_onto) = (reached, false),
+                Some(Ordering::Less) if from.value.is_nan() => {
+                    (from, falls_onto) = (reached, false)
+                }
                 Some(Ordering::Less) if falls_onto => (end, falls_onto) = (reached, false),
                 _ => return Ok(number),
             }
@@ -198,7 +256,11 @@ impl Search<'_> {
         let records = self.compute(preloads)?;
         let stair = |(&preload, values): (&f64, &Vec<f64>)| {
             let force = values.last().copied().unwrap_or_default();
-            Stair { preload, adhesion_force: force.max(0.0), value: values[0] }
+            Stair {
+                preload,
+                adhesion_force: force.max(0.0),
+                value: values[0],
+            }
         };
         Ok(preloads.iter().zip(&records).map(stair).collect())
     }
@@ -206,15 +268,28 @@ impl Search<'_> {
     /// Computes the recorded quantities at each of several numbers; NaN for those that have no value.
     fn compute(&mut self, numbers: &[f64]) -> Result<Vec<Vec<f64>>, RunError> {
         let question = self.question;
-        let axis = Axis { values: numbers.to_vec(), ..question.axis.clone() };
-        let plan = Plan { axes: vec![axis], ..question.plan.clone() };
+        let axis = Axis {
+            values: numbers.to_vec(),
+            ..question.axis.clone()
+        };
+        let plan = Plan {
+            axes: vec![axis],
+            ..question.plan.clone()
+        };
         // One loading serves all preloads.
-        let step = if question.is_of_preload() { plan.cells() } else { 1 };
+        let step = if question.is_of_preload() {
+            plan.cells()
+        } else {
+            1
+        };
         let line = self.line;
         let mut records: Vec<Recorded> = Vec::with_capacity(numbers.len());
         with_recorder(&plan, self.simulation, self.stop, |recorder| {
             for first in (0..plan.cells()).step_by(step as usize) {
-                records.extend(recorder.record_each(&Streak { cells: first..first + step, line })?);
+                records.extend(recorder.record_each(&Streak {
+                    cells: first..first + step,
+                    line,
+                })?);
             }
             Ok(())
         })?;
@@ -228,7 +303,10 @@ impl Search<'_> {
             if (values[0] - question.target).abs() <= ROUNDING * question.target.abs() {
                 values[0] = question.target;
             }
-            self.known.push(Tried { number, value: values[0] });
+            self.known.push(Tried {
+                number,
+                value: values[0],
+            });
             all.push(values);
         }
         Ok(all)

@@ -21,7 +21,10 @@ pub struct Selection {
     /// If the study did not record F_a/F_n, the default is F_a(d=0)/F_a,max and
     /// F_a(F=0)/F_a,max. Of each pair, only recorded quantities are drawn. If none is recorded,
     /// the first recorded quantity is drawn.
-    #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME", verbatim_doc_comment))]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long = "quantity", value_name = "NAME", verbatim_doc_comment)
+    )]
     pub quantities: Vec<String>,
     /// Horizontal axis of the charts: one of the axes of the study
     #[cfg_attr(feature = "clap", arg(long = "x", value_name = "AXIS"))]
@@ -41,7 +44,9 @@ pub struct Selection {
 
 #[cfg(feature = "clap")]
 fn axis_and_value(text: &str) -> Result<(String, String), String> {
-    let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
+    let parts = text
+        .split_once('=')
+        .map(|(axis, value)| (axis.trim(), value.trim()));
     let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
     let owned = parts.map(|(axis, value)| (axis.to_owned(), value.to_owned()));
     owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
@@ -77,7 +82,8 @@ impl Selection {
         let (named, mut at) = self.axes(&plan.axes)?;
         let note = first_preload(&plan.axes, named, &mut at);
         let (across, second) = self.free(&plan.axes, named, &at)?;
-        let curves = self.up.is_none() && second.is_some_and(|second| is_few(&plan.axes, second, across));
+        let curves =
+            self.up.is_none() && second.is_some_and(|second| is_few(&plan.axes, second, across));
         let places = at.iter().map(|place| place.unwrap_or(0)).collect();
         let mut grid = study.grid((across, second), places, study.layers());
         let is_map = second.is_some() && !curves;
@@ -87,33 +93,69 @@ impl Selection {
         };
         // The same quantity by two protocols has one scale.
         let is_share = |quantity: &Quantity| Quantity::ADHESION_SHARES.contains(quantity);
-        let is_logarithmic = |quantity: &Quantity| layer(*quantity, None).scale == AxisScale::Logarithmic;
+        let is_logarithmic =
+            |quantity: &Quantity| layer(*quantity, None).scale == AxisScale::Logarithmic;
         let both = quantities.iter().all(is_share) && quantities.iter().any(is_logarithmic);
         let scale = self.scale.or(both.then_some(AxisScale::Logarithmic));
-        grid.layers = grid.layers.iter().map(|one| layer(one.quantity, scale)).collect();
-        Ok(Selected { grid, quantities, curves, note })
+        grid.layers = grid
+            .layers
+            .iter()
+            .map(|one| layer(one.quantity, scale))
+            .collect();
+        Ok(Selected {
+            grid,
+            quantities,
+            curves,
+            note,
+        })
     }
 
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, StudyError> {
         let drawn = plan.record.iter().copied().filter(|one| !one.is_regime());
         let drawn: Vec<Quantity> = drawn.collect();
         let named = |name: &str| {
-            drawn.iter().copied().find(|one| [one.name(), one.symbol()].contains(&name)).ok_or_else(|| {
-                let allowed = drawn.iter().map(|one| one.name()).collect::<Vec<_>>().join(", ");
-                let allowed = if drawn.is_empty() { "none, only regimes were recorded" } else { &allowed };
-                let place = format!("--quantity {name}");
-                StudyError::refused(Some(&place), "this study has no such quantity", allowed)
-            })
+            drawn
+                .iter()
+                .copied()
+                .find(|one| [one.name(), one.symbol()].contains(&name))
+                .ok_or_else(|| {
+                    let allowed = drawn
+                        .iter()
+                        .map(|one| one.name())
+                        .collect::<Vec<_>>()
+                        .join(", ");
+                    let allowed = if drawn.is_empty() {
+                        "none, only regimes were recorded"
+                    } else {
+                        &allowed
+                    };
+                    let place = format!("--quantity {name}");
+                    StudyError::refused(Some(&place), "this study has no such quantity", allowed)
+                })
         };
         if !self.quantities.is_empty() {
             return self.quantities.iter().map(|name| named(name)).collect();
         }
-        let paper = [Quantity::FirstTouchAdhesionShare, Quantity::AdhesionCoefficient];
+        let paper = [
+            Quantity::FirstTouchAdhesionShare,
+            Quantity::AdhesionCoefficient,
+        ];
         // Without a preload there is no coefficient, and both protocols are side by side.
-        let usual = if drawn.contains(&paper[1]) { paper } else { Quantity::ADHESION_SHARES };
-        let usual: Vec<_> = usual.into_iter().filter(|one| drawn.contains(one)).collect();
+        let usual = if drawn.contains(&paper[1]) {
+            paper
+        } else {
+            Quantity::ADHESION_SHARES
+        };
+        let usual: Vec<_> = usual
+            .into_iter()
+            .filter(|one| drawn.contains(one))
+            .collect();
         let first = || named(drawn.first().map_or("regime", |one| one.name()));
-        if usual.is_empty() { Ok(vec![first()?]) } else { Ok(usual) }
+        if usual.is_empty() {
+            Ok(vec![first()?])
+        } else {
+            Ok(usual)
+        }
     }
 
     /// Returns the named axes, which must exist and be named once. An axis with one value is fixed.
@@ -128,9 +170,16 @@ impl Selection {
             named.push((index, option));
             Ok(index)
         };
-        let across = self.across.as_ref().map(|path| name(path, "--x")).transpose()?;
+        let across = self
+            .across
+            .as_ref()
+            .map(|path| name(path, "--x"))
+            .transpose()?;
         let up = self.up.as_ref().map(|path| name(path, "--y")).transpose()?;
-        let mut fixed: Vec<_> = axes.iter().map(|axis| (axis.values.len() == 1).then_some(0)).collect();
+        let mut fixed: Vec<_> = axes
+            .iter()
+            .map(|axis| (axis.values.len() == 1).then_some(0))
+            .collect();
         for (path, value) in &self.at {
             let index = name(path, "--at")?;
             let axis = &axes[index];
@@ -143,7 +192,8 @@ impl Selection {
                 StudyError::refused(Some(&place), "the study has no such value", values_of(axis))
             };
             let close = (0..axis.values.len()).filter(|place| same(&axis.values[*place]));
-            let nearest = close.min_by(|a, b| off(&axis.values[*a]).total_cmp(&off(&axis.values[*b])));
+            let nearest =
+                close.min_by(|a, b| off(&axis.values[*a]).total_cmp(&off(&axis.values[*b])));
             fixed[index] = Some(nearest.ok_or_else(none)?);
         }
         Ok(([across, up], fixed))
@@ -162,8 +212,9 @@ impl Selection {
             StudyError::refused(None, found, "an axis with two values at least")
         };
         let is_named = |index: &usize| named.contains(&Some(*index));
-        let rest: Vec<usize> =
-            (0..axes.len()).filter(|index| fixed[*index].is_none() && !is_named(index)).collect();
+        let rest: Vec<usize> = (0..axes.len())
+            .filter(|index| fixed[*index].is_none() && !is_named(index))
+            .collect();
         match (named, &rest[..]) {
             ([Some(across), up], []) => Ok((across, up)),
             ([Some(across), None], [second]) => Ok((across, Some(*second))),
@@ -193,7 +244,11 @@ impl Selection {
 }
 
 /// Fixes an axis of preloads at its first value if too many axes are free, and says so.
-fn first_preload(axes: &[Axis], named: [Option<usize>; 2], fixed: &mut [Option<usize>]) -> Option<String> {
+fn first_preload(
+    axes: &[Axis],
+    named: [Option<usize>; 2],
+    fixed: &mut [Option<usize>],
+) -> Option<String> {
     let last = axes.len().checked_sub(1)?;
     let axis = axes.get(last).filter(|axis| axis.is_of_preloads())?;
     let free = fixed.iter().filter(|place| place.is_none()).count();
@@ -202,7 +257,10 @@ fn first_preload(axes: &[Axis], named: [Option<usize>; 2], fixed: &mut [Option<u
     }
     fixed[last] = Some(0);
     let (count, path) = (axis.values.len(), &axis.path);
-    Some(format!("{} is the first of {count} preloads; --at {path}=VALUE selects another one", axis.at(0)))
+    Some(format!(
+        "{} is the first of {count} preloads; --at {path}=VALUE selects another one",
+        axis.at(0)
+    ))
 }
 
 /// Returns true if axis `one` has few values and axis `other` many. The few values are then curves over the other axis.
@@ -219,17 +277,33 @@ fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> G
     let first = curves.next();
     let several = curves.any(|curve| Some(curve) != first);
     let means: Vec<f64> = statistics.iter().flatten().map(|one| one.mean).collect();
-    let usual = || if several { scale_of(&means) } else { AxisScale::Linear };
-    GridLayer { quantity, scale: scale.unwrap_or_else(usual), range: None }
+    let usual = || {
+        if several {
+            scale_of(&means)
+        } else {
+            AxisScale::Linear
+        }
+    };
+    GridLayer {
+        quantity,
+        scale: scale.unwrap_or_else(usual),
+        range: None,
+    }
 }
 
 fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, StudyError> {
-    axes.iter().position(|axis| axis.path == path).ok_or_else(|| {
-        let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
-        let allowed = if all.is_empty() { "none, it has one cell".into() } else { all.join(", ") };
-        let place = format!("{option} {path}");
-        StudyError::refused(Some(&place), "this study has no such axis", allowed)
-    })
+    axes.iter()
+        .position(|axis| axis.path == path)
+        .ok_or_else(|| {
+            let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
+            let allowed = if all.is_empty() {
+                "none, it has one cell".into()
+            } else {
+                all.join(", ")
+            };
+            let place = format!("{option} {path}");
+            StudyError::refused(Some(&place), "this study has no such axis", allowed)
+        })
 }
 
 fn values_of(axis: &Axis) -> String {

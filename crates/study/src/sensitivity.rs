@@ -72,8 +72,11 @@ impl Sensitivity {
     pub const STEP: f64 = 0.1;
 
     /// Results of the scene whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
-    pub const RESULTS: [Quantity; 3] =
-        [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
+    pub const RESULTS: [Quantity; 3] = [
+        Quantity::AdhesionForce,
+        Quantity::FirstTouchAdhesionForce,
+        Quantity::DissipatedEnergy,
+    ];
 
     /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random profiles. There are as many
     /// profiles as [`Ensemble::profiles_of`] returns. A scene with κ instead of a work of adhesion keeps κ when another number
@@ -113,7 +116,11 @@ impl Sensitivity {
             let sides = [-1.0, 1.0].map(|sign| {
                 let (number, neighbour) = changed(scene, &axis, value, sign);
                 let plan = |scene: &CheckedScene| Plan::of_scene(scene, lines, &Self::RESULTS);
-                plans.extend(neighbour.iter().map(|scene| (axis.target.shapes(), plan(scene))));
+                plans.extend(
+                    neighbour
+                        .iter()
+                        .map(|scene| (axis.target.shapes(), plan(scene))),
+                );
                 (number, neighbour.map(|_| Changed::default()))
             });
             influences.push(Influence { axis, value, sides });
@@ -125,61 +132,103 @@ impl Sensitivity {
             let mut solved = vec![[f64::NAN; 3]; plans.len()];
             for &number in &order {
                 let streak = Streak { cells: 0..1, line };
-                let records = with_recorder(&plans[number].1, simulation, stop, |recorder| match number {
-                    0 => recorder.record(&streak),
-                    // A changed scene may lie out of reach on this profile.
-                    _ => Ok(recorder.record_each(&streak)?.into_iter().flatten().collect()),
-                })?;
+                let records =
+                    with_recorder(
+                        &plans[number].1,
+                        simulation,
+                        stop,
+                        |recorder| match number {
+                            0 => recorder.record(&streak),
+                            // A changed scene may lie out of reach on this profile.
+                            _ => Ok(recorder
+                                .record_each(&streak)?
+                                .into_iter()
+                                .flatten()
+                                .collect()),
+                        },
+                    )?;
                 solved[number] = records.concat().try_into().unwrap_or(solved[number]);
             }
             Ok(solved)
         };
         let mut solved = vec![None; lines as usize];
-        let mut all = Sensitivity { profiles: 0, present: [None; 3], range: None, influences };
+        let mut all = Sensitivity {
+            profiles: 0,
+            present: [None; 3],
+            range: None,
+            influences,
+        };
         let every: Vec<u64> = (0..lines).collect();
-        on_profiles(&plans[0].1, &every, (simulation, jobs), solve, &mut |line, one| {
-            solved[line as usize] = Some(one);
-            all.summarise(&solved.iter().flatten().collect::<Vec<_>>());
-            report(&all);
-        })?;
+        on_profiles(
+            &plans[0].1,
+            &every,
+            (simulation, jobs),
+            solve,
+            &mut |line, one| {
+                solved[line as usize] = Some(one);
+                all.summarise(&solved.iter().flatten().collect::<Vec<_>>());
+                report(&all);
+            },
+        )?;
         Ok(all)
     }
 
     /// Sets the statistics over these profiles.
     fn summarise(&mut self, profiles: &[&Solved]) {
         let values = |number: usize, result: usize| {
-            profiles.iter().map(move |solved| solved[number][result]).filter(|value| !value.is_nan())
+            profiles
+                .iter()
+                .map(move |solved| solved[number][result])
+                .filter(|value| !value.is_nan())
         };
-        let medians =
-            |number| [0, 1, 2].map(|result| median(&mut values(number, result).collect::<Vec<_>>()));
+        let medians = |number| {
+            [0, 1, 2].map(|result| median(&mut values(number, result).collect::<Vec<_>>()))
+        };
         let several = profiles.len() > 1;
         self.profiles = profiles.len() as u64;
         self.present = medians(0);
         self.range = several.then(|| {
-            [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| [0, 1, 2].map(|of| values(0, of).reduce(end)))
+            [f64::min, f64::max]
+                .map(|end: fn(f64, f64) -> f64| [0, 1, 2].map(|of| values(0, of).reduce(end)))
         });
-        let sides = self.influences.iter_mut().flat_map(|influence| &mut influence.sides);
+        let sides = self
+            .influences
+            .iter_mut()
+            .flat_map(|influence| &mut influence.sides);
         for (number, side) in (1..).zip(sides.filter_map(|(_, side)| side.as_mut())) {
             let range = |result: usize| {
                 let change = |solved: &&Solved| solved[number][result] / solved[0][result] - 1.0;
-                let changes = || profiles.iter().map(change).filter(|change| change.is_finite());
-                changes().reduce(f64::min).zip(changes().reduce(f64::max)).filter(|_| several)
+                let changes = || {
+                    profiles
+                        .iter()
+                        .map(change)
+                        .filter(|change| change.is_finite())
+                };
+                changes()
+                    .reduce(f64::min)
+                    .zip(changes().reduce(f64::max))
+                    .filter(|_| several)
             };
-            *side = Changed { medians: medians(number), range: [0, 1, 2].map(range) };
+            *side = Changed {
+                medians: medians(number),
+                range: [0, 1, 2].map(range),
+            };
         }
     }
 
     /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if a value is
     /// missing, or if the value in [`Sensitivity::present`] is zero.
     pub fn changes(&self, values: &Values) -> Values {
-        [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
+        [0, 1, 2]
+            .map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
     /// Returns a sentence that states why the adhesion force has no changes; `None` if the scene has an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
-        (!is_known)
-            .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
+        (!is_known).then_some(
+            "The scene has no pull-off: there is no adhesion force that a number could change.",
+        )
     }
 
     /// Returns the numbers of the scene sorted by the relative change that they cause in one result, the largest change first.
@@ -187,8 +236,10 @@ impl Sensitivity {
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {
-            let sides =
-                influence.sides.iter().filter_map(|(_, side)| self.changes(&side.as_ref()?.medians)[result]);
+            let sides = influence
+                .sides
+                .iter()
+                .filter_map(|(_, side)| self.changes(&side.as_ref()?.medians)[result]);
             sides.fold(0.0, |most: f64, one| most.max(one.abs()))
         };
         ordered.sort_by(|one, other| size(other).total_cmp(&size(one)));
@@ -198,7 +249,11 @@ impl Sensitivity {
 
 /// Returns the number with which a scene computes: of a wavelength a whole number fits on the length.
 fn computed(allowed: Allowed, value: f64) -> f64 {
-    if matches!(allowed, Allowed::Fractions(_)) { allowed.nearest(value) } else { value }
+    if matches!(allowed, Allowed::Fractions(_)) {
+        allowed.nearest(value)
+    } else {
+        value
+    }
 }
 
 /// Returns a number that is changed up or down by the share [`Sensitivity::STEP`], or to the nearest other number that is
@@ -209,14 +264,19 @@ fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<Ch
         Allowed::Whole => value + sign * step.round().max(1.0),
         allowed @ Allowed::Fractions(_) => {
             let wanted = value + sign * step;
-            let Some(number) = allowed.nearest_other(value, wanted) else { return (wanted, None) };
+            let Some(number) = allowed.nearest_other(value, wanted) else {
+                return (wanted, None);
+            };
             number
         }
         // The numbers of waves on the length stay.
         Allowed::Any | Allowed::Multiples(_) => value + sign * step,
     };
     let neighbour = with_number(scene, axis, number);
-    (number, neighbour.ok().and_then(|scene| scene.checked().ok()))
+    (
+        number,
+        neighbour.ok().and_then(|scene| scene.checked().ok()),
+    )
 }
 
 /// Returns the scene with another value of a number. Where the length changes, the numbers of waves on it stay.
@@ -224,8 +284,12 @@ fn with_number(scene: &Scene, axis: &Axis, number: f64) -> Result<Scene, SceneEr
     let mut values = vec![(axis.clone(), number)];
     if let Allowed::Multiples(_) = Allowed::of(axis, scene) {
         for path in ["roughness.wavelengths.0", "roughness.wavelengths.1"] {
-            let Ok(wave) = Axis::new(path, Spacing::List, Vec::new(), scene) else { continue };
-            let Some(wavelength) = wave.value_in(scene, None) else { continue };
+            let Ok(wave) = Axis::new(path, Spacing::List, Vec::new(), scene) else {
+                continue;
+            };
+            let Some(wavelength) = wave.value_in(scene, None) else {
+                continue;
+            };
             let count = (scene.length / wavelength).round();
             values.push((wave, number / count));
         }
@@ -239,14 +303,26 @@ mod tests {
     use asperity_scene::open;
 
     fn sensitivity(name: &str, jobs: usize) -> Sensitivity {
-        let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 1 << 12).unwrap();
+        let scene = open(name)
+            .unwrap()
+            .scene()
+            .with(|scene| scene.numerics.points = 1 << 12)
+            .unwrap();
         let mut reported = 0;
-        let found = Sensitivity::of(&scene, (Simulation::default(), jobs), &|| false, &mut |part| {
-            reported += 1;
-            assert_eq!(part.profiles, reported);
-        });
+        let found = Sensitivity::of(
+            &scene,
+            (Simulation::default(), jobs),
+            &|| false,
+            &mut |part| {
+                reported += 1;
+                assert_eq!(part.profiles, reported);
+            },
+        );
         let found = found.unwrap();
-        assert_eq!((found.profiles, reported), (Ensemble::profiles_of(&scene), found.profiles));
+        assert_eq!(
+            (found.profiles, reported),
+            (Ensemble::profiles_of(&scene), found.profiles)
+        );
         found
     }
 
@@ -256,13 +332,24 @@ mod tests {
         let found = sensitivity("jkr-sphere", 1);
         assert_eq!((found.range, found.profiles), (None, 1));
         for influence in &found.influences {
-            let expected = if matches!(influence.axis.symbol, "R" | "γ") { Sensitivity::STEP } else { 0.0 };
+            let expected = if matches!(influence.axis.symbol, "R" | "γ") {
+                Sensitivity::STEP
+            } else {
+                0.0
+            };
             for ((_, side), sign) in influence.sides.iter().zip([-1.0, 1.0]) {
                 let Some(change) = side.and_then(|side| found.changes(&side.medians)[0]) else {
-                    assert_eq!((influence.axis.symbol, sign), ("ν", 1.0), "only ν cannot grow");
+                    assert_eq!(
+                        (influence.axis.symbol, sign),
+                        ("ν", 1.0),
+                        "only ν cannot grow"
+                    );
                     continue;
                 };
-                assert!((change - sign * expected).abs() < 1e-3, "{influence:?}: {change}");
+                assert!(
+                    (change - sign * expected).abs() < 1e-3,
+                    "{influence:?}: {change}"
+                );
             }
         }
         let first = found.ordered(0)[0];
@@ -272,51 +359,124 @@ mod tests {
     /// Wavelengths move by whole waves, and the results are those of a scene with these modes. The length moves with its waves.
     #[test]
     fn wavelengths_change_by_whole_waves() {
-        let base = open("pressure-sensitive").unwrap().set("numerics.points", "1024").unwrap();
+        let base = open("pressure-sensitive")
+            .unwrap()
+            .set("numerics.points", "1024")
+            .unwrap();
         let with = |document: &asperity_scene::Document, waves: &str, modes: &str| {
             let fields = [("roughness.modes", modes), ("roughness.wavelengths", waves)];
             document.set_all(&fields.map(|(path, value)| (path.to_owned(), value.to_owned())))
         };
         let force = |document: asperity_scene::Document| {
-            let run = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+            let run = Simulation::default()
+                .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+                .unwrap();
             run.figures.adhesion_force
         };
         for (waves, modes, path, sides) in [
-            ("(1e-4, 1e-6)", [1, 100], "roughness.wavelengths.0", [Some([2, 100]), None]),
-            ("(5e-5, 1e-6)", [2, 100], "roughness.wavelengths.0", [Some([3, 100]), Some([1, 100])]),
+            (
+                "(1e-4, 1e-6)",
+                [1, 100],
+                "roughness.wavelengths.0",
+                [Some([2, 100]), None],
+            ),
+            (
+                "(5e-5, 1e-6)",
+                [2, 100],
+                "roughness.wavelengths.0",
+                [Some([3, 100]), Some([1, 100])],
+            ),
             // Not whole on the length: the profile has 4 waves of 25 µm, not of 23 µm.
-            ("(2.3e-5, 1e-6)", [4, 100], "roughness.wavelengths.0", [Some([5, 100]), Some([3, 100])]),
-            ("(1e-4, 1e-6)", [1, 100], "roughness.wavelengths.1", [Some([1, 111]), Some([1, 91])]),
+            (
+                "(2.3e-5, 1e-6)",
+                [4, 100],
+                "roughness.wavelengths.0",
+                [Some([5, 100]), Some([3, 100])],
+            ),
+            (
+                "(1e-4, 1e-6)",
+                [1, 100],
+                "roughness.wavelengths.1",
+                [Some([1, 111]), Some([1, 91])],
+            ),
             // The shortest wave is the longest one.
-            ("(2.5e-5, 2.5e-5)", [4, 4], "roughness.wavelengths.0", [None, Some([3, 4])]),
-            ("(2.5e-5, 2.5e-5)", [4, 4], "roughness.wavelengths.1", [Some([4, 5]), None]),
+            (
+                "(2.5e-5, 2.5e-5)",
+                [4, 4],
+                "roughness.wavelengths.0",
+                [None, Some([3, 4])],
+            ),
+            (
+                "(2.5e-5, 2.5e-5)",
+                [4, 4],
+                "roughness.wavelengths.1",
+                [Some([4, 5]), None],
+            ),
         ] {
             let document = with(&base, waves, "None").unwrap();
-            let found = Sensitivity::of(document.scene(), (Simulation::default(), 1), &|| false, &mut |_| ())
+            let found = Sensitivity::of(
+                document.scene(),
+                (Simulation::default(), 1),
+                &|| false,
+                &mut |_| (),
+            )
+            .unwrap();
+            let influence = found
+                .influences
+                .iter()
+                .find(|one| one.axis.path == path)
                 .unwrap();
-            let influence = found.influences.iter().find(|one| one.axis.path == path).unwrap();
             let end = usize::from(path.ends_with(".1"));
-            assert!((influence.value * modes[end] as f64 / 1e-4 - 1.0).abs() < 1e-12, "{influence:?}");
+            assert!(
+                (influence.value * modes[end] as f64 / 1e-4 - 1.0).abs() < 1e-12,
+                "{influence:?}"
+            );
             for (side, modes) in sides.into_iter().enumerate() {
                 let (number, changed) = influence.sides[side];
                 assert_eq!(changed.is_some(), modes.is_some(), "{waves} {path} {side}");
-                let (Some(modes), Some(changed)) = (modes, changed) else { continue };
-                assert!((number * modes[end] as f64 / 1e-4 - 1.0).abs() < 1e-12, "{influence:?}");
-                let by_modes = with(&base, "None", &format!("({}, {})", modes[0], modes[1])).unwrap();
+                let (Some(modes), Some(changed)) = (modes, changed) else {
+                    continue;
+                };
+                assert!(
+                    (number * modes[end] as f64 / 1e-4 - 1.0).abs() < 1e-12,
+                    "{influence:?}"
+                );
+                let by_modes =
+                    with(&base, "None", &format!("({}, {})", modes[0], modes[1])).unwrap();
                 let forces: Vec<f64> = (0..16)
                     .filter_map(|line| {
-                        force(by_modes.set("roughness.seed", &(5 + line).to_string()).unwrap())
+                        force(
+                            by_modes
+                                .set("roughness.seed", &(5 + line).to_string())
+                                .unwrap(),
+                        )
                     })
                     .collect();
-                assert_eq!(changed.medians[0], median(&mut forces.clone()), "{waves} {path} {side}");
+                assert_eq!(
+                    changed.medians[0],
+                    median(&mut forces.clone()),
+                    "{waves} {path} {side}"
+                );
             }
             // As with modes.
-            let stretched = found.influences.iter().find(|one| one.axis.path == "length").unwrap();
+            let stretched = found
+                .influences
+                .iter()
+                .find(|one| one.axis.path == "length")
+                .unwrap();
             let of_modes = with(&base, "None", &format!("({}, {})", modes[0], modes[1])).unwrap();
-            let of_modes =
-                Sensitivity::of(of_modes.scene(), (Simulation::default(), 1), &|| false, &mut |_| ())
-                    .unwrap();
-            let by_modes = of_modes.influences.iter().find(|one| one.axis.path == "length").unwrap();
+            let of_modes = Sensitivity::of(
+                of_modes.scene(),
+                (Simulation::default(), 1),
+                &|| false,
+                &mut |_| (),
+            )
+            .unwrap();
+            let by_modes = of_modes
+                .influences
+                .iter()
+                .find(|one| one.axis.path == "length")
+                .unwrap();
             assert_eq!(stretched, by_modes, "{waves}");
             assert!((stretched.step(1) - Sensitivity::STEP).abs() < 1e-12);
         }
@@ -327,35 +487,63 @@ mod tests {
     fn a_rough_scene_changes_on_the_same_profiles() {
         let found = sensitivity("pressure-sensitive", 2);
         assert_eq!(sensitivity("pressure-sensitive", 1), found);
-        let paths: Vec<&str> =
-            found.influences.iter().map(|influence| influence.axis.path.as_str()).collect();
-        for path in ["roughness.hurst", "roughness.rms_height", "roughness.modes.1", "loading.0.0", "length"]
-        {
+        let paths: Vec<&str> = found
+            .influences
+            .iter()
+            .map(|influence| influence.axis.path.as_str())
+            .collect();
+        for path in [
+            "roughness.hurst",
+            "roughness.rms_height",
+            "roughness.modes.1",
+            "loading.0.0",
+            "length",
+        ] {
             assert!(paths.contains(&path), "{path}: {paths:?}");
         }
         assert!(
-            paths.iter().all(|path| !path.starts_with("numerics") && !path.contains("seed")),
+            paths
+                .iter()
+                .all(|path| !path.starts_with("numerics") && !path.contains("seed")),
             "{paths:?}"
         );
         let forces = |document: asperity_scene::Document| {
-            let scene = document.scene().with(|scene| scene.numerics.points = 1 << 12).unwrap();
+            let scene = document
+                .scene()
+                .with(|scene| scene.numerics.points = 1 << 12)
+                .unwrap();
             let force = |seed| {
-                let run = Simulation::default().run(&scene.with_seed(seed), &|| false, &mut |_, _, _| Ok(()));
+                let run =
+                    Simulation::default()
+                        .run(&scene.with_seed(seed), &|| false, &mut |_, _, _| Ok(()));
                 run.unwrap().figures.adhesion_force.unwrap()
             };
             (5..21).map(force).collect::<Vec<f64>>()
         };
         let document = open("pressure-sensitive").unwrap();
         let before = forces(document.clone());
-        let at = paths.iter().position(|path| *path == "roughness.hurst").unwrap();
+        let at = paths
+            .iter()
+            .position(|path| *path == "roughness.hurst")
+            .unwrap();
         let (number, side) = found.influences[at].sides[1];
-        let after = forces(document.set("roughness.hurst", &number.to_string()).unwrap());
-        let changes: Vec<f64> =
-            before.iter().zip(&after).map(|(before, after)| after / before - 1.0).collect();
-        let ends =
-            [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| changes.iter().copied().reduce(end).unwrap());
+        let after = forces(
+            document
+                .set("roughness.hurst", &number.to_string())
+                .unwrap(),
+        );
+        let changes: Vec<f64> = before
+            .iter()
+            .zip(&after)
+            .map(|(before, after)| after / before - 1.0)
+            .collect();
+        let ends = [f64::min, f64::max]
+            .map(|end: fn(f64, f64) -> f64| changes.iter().copied().reduce(end).unwrap());
         let side = side.unwrap();
-        assert_eq!((side.range[0], side.medians[0]), (Some((ends[0], ends[1])), median(&mut after.clone())));
+        assert_eq!(
+            (side.range[0], side.medians[0]),
+            (Some((ends[0], ends[1])), median(&mut after.clone()))
+        );
         assert_eq!(found.present[0], median(&mut before.clone()));
         let least = before.iter().copied().reduce(f64::min);
         assert_eq!(found.range.map(|[least, _]| least[0]), Some(least));

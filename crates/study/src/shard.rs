@@ -26,7 +26,10 @@ pub struct Shard {
 
 impl Shard {
     /// Shard that is the whole plan, for a study that is not divided.
-    pub const WHOLE: Shard = Shard { number: 1, count: 1 };
+    pub const WHOLE: Shard = Shard {
+        number: 1,
+        count: 1,
+    };
 
     /// Creates a part of a plan.
     ///
@@ -34,8 +37,11 @@ impl Shard {
     /// The numbers are not allowed; the error says what is allowed.
     pub(super) fn new(number: u32, count: u32) -> Result<Shard, String> {
         let is_sound = (1..=MOST).contains(&count) && (1..=count).contains(&number);
-        let allowed = || format!("shard {number}/{count}: allowed: K/N with K from 1 to N, N at most {MOST}");
-        is_sound.then_some(Shard { number, count }).ok_or_else(allowed)
+        let allowed =
+            || format!("shard {number}/{count}: allowed: K/N with K from 1 to N, N at most {MOST}");
+        is_sound
+            .then_some(Shard { number, count })
+            .ok_or_else(allowed)
     }
 
     /// Returns the indices of the units of work that belong to this shard, out of `units` units.
@@ -58,7 +64,9 @@ impl FromStr for Shard {
         let shard = parts.and_then(|(number, count)| {
             Shard::new(number.trim().parse().ok()?, count.trim().parse().ok()?).ok()
         });
-        shard.ok_or_else(|| format!("allowed: K/N with K from 1 to N, N at most {MOST}, such as 3/8"))
+        shard.ok_or_else(|| {
+            format!("allowed: K/N with K from 1 to N, N at most {MOST}, such as 3/8")
+        })
     }
 }
 
@@ -69,12 +77,35 @@ mod tests {
     #[test]
     fn parts_are_read_and_written() {
         let shard: Shard = "3/8".parse().unwrap();
-        assert_eq!((shard, shard.to_string()), (Shard { number: 3, count: 8 }, "3/8".into()));
+        assert_eq!(
+            (shard, shard.to_string()),
+            (
+                Shard {
+                    number: 3,
+                    count: 8
+                },
+                "3/8".into()
+            )
+        );
         assert!(Shard::WHOLE.units(100).eq(0..100));
         assert_eq!(shard.units(20).collect::<Vec<_>>(), [2, 10, 18]);
         assert_eq!(shard.units(2).count(), 0);
-        for wrong in ["", "3", "0/8", "9/8", "1/0", "-1/2", "1/2/3", "a/b", "1/99999999999", "1/1000001"] {
-            assert!(wrong.parse::<Shard>().unwrap_err().contains("such as 3/8"), "{wrong}");
+        for wrong in [
+            "",
+            "3",
+            "0/8",
+            "9/8",
+            "1/0",
+            "-1/2",
+            "1/2/3",
+            "a/b",
+            "1/99999999999",
+            "1/1000001",
+        ] {
+            assert!(
+                wrong.parse::<Shard>().unwrap_err().contains("such as 3/8"),
+                "{wrong}"
+            );
         }
     }
 }

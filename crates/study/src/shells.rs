@@ -43,7 +43,10 @@ impl Spectrum {
     /// Returns the mean square height A_k²/2 in m² of mode k on a line of the length `side` in m.
     fn variance_of_line(&self, mode: u64, side: f64) -> f64 {
         let amplitude = match self {
-            Spectrum::SelfAffine { spectrum, amplitude } => amplitude * spectrum.relative_amplitude(mode),
+            Spectrum::SelfAffine {
+                spectrum,
+                amplitude,
+            } => amplitude * spectrum.relative_amplitude(mode),
             Spectrum::Measured(line) => line.amplitude(mode, side),
         };
         0.5 * amplitude * amplitude
@@ -53,9 +56,10 @@ impl Spectrum {
     /// the number of periods over the side.
     fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         match self {
-            Spectrum::SelfAffine { spectrum, amplitude } => {
-                amplitude * amplitude * spectrum.relative_variance_of_surface(waves)
-            }
+            Spectrum::SelfAffine {
+                spectrum,
+                amplitude,
+            } => amplitude * amplitude * spectrum.relative_variance_of_surface(waves),
             Spectrum::Measured(line) => line.variance_of_surface(waves, side),
         }
     }
@@ -82,7 +86,12 @@ pub(super) struct Shells {
 
 impl Shells {
     pub fn new(spectrum: Spectrum, side: f64, modes: (u64, u64)) -> Shells {
-        let mut shells = Shells { spectrum, side, modes, factors: Vec::new() };
+        let mut shells = Shells {
+            spectrum,
+            side,
+            modes,
+            factors: Vec::new(),
+        };
         let mut sums = vec![0.0; (modes.1 - modes.0 + 1) as usize];
         shells.for_each_wave(|shell, waves, shells| {
             sums[shell] += shells.variance_before_scaling(waves);
@@ -117,7 +126,9 @@ impl Shells {
         // No wave lies on the edge of a shell: the square of k + ½ is no whole number.
         let mode = waves.round() as u64;
         let (first, last) = self.modes;
-        (first..=last).contains(&mode).then(|| (mode - first) as usize)
+        (first..=last)
+            .contains(&mode)
+            .then(|| (mode - first) as usize)
     }
 
     /// Returns the mean square height in m² that a wave adds to the square. `waves` is the number of periods over the side.
@@ -161,7 +172,12 @@ mod tests {
     const MODULUS: f64 = 2e6;
 
     fn self_affine(hurst: f64, first: u64, last: u64, roll_off_mode: f64) -> SelfAffine {
-        SelfAffine { hurst, first, last, roll_off_mode }
+        SelfAffine {
+            hurst,
+            first,
+            last,
+            roll_off_mode,
+        }
     }
 
     /// Squares and lines have the same rms height, and nearly the same rms gradient and elastic energy.
@@ -185,14 +201,30 @@ mod tests {
         for spectrum in spectra {
             let amplitude = height / spectrum.relative_rms();
             let modes = (spectrum.first, spectrum.last);
-            let shells = Shells::new(Spectrum::SelfAffine { spectrum, amplitude }, SIDE, modes);
+            let shells = Shells::new(
+                Spectrum::SelfAffine {
+                    spectrum,
+                    amplitude,
+                },
+                SIDE,
+                modes,
+            );
             let line = spectrum.unit_amplitude(SIDE).scaled(height);
             let square = shells.roughness(MODULUS);
-            assert!((square.rms_height / height - 1.0).abs() < 1e-12, "{spectrum:?}: {square:?}");
+            assert!(
+                (square.rms_height / height - 1.0).abs() < 1e-12,
+                "{spectrum:?}: {square:?}"
+            );
             let gradient = square.rms_gradient / line.rms_gradient;
-            assert!((0.99..1.055).contains(&gradient), "{spectrum:?}: gradient {gradient}");
+            assert!(
+                (0.99..1.055).contains(&gradient),
+                "{spectrum:?}: gradient {gradient}"
+            );
             let energy = square.elastic_energy / line.elastic_energy(MODULUS);
-            assert!((0.985..1.06).contains(&energy), "{spectrum:?}: energy {energy}");
+            assert!(
+                (0.985..1.06).contains(&energy),
+                "{spectrum:?}: energy {energy}"
+            );
         }
     }
 
@@ -203,7 +235,14 @@ mod tests {
         for (hurst, first, last) in [(0.3, 1, 8), (0.8, 1, 4), (0.8, 2, 8), (0.5, 3, 3)] {
             let spectrum = self_affine(hurst, first, last, 0.0);
             let amplitude = 1e-7;
-            let shells = Shells::new(Spectrum::SelfAffine { spectrum, amplitude }, SIDE, (first, last));
+            let shells = Shells::new(
+                Spectrum::SelfAffine {
+                    spectrum,
+                    amplitude,
+                },
+                SIDE,
+                (first, last),
+            );
             let heights = random_map(cells, |waves| shells.variance(waves), 11).unwrap();
             let mut square_height = 0.0;
             let mut square_gradient = 0.0;
@@ -221,23 +260,46 @@ mod tests {
             let rms_gradient = (square_gradient / count).sqrt() * cells as f64 / SIDE;
             let stated = shells.roughness(MODULUS);
             let line = amplitude * spectrum.relative_rms();
-            assert!((rms_height / line - 1.0).abs() < 1e-9, "{hurst}: {rms_height} {line}");
-            assert!((stated.rms_height / line - 1.0).abs() < 1e-12, "{hurst}: {stated:?}");
-            assert!((rms_gradient / stated.rms_gradient - 1.0).abs() < 4e-3, "{rms_gradient} {stated:?}");
+            assert!(
+                (rms_height / line - 1.0).abs() < 1e-9,
+                "{hurst}: {rms_height} {line}"
+            );
+            assert!(
+                (stated.rms_height / line - 1.0).abs() < 1e-12,
+                "{hurst}: {stated:?}"
+            );
+            assert!(
+                (rms_gradient / stated.rms_gradient - 1.0).abs() < 4e-3,
+                "{rms_gradient} {stated:?}"
+            );
         }
     }
 
     #[test]
     fn a_square_has_no_other_waves() {
         let spectrum = self_affine(0.8, 2, 5, 0.0);
-        let shells = Shells::new(Spectrum::SelfAffine { spectrum, amplitude: 1e-7 }, SIDE, (2, 5));
-        assert!(
-            [1.0, 2.0_f64.sqrt(), 30.5_f64.sqrt(), 6.0].iter().all(|waves| shells.variance(*waves) == 0.0)
+        let shells = Shells::new(
+            Spectrum::SelfAffine {
+                spectrum,
+                amplitude: 1e-7,
+            },
+            SIDE,
+            (2, 5),
         );
         assert!(
-            [2.0, 8.0_f64.sqrt(), 5.0, 29.0_f64.sqrt()].iter().all(|waves| shells.variance(*waves) > 0.0)
+            [1.0, 2.0_f64.sqrt(), 30.5_f64.sqrt(), 6.0]
+                .iter()
+                .all(|waves| shells.variance(*waves) == 0.0)
+        );
+        assert!(
+            [2.0, 8.0_f64.sqrt(), 5.0, 29.0_f64.sqrt()]
+                .iter()
+                .all(|waves| shells.variance(*waves) > 0.0)
         );
         let halved = shells.roughness(MODULUS).scaled(0.5);
-        assert_eq!(halved.elastic_energy, 0.25 * shells.roughness(MODULUS).elastic_energy);
+        assert_eq!(
+            halved.elastic_energy,
+            0.25 * shells.roughness(MODULUS).elastic_energy
+        );
     }
 }

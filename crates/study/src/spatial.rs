@@ -64,9 +64,20 @@ impl Turn {
     /// Returns how far a square has come, in the unit of the target, and the target.
     fn progress(self, state: &AdhesiveState) -> Approach {
         match self {
-            Turn::Force(target) => Approach { reached: state.force, target, tolerance: NEAR },
-            Turn::Indentation(target) => Approach { reached: state.indentation, target, tolerance: ROUNDING },
-            Turn::Displacement { displacement, stiffness } => Approach {
+            Turn::Force(target) => Approach {
+                reached: state.force,
+                target,
+                tolerance: NEAR,
+            },
+            Turn::Indentation(target) => Approach {
+                reached: state.indentation,
+                target,
+                tolerance: ROUNDING,
+            },
+            Turn::Displacement {
+                displacement,
+                stiffness,
+            } => Approach {
                 reached: state.indentation + state.force / stiffness,
                 target: displacement,
                 tolerance: NEAR,
@@ -151,10 +162,17 @@ impl Loads {
 impl Body {
     /// Returns the memory in bytes of the largest part of a computation.
     pub fn bytes(&self, cells: usize) -> u64 {
-        let adhesive = if self.works.is_some() { AdhesiveSquare::bytes(cells) } else { 0 };
+        let adhesive = if self.works.is_some() {
+            AdhesiveSquare::bytes(cells)
+        } else {
+            0
+        };
         // Heights; waves in their place before.
         let heights = 8 * (cells * cells) as u64;
-        heights + HalfSpace::bytes(cells, Boundary::Free).max(adhesive).max(3 * heights)
+        heights
+            + HalfSpace::bytes(cells, Boundary::Free)
+                .max(adhesive)
+                .max(3 * heights)
     }
 
     /// Loads the square with these random phases to each force without adhesion, and in a loop to the turning point and
@@ -170,7 +188,9 @@ impl Body {
         let heights = self.heights(cells, seed, 1.0)?;
         self.press(&heights, &loading.forces, &mut loads, watch)?;
         drop(heights);
-        let Some(works) = self.works else { return Ok(loads) };
+        let Some(works) = self.works else {
+            return Ok(loads);
+        };
         let heights = self.heights(cells, seed, self.adhesive_height_factor)?;
         let mut touched = self.begin_loop(&heights, works, watch)?;
         touched.pull_off(loading.step)?;
@@ -192,8 +212,13 @@ impl Body {
     /// multiplied by a factor.
     pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.shells {
-            Some(shells) => random_map(cells, |waves| factor * factor * shells.variance(waves), seed)?,
-            None => asperity_data::resized(Vec::new(), cells * cells, 0.0).map_err(HalfSpaceError::from)?,
+            Some(shells) => random_map(
+                cells,
+                |waves| factor * factor * shells.variance(waves),
+                seed,
+            )?,
+            None => asperity_data::resized(Vec::new(), cells * cells, 0.0)
+                .map_err(HalfSpaceError::from)?,
         };
         if let Some(form) = &self.form {
             let at = |index: usize| ((index as f64 + 0.5) / cells as f64 - 0.5) * self.side;
@@ -219,7 +244,11 @@ impl Body {
     }
 
     fn square<'a>(&self, heights: &'a [f64]) -> Square<'a> {
-        Square { heights, side: self.side, effective_modulus: self.effective_modulus }
+        Square {
+            heights,
+            side: self.side,
+            effective_modulus: self.effective_modulus,
+        }
     }
 
     /// Presses the square without adhesion to each force in N.
@@ -263,11 +292,18 @@ impl<'a> Loop<'a> {
     fn begin(mut body: AdhesiveSquare, watch: Watch<'a>) -> Result<Loop<'a>, HalfSpaceError> {
         let state = body.move_to(0.0, watch.stop)?;
         (watch.loaded)();
-        Ok(Loop { body, state, curve: vec![(0.0, state.force)], watch })
+        Ok(Loop {
+            body,
+            state,
+            curve: vec![(0.0, state.force)],
+            watch,
+        })
     }
 
     fn move_by(&mut self, step: f64) -> Result<(), HalfSpaceError> {
-        self.state = self.body.move_to(self.state.indentation + step, self.watch.stop)?;
+        self.state = self
+            .body
+            .move_to(self.state.indentation + step, self.watch.stop)?;
         self.curve.push((self.state.indentation, self.state.force));
         (self.watch.loaded)();
         Ok(())
@@ -290,12 +326,27 @@ impl<'a> Loop<'a> {
             approach = turn.progress(&self.state);
             // The next step ends at the target, by the slope of the last one.
             let missing = (approach.target - approach.reached) * next / (approach.reached - before);
-            let shortest = if matches!(turn, Turn::Indentation(_)) { 0.0 } else { 0.05 * step };
-            next = if missing > 0.0 { missing.clamp(shortest, step) } else { step };
+            let shortest = if matches!(turn, Turn::Indentation(_)) {
+                0.0
+            } else {
+                0.05 * step
+            };
+            next = if missing > 0.0 {
+                missing.clamp(shortest, step)
+            } else {
+                step
+            };
         }
         let deepest = self.state.indentation;
-        let found = format!("{:?} is not reached at the indentation {deepest:e} m", turn.stage());
-        Err(StudyError::refused(Some("the preload in three dimensions"), found, "a smaller preload"))
+        let found = format!(
+            "{:?} is not reached at the indentation {deepest:e} m",
+            turn.stage()
+        );
+        Err(StudyError::refused(
+            Some("the preload in three dimensions"),
+            found,
+            "a smaller preload",
+        ))
     }
 
     /// Pulls off in steps of the indentation in m, until nothing touches.
@@ -311,11 +362,17 @@ impl<'a> Loop<'a> {
 
     /// Returns the largest tensile force in N.
     fn adhesion_force(&self) -> f64 {
-        self.curve.iter().map(|(_, force)| -force).fold(0.0, f64::max)
+        self.curve
+            .iter()
+            .map(|(_, force)| -force)
+            .fold(0.0, f64::max)
     }
 }
 
 /// Returns the work of the force along a curve in J.
 fn work(curve: &[(f64, f64)]) -> f64 {
-    curve.windows(2).map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0)).sum()
+    curve
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0))
+        .sum()
 }

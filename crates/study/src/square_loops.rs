@@ -47,7 +47,11 @@ impl SquareLoops {
             }
         };
         let reference = Reference::of(scene, options, simulation, jobs, stop, &mut take_in)?;
-        Ok(SquareLoops { reference: Some(reference), share: 1.0, ..loops })
+        Ok(SquareLoops {
+            reference: Some(reference),
+            share: 1.0,
+            ..loops
+        })
     }
 
     /// Takes in an event. Returns true if there is something new to show.
@@ -76,7 +80,11 @@ impl SquareLoops {
     /// Compares the values [`SquareLoops::lines`] of the profiles with the values [`SquareLoops::squares`]; `None`
     /// before the first square is computed.
     pub fn headline(&self) -> Option<Compared> {
-        let values = Values { lines: self.lines.clone(), squares: self.squares.clone(), coarse: Vec::new() };
+        let values = Values {
+            lines: self.lines.clone(),
+            squares: self.squares.clone(),
+            coarse: Vec::new(),
+        };
         values.compared()
     }
 
@@ -85,7 +93,9 @@ impl SquareLoops {
     /// standard deviation, mean force, and mean force plus standard deviation.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let stages = |curve: &Vec<(f64, f64)>| {
-            let deepest = (0..curve.len()).max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0)).unwrap_or(0);
+            let deepest = (0..curve.len())
+                .max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0))
+                .unwrap_or(0);
             // A separated square has no force, and the first point of a loading is first touch.
             let mut loading = curve[..curve.len().min(deepest + 1)].to_vec();
             if loading.first().is_some_and(|first| first.0 > 0.0) {
@@ -95,18 +105,34 @@ impl SquareLoops {
         };
         let stages: Vec<[Vec<(f64, f64)>; 2]> = self.curves.iter().map(stages).collect();
         let band = |stage: usize| {
-            let parts: Vec<_> = stages.iter().map(|of| &of[stage]).filter(|part| part.len() > 1).collect();
+            let parts: Vec<_> = stages
+                .iter()
+                .map(|of| &of[stage])
+                .filter(|part| part.len() > 1)
+                .collect();
             let low = parts.iter().map(|part| part[0].0).min_by(f64::total_cmp)?;
-            let high = parts.iter().map(|part| part[part.len() - 1].0).min_by(f64::total_cmp)?;
+            let high = parts
+                .iter()
+                .map(|part| part[part.len() - 1].0)
+                .min_by(f64::total_cmp)?;
             let mut band = [const { Vec::new() }; 3];
             for at in 0..=BAND_POINTS {
                 let indentation = low + (high - low) * at as f64 / BAND_POINTS as f64;
-                let forces = parts.iter().map(|part| force_at(part, indentation)).collect();
+                let forces = parts
+                    .iter()
+                    .map(|part| force_at(part, indentation))
+                    .collect();
                 let forces = Statistics::of(forces, (f64::NEG_INFINITY, f64::INFINITY))?;
-                let spread = forces.spread.map_or(0.0, |spread| spread.standard_deviation);
+                let spread = forces
+                    .spread
+                    .map_or(0.0, |spread| spread.standard_deviation);
                 for (curve, sign) in band.iter_mut().zip([-1.0, 0.0, 1.0]) {
                     let force = forces.mean + sign * spread;
-                    curve.push(CurvePoint { indentation, force, ..CurvePoint::default() });
+                    curve.push(CurvePoint {
+                        indentation,
+                        force,
+                        ..CurvePoint::default()
+                    });
                 }
             }
             Some(band)
@@ -120,10 +146,16 @@ const BAND_POINTS: usize = 100;
 
 /// Returns the force in N at an indentation in m, between points in the order of their indentations.
 fn force_at(points: &[(f64, f64)], indentation: f64) -> f64 {
-    let after = points.partition_point(|point| point.0 < indentation).clamp(1, points.len() - 1);
+    let after = points
+        .partition_point(|point| point.0 < indentation)
+        .clamp(1, points.len() - 1);
     let [one, other] = [points[after - 1], points[after]];
     let share = ((indentation - one.0) / (other.0 - one.0)).clamp(0.0, 1.0);
-    if share.is_nan() { one.1 } else { one.1 + share * (other.1 - one.1) }
+    if share.is_nan() {
+        one.1
+    } else {
+        one.1 + share * (other.1 - one.1)
+    }
 }
 
 #[cfg(test)]
@@ -140,30 +172,63 @@ mod tests {
             counts.push((loops.maps, loops.curves.len()));
             shares.push(loops.share);
         };
-        let loops = SquareLoops::of(scene.scene(), Simulation::default(), 1, &|| false, &mut report).unwrap();
+        let loops = SquareLoops::of(
+            scene.scene(),
+            Simulation::default(),
+            1,
+            &|| false,
+            &mut report,
+        )
+        .unwrap();
         // There is progress before the only square is finished.
         assert_eq!((counts[0], shares[0]), ((1, 0), 0.0));
         assert_eq!(counts.last(), Some(&(1, 1)));
-        assert!(counts.iter().filter(|count| **count == (1, 0)).count() > 20, "{counts:?}");
-        assert!(shares.is_sorted() && shares.last() > Some(&0.5) && shares.last() < Some(&1.0), "{shares:?}");
-        let lowest = loops.curves[0].iter().map(|point| -point.1).fold(0.0, f64::max);
+        assert!(
+            counts.iter().filter(|count| **count == (1, 0)).count() > 20,
+            "{counts:?}"
+        );
+        assert!(
+            shares.is_sorted() && shares.last() > Some(&0.5) && shares.last() < Some(&1.0),
+            "{shares:?}"
+        );
+        let lowest = loops.curves[0]
+            .iter()
+            .map(|point| -point.1)
+            .fold(0.0, f64::max);
         assert_eq!(vec![lowest], loops.squares);
         let compared = loops.reference.as_ref().unwrap().adhesion_force;
         let ratio = compared.unwrap().ratio;
         assert_eq!(Some(ratio), loops.headline().map(|headline| headline.ratio));
         assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
         assert_eq!(loops.bands().len(), 2);
-        let stopped = SquareLoops::of(scene.scene(), Simulation::default(), 1, &|| true, &mut |_| ());
+        let stopped = SquareLoops::of(
+            scene.scene(),
+            Simulation::default(),
+            1,
+            &|| true,
+            &mut |_| (),
+        );
         assert!(stopped.is_err());
     }
 
     #[test]
     fn a_band_has_the_mean_and_the_standard_deviation() {
         let pulled = |factor: f64| {
-            let points = [(0.0, -1.0), (2.0, 3.0), (1.0, 1.0), (-1.0, -2.0), (-2.0, 0.0)];
-            points.map(|(indentation, force)| (indentation, factor * force)).to_vec()
+            let points = [
+                (0.0, -1.0),
+                (2.0, 3.0),
+                (1.0, 1.0),
+                (-1.0, -2.0),
+                (-2.0, 0.0),
+            ];
+            points
+                .map(|(indentation, force)| (indentation, factor * force))
+                .to_vec()
         };
-        let loops = SquareLoops { curves: vec![pulled(1.0), pulled(3.0)], ..SquareLoops::default() };
+        let loops = SquareLoops {
+            curves: vec![pulled(1.0), pulled(3.0)],
+            ..SquareLoops::default()
+        };
         let [loading, unloading] = <[_; 2]>::try_from(loops.bands()).unwrap();
         let at = |band: &[Vec<CurvePoint>; 3], index: usize| {
             let [lower, mean, upper] = band.each_ref().map(|curve| curve[index].force);
@@ -175,9 +240,15 @@ mod tests {
         assert_eq!(at(&unloading, 100).0, 2.0);
         let (indentation, mean, up, down) = at(&unloading, 25);
         assert_eq!((indentation, mean), (-1.0, -4.0));
-        assert!((up - 2.0 * root).abs() < 1e-12 && (down - 2.0 * root).abs() < 1e-12, "{up} {down}");
+        assert!(
+            (up - 2.0 * root).abs() < 1e-12 && (down - 2.0 * root).abs() < 1e-12,
+            "{up} {down}"
+        );
         // Without adhesion there is a loading alone, which begins at first touch.
-        let pressed = SquareLoops { curves: vec![vec![(1.0, 2.0), (2.0, 4.0)]], ..SquareLoops::default() };
+        let pressed = SquareLoops {
+            curves: vec![vec![(1.0, 2.0), (2.0, 4.0)]],
+            ..SquareLoops::default()
+        };
         let bands = pressed.bands();
         assert_eq!((bands.len(), at(&bands[0], 25)), (1, (0.5, 1.0, 0.0, 0.0)));
         assert!(SquareLoops::default().bands().is_empty());

@@ -66,7 +66,11 @@ impl Flight {
         let crossed = is_above[0] != is_above[1];
         if !self.has_step() {
             let crossing = (low.adhesion_force / ratio).clamp(low.preload, high.preload);
-            return if crossed { Found::Crossing(crossing) } else { Found::Nothing };
+            return if crossed {
+                Found::Crossing(crossing)
+            } else {
+                Found::Nothing
+            };
         }
         // F_a is between the forces at both ends.
         if high.adhesion_force < ratio * low.preload || low.adhesion_force > ratio * high.preload {
@@ -75,7 +79,11 @@ impl Flight {
         let width = high.preload - low.preload;
         if width <= (WITHIN * high.preload).max(LEAST * range) {
             let end = if is_above[0] { low } else { high };
-            return if crossed { Found::Crossing(end.preload) } else { Found::Nothing };
+            return if crossed {
+                Found::Crossing(end.preload)
+            } else {
+                Found::Nothing
+            };
         }
         // On the stair of the lower end the crossing is here. Above the second preload the ratio is smaller everywhere.
         let stair = if is_above[0] { low } else { high };
@@ -114,7 +122,10 @@ pub(super) fn ratio_crossings(
     climb: &mut Climb<'_>,
 ) -> Result<Crossings, RunError> {
     let stairs = climb(&ends)?;
-    let mut flights = vec![Flight { low: stairs[0], high: stairs[1] }];
+    let mut flights = vec![Flight {
+        low: stairs[0],
+        high: stairs[1],
+    }];
     let mut crossings = Crossings::default();
     let mut computed = 0;
     for depth in 0.. {
@@ -145,8 +156,14 @@ pub(super) fn ratio_crossings(
 fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     let mut parts = Vec::with_capacity(2 * flights.len());
     for (flight, &stair) in flights.iter().zip(stairs) {
-        parts.push(Flight { low: flight.low, high: stair });
-        parts.push(Flight { low: stair, high: flight.high });
+        parts.push(Flight {
+            low: flight.low,
+            high: stair,
+        });
+        parts.push(Flight {
+            low: stair,
+            high: flight.high,
+        });
     }
     parts
 }
@@ -160,8 +177,13 @@ pub(super) fn step_crossings(
 ) -> Result<(Vec<[Tried; 2]>, bool), RunError> {
     let (numbers, _) = coordinates.spread(super::scan::INTERVALS, super::scan::INTERVALS);
     let stairs = climb(&numbers)?;
-    let mut flights: Vec<Flight> =
-        stairs.windows(2).map(|pair| Flight { low: pair[0], high: pair[1] }).collect();
+    let mut flights: Vec<Flight> = stairs
+        .windows(2)
+        .map(|pair| Flight {
+            low: pair[0],
+            high: pair[1],
+        })
+        .collect();
     let mut crossed = Vec::new();
     let (mut computed, mut may_miss) = (0, false);
     while !flights.is_empty() {
@@ -169,7 +191,10 @@ pub(super) fn step_crossings(
         let mut open = Vec::new();
         for flight in flights {
             let ends = [flight.low, flight.high];
-            let tried = ends.map(|stair| Tried { number: stair.preload, value: stair.value });
+            let tried = ends.map(|stair| Tried {
+                number: stair.preload,
+                value: stair.value,
+            });
             let places = ends.map(|stair| coordinates.coordinate(stair.preload));
             let is_narrow = places[1] - places[0] <= NARROWEST * coordinates.length();
             let middle = coordinates.middle([flight.low.preload, flight.high.preload]);
@@ -184,7 +209,11 @@ pub(super) fn step_crossings(
                 may_miss |= flight.has_step();
             }
         }
-        flights = if splits.is_empty() { Vec::new() } else { halves(&open, &climb(&splits)?) };
+        flights = if splits.is_empty() {
+            Vec::new()
+        } else {
+            halves(&open, &climb(&splits)?)
+        };
     }
     crossed.sort_by(|one, other| one[0].number.total_cmp(&other[0].number));
     Ok((crossed, may_miss))
@@ -199,8 +228,16 @@ mod tests {
     /// Stairs with the adhesion force after the last of the steps (preload, adhesion force) up to a preload.
     fn stairs(steps: &[(f64, f64)], preloads: &[f64]) -> Vec<Stair> {
         let stair = |&preload: &f64| {
-            let adhesion_force = steps.iter().rev().find(|step| step.0 <= preload).map_or(0.0, |step| step.1);
-            Stair { preload, adhesion_force, value: adhesion_force / preload }
+            let adhesion_force = steps
+                .iter()
+                .rev()
+                .find(|step| step.0 <= preload)
+                .map_or(0.0, |step| step.1);
+            Stair {
+                preload,
+                adhesion_force,
+                value: adhesion_force / preload,
+            }
         };
         preloads.iter().map(stair).collect()
     }
@@ -216,11 +253,15 @@ mod tests {
             for _ in 0..random.random_range(0..40) {
                 let last = steps[steps.len() - 1];
                 let preload = last.0 + 10_f64.powf(-8.0 + 6.0 * random.random::<f64>());
-                steps.push((preload, last.1 + 10_f64.powf(-8.0 + 6.0 * random.random::<f64>())));
+                steps.push((
+                    preload,
+                    last.1 + 10_f64.powf(-8.0 + 6.0 * random.random::<f64>()),
+                ));
             }
             let ratio = 10_f64.powf(-2.0 + 5.0 * random.random::<f64>());
             let ends = [0.0, 0.5 * steps[steps.len() - 1].0 + 1e-3];
-            let found = ratio_crossings(ends, ratio, &mut |preloads| Ok(stairs(&steps, preloads))).unwrap();
+            let found =
+                ratio_crossings(ends, ratio, &mut |preloads| Ok(stairs(&steps, preloads))).unwrap();
             // In closed form, from stair to stair.
             let mut expected = Vec::new();
             let mut is_above = steps[0].0 == 0.0;

@@ -79,7 +79,9 @@ impl Statistics {
         let range = (*sorted.first()?, *sorted.last()?);
         let count = values.len() as f64;
         // Divided by the largest value, so that no square overflows or underflows.
-        let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let largest = values
+            .iter()
+            .fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let unit = if largest > 0.0 { largest } else { 1.0 };
         values.iter_mut().for_each(|value| *value /= unit);
         let mean = mean(&values);
@@ -89,7 +91,11 @@ impl Statistics {
             let standard_error = standard_deviation / count.sqrt();
             let half = student_quantile(values.len() as u32 - 1) * standard_error;
             let confidence_interval = interval(mean, half, bounds);
-            Spread { standard_deviation, standard_error, confidence_interval }
+            Spread {
+                standard_deviation,
+                standard_error,
+                confidence_interval,
+            }
         });
         Some(Statistics {
             count: values.len(),
@@ -128,16 +134,21 @@ impl Statistics {
         if self.count < 2 {
             return median;
         }
-        let [quartiles, range] = [(lower, upper), (least, most)].map(|ends| format_range(ends, 2, unit));
+        let [quartiles, range] =
+            [(lower, upper), (least, most)].map(|ends| format_range(ends, 2, unit));
         format!("median {median} (quartiles {quartiles}, range {range})")
     }
 
     /// Returns a warning if there are at least three values and the largest value is more than half of the sum of all values;
     /// otherwise `None`. `what` is the name of the quantity in the sentence.
     pub fn warning(&self, what: &str) -> Option<String> {
-        let share = self.share_of_largest().filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
+        let share = self
+            .share_of_largest()
+            .filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
         let percent = format_rounded(100.0 * share, 2, "1");
-        Some(format!("One profile makes {percent} % of the mean of {what}: the median is the better guide."))
+        Some(format!(
+            "One profile makes {percent} % of the mean of {what}: the median is the better guide."
+        ))
     }
 
     /// Returns the largest value of the quantity divided by the sum of the values on all profiles; `None` if a value is negative
@@ -208,12 +219,21 @@ impl RegimeCounts {
         let mut counts = [0; 4];
         regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
         let [pressure_insensitive, pressure_sensitive, non_adhesive, none] = counts;
-        RegimeCounts { pressure_insensitive, pressure_sensitive, non_adhesive, none }
+        RegimeCounts {
+            pressure_insensitive,
+            pressure_sensitive,
+            non_adhesive,
+            none,
+        }
     }
 
     /// Returns the number of profiles in each regime, in the order of [`Regime::ALL`].
     fn known(self) -> [usize; 3] {
-        [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
+        [
+            self.pressure_insensitive,
+            self.pressure_sensitive,
+            self.non_adhesive,
+        ]
     }
 
     /// Returns the number of all counted profiles, whether their regime is known or unknown.
@@ -255,7 +275,10 @@ impl RegimeCounts {
     /// `not known`.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);
-        let names = Regime::ALL.map(Regime::name).into_iter().chain(["not known"]);
+        let names = Regime::ALL
+            .map(Regime::name)
+            .into_iter()
+            .chain(["not known"]);
         names.zip(counts).filter(|(_, count)| *count > 0)
     }
 
@@ -284,7 +307,9 @@ mod tests {
         let truths = [1.0, (0.5 * deviation * deviation).exp()];
         let mut held = [0_u32; 2];
         for _ in 0..samples {
-            let forces = (0..count).map(|_| (deviation * normal(&mut random)).exp()).collect();
+            let forces = (0..count)
+                .map(|_| (deviation * normal(&mut random)).exp())
+                .collect();
             let all = Statistics::of(forces, (0.0, f64::INFINITY)).unwrap();
             let intervals = [all.median_interval.unwrap(), all.ends()];
             for ((held, (low, high)), truth) in held.iter_mut().zip(intervals).zip(truths) {
@@ -301,13 +326,27 @@ mod tests {
         for count in [8, 16, 32, 128] {
             for deviation in [0.3, 1.5] {
                 let [median, mean] = shares_held(count, deviation, 2000);
-                assert!((0.915..0.975).contains(&median), "{count} {deviation}: median {median}");
+                assert!(
+                    (0.915..0.975).contains(&median),
+                    "{count} {deviation}: median {median}"
+                );
                 let is_near = (0.92..0.97).contains(&mean);
-                assert!(is_near || deviation > 1.0, "{count} {deviation}: mean {mean}");
-                assert!(mean < 0.9 || deviation < 1.0 || count > 32, "{count} {deviation}: mean {mean}");
+                assert!(
+                    is_near || deviation > 1.0,
+                    "{count} {deviation}: mean {mean}"
+                );
+                assert!(
+                    mean < 0.9 || deviation < 1.0 || count > 32,
+                    "{count} {deviation}: mean {mean}"
+                );
             }
         }
-        assert_eq!(Statistics::of(vec![1.0; 3], (0.0, 2.0)).unwrap().median_interval, None);
+        assert_eq!(
+            Statistics::of(vec![1.0; 3], (0.0, 2.0))
+                .unwrap()
+                .median_interval,
+            None
+        );
     }
 
     #[test]
@@ -324,7 +363,10 @@ mod tests {
             (vec![2.0, 1.0], [1.25, 1.5, 1.75]),
             (vec![7.0], [7.0; 3]),
         ] {
-            assert_eq!(Statistics::of(values, (0.0, 100.0)).unwrap().quartiles, quartiles);
+            assert_eq!(
+                Statistics::of(values, (0.0, 100.0)).unwrap().quartiles,
+                quartiles
+            );
         }
     }
 
@@ -340,7 +382,9 @@ mod tests {
             ([2, 0, 2, 1], Some((insensitive, 2)), Some(non_adhesive)),
         ] {
             let all = Regime::ALL.map(Some).into_iter().chain([None]).zip(counts);
-            let counts = RegimeCounts::of(all.flat_map(|(regime, count)| std::iter::repeat_n(regime, count)));
+            let counts = RegimeCounts::of(
+                all.flat_map(|(regime, count)| std::iter::repeat_n(regime, count)),
+            );
             assert_eq!((counts.most(), counts.split()), (most, split), "{counts:?}");
         }
     }
@@ -348,46 +392,95 @@ mod tests {
     #[test]
     fn a_small_sample() {
         let of = |values: &[f64], bounds| Statistics::of(values.to_vec(), bounds);
-        let all = of(&[5e-200, 1e-200, 3e-200], (f64::NEG_INFINITY, f64::INFINITY)).unwrap();
+        let all = of(
+            &[5e-200, 1e-200, 3e-200],
+            (f64::NEG_INFINITY, f64::INFINITY),
+        )
+        .unwrap();
         let near = |value: f64, expected: f64| (value / expected - 1.0).abs() < 1e-9;
-        let Spread { standard_deviation, standard_error, confidence_interval } = all.spread.unwrap();
-        assert!(near(all.mean, 3e-200) && near(standard_deviation, 2e-200), "{all:?}");
+        let Spread {
+            standard_deviation,
+            standard_error,
+            confidence_interval,
+        } = all.spread.unwrap();
+        assert!(
+            near(all.mean, 3e-200) && near(standard_deviation, 2e-200),
+            "{all:?}"
+        );
         assert_eq!((all.count, all.range), (3, (1e-200, 5e-200)));
         assert!(near(standard_error, 2e-200 / 3.0_f64.sqrt()));
-        assert!(near(confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
-        assert_eq!(all.words("1"), "median 3e-200 (quartiles 2e-200 to 4e-200, range 1e-200 to 5e-200)");
+        assert!(near(
+            confidence_interval.1,
+            3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()
+        ));
+        assert_eq!(
+            all.words("1"),
+            "median 3e-200 (quartiles 2e-200 to 4e-200, range 1e-200 to 5e-200)"
+        );
         let one = of(&[0.3], (0.0, 1.0)).unwrap();
-        assert_eq!((one.count, one.mean, one.range, one.spread), (1, 0.3, (0.3, 0.3), None));
+        assert_eq!(
+            (one.count, one.mean, one.range, one.spread),
+            (1, 0.3, (0.3, 0.3), None)
+        );
         assert_eq!(of(&[], (0.0, 1.0)), None);
         let zeros = of(&[0.0; 4], (0.0, 1.0)).unwrap();
-        assert_eq!((zeros.mean, zeros.confidence_interval()), (0.0, Some((0.0, 0.0))));
+        assert_eq!(
+            (zeros.mean, zeros.confidence_interval()),
+            (0.0, Some((0.0, 0.0)))
+        );
     }
 
     #[test]
     fn intervals_keep_off_the_bounds_and_are_plain_where_they_are_narrow() {
-        let (share, force, any) = ((0.0, 1.0), (0.0, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY));
+        let (share, force, any) = (
+            (0.0, 1.0),
+            (0.0, f64::INFINITY),
+            (f64::NEG_INFINITY, f64::INFINITY),
+        );
         let wide = [0.0, 1e-9, 0.0, 0.9];
         for (values, bounds) in [(wide, share), (wide, force), ([1.0, 1.0, 1.0, 0.2], share)] {
             let all = Statistics::of(values.to_vec(), bounds).unwrap();
             let (low, high) = all.confidence_interval().unwrap();
-            assert!(bounds.0 < low && low < all.mean && all.mean < high && high < bounds.1, "{all:?}");
+            assert!(
+                bounds.0 < low && low < all.mean && all.mean < high && high < bounds.1,
+                "{all:?}"
+            );
         }
         // The logarithm of a force: one factor to both sides.
         let all = Statistics::of(wide.to_vec(), force).unwrap();
         let (low, high) = all.confidence_interval().unwrap();
-        assert!((all.mean / low / (high / all.mean) - 1.0).abs() < 1e-9, "{all:?}");
+        assert!(
+            (all.mean / low / (high / all.mean) - 1.0).abs() < 1e-9,
+            "{all:?}"
+        );
         let narrow = vec![0.5001, 0.4999, 0.5002, 0.4998];
-        let ends = [share, force, any].map(|bounds| Statistics::of(narrow.clone(), bounds).unwrap().ends());
-        assert!(ends.iter().all(|end| (end.0 - ends[2].0).abs() < 1e-7 && (end.1 - ends[2].1).abs() < 1e-7));
-        assert_eq!(Statistics::of(vec![0.0; 3], share).unwrap().ends(), (0.0, 0.0));
+        let ends = [share, force, any]
+            .map(|bounds| Statistics::of(narrow.clone(), bounds).unwrap().ends());
+        assert!(
+            ends.iter()
+                .all(|end| (end.0 - ends[2].0).abs() < 1e-7 && (end.1 - ends[2].1).abs() < 1e-7)
+        );
+        assert_eq!(
+            Statistics::of(vec![0.0; 3], share).unwrap().ends(),
+            (0.0, 0.0)
+        );
     }
 
     #[test]
     fn one_profile_may_make_the_mean() {
-        let of = |values: &[f64]| Statistics::of(values.to_vec(), (0.0, 100.0)).unwrap().warning("F_a");
+        let of = |values: &[f64]| {
+            Statistics::of(values.to_vec(), (0.0, 100.0))
+                .unwrap()
+                .warning("F_a")
+        };
         let warning = "One profile makes 90 % of the mean of F_a: the median is the better guide.";
         assert_eq!(of(&[1.0, 0.0, 9.0]).as_deref(), Some(warning));
-        for values in [&[1.0, 8.0, 7.0][..], &[0.0, 9.0], &[0.0; 4], &[-1.0, 0.0, 9.0]] {
+        for values in [
+            &[1.0, 8.0, 7.0][..],
+            &[0.0, 9.0],
+            &[0.0; 4],
+            &[-1.0, 0.0, 9.0],
+        ] {
             assert_eq!(of(values), None);
         }
     }

@@ -82,9 +82,15 @@ impl Status {
                     None => damaged += 1,
                 }
             }
-            let ShardFile { path, header, written } = file;
+            let ShardFile {
+                path,
+                header,
+                written,
+            } = file;
             attempts.entry(header.shard).or_default().push(Attempt {
-                file: path.file_name().map_or_else(String::new, |name| path_name(Path::new(name))),
+                file: path
+                    .file_name()
+                    .map_or_else(String::new, |name| path_name(Path::new(name))),
                 host: printable(&header.host).into_owned(),
                 process: header.process,
                 started: header.begun as u64,
@@ -96,11 +102,23 @@ impl Status {
         let cells = Cells::of(folder.plan());
         let of_shard = |(shard, attempts): (Shard, Vec<Attempt>)| {
             let (total, there) = count(folder, &cells, &done, shard);
-            ShardStatus { shard: shard.to_string(), total, done: there, attempts }
+            ShardStatus {
+                shard: shard.to_string(),
+                total,
+                done: there,
+                attempts,
+            }
         };
         let shards = attempts.into_iter().map(of_shard).collect();
         let found = done.iter().filter(|done| **done).count() as u64;
-        Ok(Status { done: found, total, missing: total - found, failed, damaged, shards })
+        Ok(Status {
+            done: found,
+            total,
+            missing: total - found,
+            failed,
+            damaged,
+            shards,
+        })
     }
 }
 
@@ -113,9 +131,14 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
 /// long as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
-    for Streak { cells, line } in shard.units(cells.units()).flat_map(|unit| cells.streaks(unit)) {
+    for Streak { cells, line } in shard
+        .units(cells.units())
+        .flat_map(|unit| cells.streaks(unit))
+    {
         total += cells.end - cells.start;
-        there += cells.filter(|cell| done[(cell * folder.plan().lines + line) as usize]).count() as u64;
+        there += cells
+            .filter(|cell| done[(cell * folder.plan().lines + line) as usize])
+            .count() as u64;
     }
     (total, there)
 }

@@ -10,8 +10,8 @@ use super::plan_text::Changes;
 use super::recorder::Recorded;
 use super::shard::Shard;
 use asperity_data::{
-    WriteError, open_regular, path_name, printable, read_regular_text, remove_abandoned, sync_folder,
-    write_new,
+    WriteError, open_regular, path_name, printable, read_regular_text, remove_abandoned,
+    sync_folder, write_new,
 };
 use asperity_scene::text::LONGEST_TEXT;
 use serde::{Deserialize, Serialize};
@@ -127,7 +127,10 @@ impl Folder {
         for folder in [path.parent().unwrap_or(path), path] {
             sync_folder(folder).map_err(StudyError::unwritable(folder))?;
         }
-        Ok(Folder { path: path.to_path_buf(), plan })
+        Ok(Folder {
+            path: path.to_path_buf(),
+            plan,
+        })
     }
 
     /// Returns true if `path` is the folder of a study, even if the plan in the folder has errors.
@@ -142,11 +145,19 @@ impl Folder {
     pub fn open(path: &Path) -> Result<Folder, StudyError> {
         let file = path.join(PLAN_FILE);
         if !file.is_file() {
-            let reason = format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
+            let reason =
+                format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
             return Err(StudyError::folder(path, reason));
         }
-        let plan = Plan::read(&text_of(&file)?, &file.display().to_string(), &Changes::default())?;
-        Ok(Folder { path: path.to_path_buf(), plan })
+        let plan = Plan::read(
+            &text_of(&file)?,
+            &file.display().to_string(),
+            &Changes::default(),
+        )?;
+        Ok(Folder {
+            path: path.to_path_buf(),
+            plan,
+        })
     }
 
     /// Returns the path of the folder on disk.
@@ -164,7 +175,9 @@ impl Folder {
     }
 
     pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, File), StudyError> {
-        let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        let begun = SystemTime::now()
+            .duration_since(UNIX_EPOCH)
+            .unwrap_or_default();
         let started = begun.as_secs();
         let (host, process) = (host(), std::process::id());
         let header = ShardHeader {
@@ -200,8 +213,8 @@ impl Folder {
     /// Returns an error if a file cannot be read, or if it belongs to another plan or has another version of the format.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
-        let listed =
-            fs::read_dir(&shards).and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
+        let listed = fs::read_dir(&shards)
+            .and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
         let mut paths: Vec<PathBuf> = match listed {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             listed => listed.map_err(StudyError::unreadable(&shards))?,
@@ -209,7 +222,10 @@ impl Folder {
         paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
         paths.sort();
         let checksum = self.checksum();
-        paths.into_iter().filter_map(|path| file_of_plan(path, &checksum).transpose()).collect()
+        paths
+            .into_iter()
+            .filter_map(|path| file_of_plan(path, &checksum).transpose())
+            .collect()
     }
 
     /// Returns the records of a file in the order of writing. A record is `None` if its line is incomplete, was changed
@@ -218,10 +234,17 @@ impl Folder {
         &'f self,
         file: &'f ShardFile,
     ) -> Result<impl Iterator<Item = Result<Option<Record>, StudyError>> + 'f, StudyError> {
-        let opened = open_regular(&file.path).map_err(|error| StudyError::folder(&file.path, error))?;
+        let opened =
+            open_regular(&file.path).map_err(|error| StudyError::folder(&file.path, error))?;
         // Most of many files are small.
-        let size = opened.metadata().map_err(StudyError::unreadable(&file.path))?.len();
-        let lines = lines(BufReader::with_capacity(size.clamp(1 << 10, 1 << 18) as usize, opened));
+        let size = opened
+            .metadata()
+            .map_err(StudyError::unreadable(&file.path))?
+            .len();
+        let lines = lines(BufReader::with_capacity(
+            size.clamp(1 << 10, 1 << 18) as usize,
+            opened,
+        ));
         let record = |line: &str| {
             let (cell, seed, record) = decode(unseal(line)?, self.plan.record.len())?;
             let profile = seed.wrapping_sub(self.plan.seed);
@@ -240,11 +263,17 @@ impl Folder {
         let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {
             for record in self.records(&file)? {
-                record?.into_iter().for_each(|(place, _)| done[place as usize] = true);
+                record?
+                    .into_iter()
+                    .for_each(|(place, _)| done[place as usize] = true);
             }
             // Windows requires write access.
-            let open = OpenOptions::new().read(true).write(cfg!(windows)).open(&file.path);
-            open.and_then(|file| file.sync_all()).map_err(StudyError::unwritable(&file.path))?;
+            let open = OpenOptions::new()
+                .read(true)
+                .write(cfg!(windows))
+                .open(&file.path);
+            open.and_then(|file| file.sync_all())
+                .map_err(StudyError::unwritable(&file.path))?;
         }
         let shards = self.path.join(SHARDS);
         sync_folder(&shards).map_err(StudyError::unwritable(&shards))?;
@@ -255,15 +284,29 @@ impl Folder {
 /// Returns the shard file of the plan with this checksum; `None` if it has no header yet.
 fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, StudyError> {
     let file = open_regular(&path).map_err(|error| StudyError::folder(&path, error))?;
-    let written =
-        file.metadata().and_then(|found| found.modified()).map_err(StudyError::unreadable(&path))?;
-    let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
+    let written = file
+        .metadata()
+        .and_then(|found| found.modified())
+        .map_err(StudyError::unreadable(&path))?;
+    let written = written
+        .duration_since(UNIX_EPOCH)
+        .unwrap_or_default()
+        .as_secs_f64();
     // Of thousands of files, only the first lines are read here.
-    let first = lines(BufReader::with_capacity(1 << 10, file)).next().transpose();
+    let first = lines(BufReader::with_capacity(1 << 10, file))
+        .next()
+        .transpose();
     let first = first.map_err(StudyError::unreadable(&path))?.flatten();
-    let Some(payload) = first.as_deref().and_then(unseal) else { return Ok(None) };
-    let header = header_of(payload, checksum).map_err(|reason| StudyError::folder(&path, reason))?;
-    Ok(Some(ShardFile { header, written, path }))
+    let Some(payload) = first.as_deref().and_then(unseal) else {
+        return Ok(None);
+    };
+    let header =
+        header_of(payload, checksum).map_err(|reason| StudyError::folder(&path, reason))?;
+    Ok(Some(ShardFile {
+        header,
+        written,
+        path,
+    }))
 }
 
 /// Reads a whole header. A crash cannot cause an error in a header, so an error is a fault of the writer.
@@ -274,18 +317,28 @@ fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
         )
     })?;
     if header.format != STORE_VERSION {
-        return Err(format!("its format is {}; this program reads {STORE_VERSION}", header.format));
+        return Err(format!(
+            "its format is {}; this program reads {STORE_VERSION}",
+            header.format
+        ));
     }
     if header.plan != checksum {
         return Err("this file belongs to another plan".into());
     }
-    Ok(ShardHeader { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
+    Ok(ShardHeader {
+        shard: Shard::new(header.shard.number, header.shard.count)?,
+        ..header
+    })
 }
 
 /// Appends a line with its checksum in front. `payload` has no line break.
 pub(super) fn seal(payload: &str, into: &mut String) {
     // Writing to a string cannot fail.
-    let _ = writeln!(into, "{:08x},{payload}", crc32fast::hash(payload.as_bytes()));
+    let _ = writeln!(
+        into,
+        "{:08x},{payload}",
+        crc32fast::hash(payload.as_bytes())
+    );
 }
 
 /// Returns the payload of a line without its line break; `None` if it does not agree with the checksum.
@@ -318,11 +371,21 @@ pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String)
 pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)> {
     if let Some((place, reason)) = payload.split_once(FAILED) {
         let (cell, seed) = place.split_once(',')?;
-        return Some((cell.parse().ok()?, seed.parse().ok()?, Err(reason.to_owned())));
+        return Some((
+            cell.parse().ok()?,
+            seed.parse().ok()?,
+            Err(reason.to_owned()),
+        ));
     }
     let mut columns = payload.split(',');
     let (cell, seed) = (columns.next()?.parse().ok()?, columns.next()?.parse().ok()?);
-    let value = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+    let value = |text: &str| {
+        if text.is_empty() {
+            Some(f64::NAN)
+        } else {
+            text.parse().ok()
+        }
+    };
     let values: Vec<f64> = columns.map(value).collect::<Option<_>>()?;
     (values.len() == count).then_some((cell, seed, Ok(values)))
 }
@@ -331,7 +394,10 @@ pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)
 pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<Option<String>>> {
     std::iter::from_fn(move || {
         let mut line = Vec::new();
-        let read = text.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
+        let read = text
+            .by_ref()
+            .take(LONGEST_LINE)
+            .read_until(b'\n', &mut line);
         let whole = |mut line: Vec<u8>| line.pop().filter(|last| *last == b'\n').map(|_| line);
         match read {
             Ok(0) => None,
@@ -349,9 +415,13 @@ fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
     // If only the content of the measured file differs, the error is specific.
     let of_folder = Plan::read(there, PLAN_FILE, &Changes::default());
-    if let (Ok(of_folder), Some(measured), Some(found)) = (of_folder, file_of(plan), &plan.measured_sha256)
+    if let (Ok(of_folder), Some(measured), Some(found)) =
+        (of_folder, file_of(plan), &plan.measured_sha256)
         && let Some(expected) = of_folder.measured_sha256.clone()
-        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder }) == *plan
+        && (Plan {
+            measured_sha256: plan.measured_sha256.clone(),
+            ..of_folder
+        }) == *plan
     {
         return changed(&measured, found, &path_name(&file), &expected);
     }
@@ -363,24 +433,39 @@ fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
 fn difference(there: &str, asked: &str) -> String {
     let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
     let asked = asked.lines().map(Some).chain(std::iter::repeat(None));
-    let first = pairs.zip(asked).take_while(|pair| *pair != (None, None)).find(|(a, b)| a != b);
+    let first = pairs
+        .zip(asked)
+        .take_while(|pair| *pair != (None, None))
+        .find(|(a, b)| a != b);
     let shown = |line: Option<&str>| {
-        line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
+        line.map_or_else(
+            || "nothing".into(),
+            |line| printable(line.trim()).into_owned(),
+        )
     };
-    first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
+    first.map_or_else(String::new, |(a, b)| {
+        format!("there: {}\nhere:  {}", shown(a), shown(b))
+    })
 }
 
 /// Returns the name of this machine in letters allowed in a file name.
 fn host() -> String {
     #[cfg(unix)]
-    let name = rustix::system::uname().nodename().to_string_lossy().into_owned();
+    let name = rustix::system::uname()
+        .nodename()
+        .to_string_lossy()
+        .into_owned();
     #[cfg(not(unix))]
     let name = std::env::var("COMPUTERNAME").unwrap_or_default();
     in_letters_for_files(&name)
 }
 
 fn in_letters_for_files(name: &str) -> String {
-    let name: String = name.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '_').take(40).collect();
+    let name: String = name
+        .chars()
+        .filter(|c| c.is_ascii_alphanumeric() || *c == '_')
+        .take(40)
+        .collect();
     if name.is_empty() { "host".into() } else { name }
 }
 

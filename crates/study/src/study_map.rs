@@ -39,15 +39,26 @@ impl StudyMap {
     /// Returns an error if no axis of the study has two values.
     pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyError> {
         let axes = &study.plan().axes;
-        let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
+        let free: Vec<usize> = (0..axes.len())
+            .filter(|axis| axes[*axis].values.len() > 1)
+            .collect();
         let Some((across, up)) = across_and_up(axes, &free) else {
             let reason = "this study has one cell and no map; a curve needs an axis with two values at least";
             return Err(StudyError::folder(folder, reason));
         };
-        let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
+        let others = (0..axes.len())
+            .filter(|axis| *axis != across && Some(*axis) != up)
+            .collect();
         // Without a separator at its end.
         let folder = folder.components().collect();
-        Ok(StudyMap { folder, across, up, others, layers: study.layers(), study })
+        Ok(StudyMap {
+            folder,
+            across,
+            up,
+            others,
+            layers: study.layers(),
+            study,
+        })
     }
 
     /// Returns the path of the folder from which the results of the study were read.
@@ -58,7 +69,11 @@ impl StudyMap {
     /// Returns the name of the study, which is the last part of the path of the folder.
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
-        whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()
+        whole
+            .file_name()
+            .unwrap_or(self.folder.as_os_str())
+            .to_string_lossy()
+            .into_owned()
     }
 
     /// Returns the plan of the study whose results the maps show.
@@ -68,7 +83,10 @@ impl StudyMap {
 
     /// Returns the number of maps, one for each combination of values on the axes of the study that are not axes of the maps.
     pub fn slices(&self) -> u64 {
-        self.others.iter().map(|&other| self.plan().axes[other].count()).product()
+        self.others
+            .iter()
+            .map(|&other| self.plan().axes[other].count())
+            .product()
     }
 
     /// Returns for each axis of the study the index of the value of a map; 0 on the axes of the map itself.
@@ -79,16 +97,25 @@ impl StudyMap {
     /// Returns the axes of the study that are not axes of the map, each with the index of the map's value.
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
-        self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
+        self.others
+            .iter()
+            .map(move |&other| (&self.plan().axes[other], places[other]))
     }
 
     /// Returns map number `slice`. The first map has the number 0.
     pub fn grid(&self, slice: u64) -> Grid {
-        self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
+        self.study.grid(
+            (self.across, self.up),
+            self.places(slice),
+            self.layers.clone(),
+        )
     }
 
     fn over(&self) -> impl Iterator<Item = &Axis> {
-        [Some(self.across), self.up].into_iter().flatten().map(|axis| &self.plan().axes[axis])
+        [Some(self.across), self.up]
+            .into_iter()
+            .flatten()
+            .map(|axis| &self.plan().axes[axis])
     }
 
     /// Returns the scene of a map on the first profile of the study, with these values on the axes of the map. An axis
@@ -99,18 +126,28 @@ impl StudyMap {
         if scene.title.is_empty() {
             (scene.title, scene.notice) = (plan.title.clone(), plan.notice.clone());
         }
-        if let (None, Some(axis)) =
-            (scene.adhesion, self.over().find(|axis| axis.target.parameter().is_some()))
-        {
+        if let (None, Some(axis)) = (
+            scene.adhesion,
+            self.over().find(|axis| axis.target.parameter().is_some()),
+        ) {
             let parameter = axis.target.parameter().unwrap_or(RoughnessParameter::Kappa);
-            scene.adhesion = Some(Adhesion::by_parameter(parameter, axis.values[axis.values.len() / 2]));
+            scene.adhesion = Some(Adhesion::by_parameter(
+                parameter,
+                axis.values[axis.values.len() / 2],
+            ));
         }
         scene.set_seed(plan.seed);
-        let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
+        let at = self
+            .at(slice)
+            .map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
         scene = scene_with(&scene, values.iter().copied())?;
-        let preload = values.iter().find(|(axis, _)| axis.is_of_preloads()).copied();
-        if let Some((axis, preload)) = preload.or_else(|| plan.preloads().map(|axis| (axis, axis.values[0])))
+        let preload = values
+            .iter()
+            .find(|(axis, _)| axis.is_of_preloads())
+            .copied();
+        if let Some((axis, preload)) =
+            preload.or_else(|| plan.preloads().map(|axis| (axis, axis.values[0])))
         {
             press(&mut scene, axis, preload);
         }
@@ -129,9 +166,13 @@ impl StudyMap {
     /// Returns true if `scene` belongs to map number `slice`. It may have any values on the axes of the map and any number of
     /// points of the force curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
-        let known: Vec<_> =
-            self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
-        let Ok(mut of_map) = self.scene(slice, &known) else { return false };
+        let known: Vec<_> = self
+            .over()
+            .filter_map(|axis| Some((axis, axis.value_in(scene, None)?)))
+            .collect();
+        let Ok(mut of_map) = self.scene(slice, &known) else {
+            return false;
+        };
         let mut scene = scene.clone();
         match [&of_map, &scene].map(Plan::of_map) {
             [Ok(one), Ok(other)] => one == other && is_close(place(&of_map), place(&scene)),
@@ -148,21 +189,27 @@ impl StudyMap {
     /// # Errors
     /// Returns an error if the scene does not allow these values.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
-        let values: Vec<_> = self.at(slice).map(|(axis, place)| (axis, axis.values[place])).collect();
+        let values: Vec<_> = self
+            .at(slice)
+            .map(|(axis, place)| (axis, axis.values[place]))
+            .collect();
         Axis::set_all(document, &values)
     }
 }
 
 /// Returns κ and H of a scene, if the scene states them. For a measured profile they follow only from its file.
 fn place(scene: &Scene) -> Option<(f64, f64)> {
-    let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
+    let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else {
+        return None;
+    };
     Some((governing(scene)?.kappa?, hurst))
 }
 
 /// Returns true if κ and H are equal except for rounding. Unknown values are not compared.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-    one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
+    one.zip(other)
+        .is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
 }
 
 #[cfg(test)]
@@ -207,30 +254,53 @@ mod tests {
         for place in (0..plan.records_in_all()).filter(|place| place / plan.lines != 5) {
             let cell = place / plan.lines;
             let regime = REGIMES[cell as usize % 3][place as usize % 5];
-            study.set(place, &[cell as f64, regime, 1e-6 * cell as f64][..plan.record.len()]);
+            study.set(
+                place,
+                &[cell as f64, regime, 1e-6 * cell as f64][..plan.record.len()],
+            );
         }
         StudyMap::of(study, folder.path()).unwrap()
     }
 
-    const REGIMES: [[f64; 5]; 3] =
-        [[0.0, 0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 2.0, 2.0, 2.0]];
+    const REGIMES: [[f64; 5]; 3] = [
+        [0.0, 0.0, 0.0, 0.0, 1.0],
+        [0.0, 1.0, 1.0, 1.0, 1.0],
+        [1.0, 1.0, 2.0, 2.0, 2.0],
+    ];
 
     #[test]
     fn maps_have_the_cells_of_the_study() {
         let study_map = study_map(PLAN);
         assert_eq!(study_map.slices(), 4);
-        assert_eq!(study_map.grid(0).fixed, ["k_max = 16", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(
+            study_map.grid(0).fixed,
+            ["k_max = 16", "F_n/(E* h L) = 0.5"]
+        );
         assert_eq!(study_map.grid(1).fixed, ["k_max = 16", "F_n/(E* h L) = 2"]);
-        assert_eq!(study_map.grid(2).fixed, ["k_max = 32", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(
+            study_map.grid(2).fixed,
+            ["k_max = 32", "F_n/(E* h L) = 0.5"]
+        );
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
             let grid = study_map.grid(slice);
             assert_eq!(grid.across.values, [0.25, 0.75], "H across");
-            assert_eq!(grid.up.as_ref().unwrap().values, [1.0, 2.0, 4.0], "κ ascends");
-            let quantities = [Quantity::Regime, Quantity::AdhesionCoefficient, Quantity::PreloadForce];
+            assert_eq!(
+                grid.up.as_ref().unwrap().values,
+                [1.0, 2.0, 4.0],
+                "κ ascends"
+            );
+            let quantities = [
+                Quantity::Regime,
+                Quantity::AdhesionCoefficient,
+                Quantity::PreloadForce,
+            ];
             assert_eq!(grid.quantities(), quantities);
             // From 0 to 23 µN over all maps.
             let force = grid.layer(Quantity::PreloadForce).unwrap();
-            assert_eq!((force.scale, force.range), (AxisScale::Linear, Some((0.0, 1e-6 * 23.0))));
+            assert_eq!(
+                (force.scale, force.range),
+                (AxisScale::Linear, Some((0.0, 1e-6 * 23.0)))
+            );
             for (row, kappa) in [1, 2, 0].into_iter().enumerate() {
                 for hurst in 0..2 {
                     let number = ((kappa * 2 + modes) * 2 + hurst) * 2 + preload;
@@ -247,7 +317,10 @@ mod tests {
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
                     ][number % 3];
                     assert_eq!(cell.regimes[0].most(), Some((regime, agreeing)));
-                    assert_eq!((cell.regimes[0].split(), cell.regimes[0].profiles()), (split, 5));
+                    assert_eq!(
+                        (cell.regimes[0].split(), cell.regimes[0].profiles()),
+                        (split, 5)
+                    );
                 }
             }
         }
@@ -264,18 +337,36 @@ mod tests {
             Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0)),
             "the plan's scene has none"
         );
-        let Some(Roughness::SelfAffine { seed, modes, hurst, .. }) = scene.roughness else { panic!() };
+        let Some(Roughness::SelfAffine {
+            seed, modes, hurst, ..
+        }) = scene.roughness
+        else {
+            panic!()
+        };
         assert_eq!((seed, modes, hurst), (7, Some((1, 16)), 0.5));
         // 0.5 E* h L.
-        let Move::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
-        assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
+        let Move::ToForce(force) = scene.loading[0] else {
+            panic!("{:?}", scene.loading)
+        };
+        assert!(
+            (force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12,
+            "{force}"
+        );
         let axes: Vec<&Axis> = study_map.over().collect();
         for slice in 0..4 {
             assert_eq!(study_map.is_of(slice, scene), slice == 0);
             let moved = Axis::set_all(&document, &[(axes[1], 3.0), (axes[0], 0.25)]).unwrap();
-            assert_eq!(study_map.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
+            assert_eq!(
+                study_map.is_of(slice, moved.scene()),
+                slice == 0,
+                "κ and H are the mark's"
+            );
             let followed = study_map.follow(slice, &moved).unwrap();
-            assert!(study_map.is_of(slice, followed.scene()), "{}", followed.text());
+            assert!(
+                study_map.is_of(slice, followed.scene()),
+                "{}",
+                followed.text()
+            );
             assert_eq!(place(followed.scene()), Some((3.0, 0.25)));
         }
         let unpressed = self::study_map(&PLAN.replace("preloads: [0.5, 2.0],", ""));

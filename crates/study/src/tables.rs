@@ -9,8 +9,8 @@ use super::results::{Merged, Results};
 use super::statistics::{CONFIDENCE, Statistics};
 use super::store::{Folder, lines};
 use asperity_data::{
-    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, remove_abandoned, sha256_of,
-    write_json, write_new_file,
+    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, remove_abandoned,
+    sha256_of, write_json, write_new_file,
 };
 use asperity_scene::Regime;
 use serde::Serialize;
@@ -46,11 +46,17 @@ pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     remove_abandoned(folder.path());
     let plan = results.plan();
     let path = |name| folder.path().join(name);
-    write_new_file(&path(Merged::RESULTS), true, |out| results.table().write_csv(out, ""))?;
-    write_new_file(&path(Merged::SUMMARY), true, |out| results.summary().write_csv(out, ""))?;
+    write_new_file(&path(Merged::RESULTS), true, |out| {
+        results.table().write_csv(out, "")
+    })?;
+    write_new_file(&path(Merged::SUMMARY), true, |out| {
+        results.summary().write_csv(out, "")
+    })?;
     let hash = sha256_of(&path(Merged::RESULTS))
         .map_err(|error| StudyError::folder(&path(Merged::RESULTS), error))?;
-    write_new_file(&path(Merged::SIDECAR), true, |out| write_json(out, &sidecar(plan, &merged, &hash), &[]))?;
+    write_new_file(&path(Merged::SIDECAR), true, |out| {
+        write_json(out, &sidecar(plan, &merged, &hash), &[])
+    })?;
     Ok(merged)
 }
 
@@ -96,17 +102,25 @@ fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> impl Serial
 }
 
 /// Adds the columns for the cell, its values on the axes and the preload.
-fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u64) -> TableOf<'a, T> {
+fn with_cell<'a, T: 'a>(
+    plan: &'a Plan,
+    rows: TableOf<'a, T>,
+    cell: fn(&T) -> u64,
+) -> TableOf<'a, T> {
     let mut table = rows.whole("cell", cell);
     for (number, axis) in plan.scene_axes().iter().enumerate() {
-        let (name, value) = (axis.path.clone(), move |row: &T| plan.value(cell(row), number));
+        let (name, value) = (axis.path.clone(), move |row: &T| {
+            plan.value(cell(row), number)
+        });
         table = match axis.is_whole() {
             true => table.with(name, Kind::Whole, move |row| value(row) as u64),
             false => table.with(name, Kind::Real, value),
         };
     }
     let preload = plan.preloads().map(|_| plan.axes.len() - 1);
-    table.real("preload", move |row| preload.map(|axis| plan.value(cell(row), axis)))
+    table.real("preload", move |row| {
+        preload.map(|axis| plan.value(cell(row), axis))
+    })
 }
 
 /// Returns the SHA-256 of the results of the last merge, if it is recorded.
@@ -122,7 +136,8 @@ impl Results {
     pub fn table(&self) -> Table<'_> {
         let rows = || {
             let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
-            let record = |(cell, line)| (cell, line, self.record(cell, line), self.reason(cell, line));
+            let record =
+                |(cell, line)| (cell, line, self.record(cell, line), self.reason(cell, line));
             (0..self.plan.cells())
                 .flat_map(of_cell)
                 .map(record)
@@ -133,7 +148,9 @@ impl Results {
         for (column, quantity) in self.plan.record.iter().enumerate() {
             let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
             table = match quantity.is_regime() {
-                true => table.with(name, text, move |row| regime_of(row.2?[column]).map(Regime::name)),
+                true => table.with(name, text, move |row| {
+                    regime_of(row.2?[column]).map(Regime::name)
+                }),
                 false => table.real(name, move |row| row.2.map(|values| values[column])),
             };
         }
@@ -146,7 +163,10 @@ impl Results {
         table: TableOf<'a, T>,
         reason: impl Fn(&T) -> Option<&'a str> + 'a,
     ) -> Table<'a> {
-        let longest = self.failed().map(|(_, _, reason)| reason.chars().count()).max();
+        let longest = self
+            .failed()
+            .map(|(_, _, reason)| reason.chars().count())
+            .max();
         match longest {
             Some(longest) => table.with(REASON, Kind::Text(longest), reason).done(),
             None => table.done(),
@@ -157,10 +177,15 @@ impl Results {
     /// confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
-        let nothing = |cell| GridCell { statistics: vec![None; record.len()], regimes: self.regimes(cell) };
+        let nothing = |cell| GridCell {
+            statistics: vec![None; record.len()],
+            regimes: self.regimes(cell),
+        };
         let of_cell = move |cell| {
             let reason = self.failure_of(cell);
-            self.cell(cell, record).or_else(|| reason.map(|_| nothing(cell))).map(|all| (cell, all, reason))
+            self.cell(cell, record)
+                .or_else(|| reason.map(|_| nothing(cell)))
+                .map(|all| (cell, all, reason))
         };
         let rows = move || (0..self.plan.cells()).filter_map(of_cell);
         let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
@@ -169,15 +194,17 @@ impl Results {
             if quantity.is_regime() {
                 for (index, regime) in Regime::ALL.into_iter().enumerate() {
                     let name = format!("{}_{}", quantity.name(), regime.name().replace('-', "_"));
-                    let share = move |cell: &GridCell| Some(cell.regimes_of(*quantity).shares()?[index]);
+                    let share =
+                        move |cell: &GridCell| Some(cell.regimes_of(*quantity).shares()?[index]);
                     table = table.with(name, Kind::Real, move |row| share(&row.1));
                 }
                 continue;
             }
             for (ending, of) in Statistics::COLUMNS {
                 let name = format!("{}_{ending}", quantity.name());
-                table =
-                    table.with(name, Kind::Real, move |row| row.1.statistics[place].as_ref().and_then(of));
+                table = table.with(name, Kind::Real, move |row| {
+                    row.1.statistics[place].as_ref().and_then(of)
+                });
             }
         }
         self.with_reasons(table, |row| row.2)
@@ -196,17 +223,25 @@ impl Results {
         let wrong = |reason: String| StudyError::folder(&path, format!("{reason}; {again}"));
         let file = open_regular(&path).map_err(|error| match error {
             ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
-                let reason =
-                    format!("the study has not been merged yet; asperity sweep merge {merge} does it");
+                let reason = format!(
+                    "the study has not been merged yet; asperity sweep merge {merge} does it"
+                );
                 StudyError::folder(folder, reason)
             }
             error => StudyError::folder(&path, error),
         })?;
-        let header =
-            results.table().columns().iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>().join(",");
+        let header = results
+            .table()
+            .columns()
+            .iter()
+            .map(|(name, _)| name.as_ref())
+            .collect::<Vec<_>>()
+            .join(",");
         let mut has_reasons = false;
         for (number, line) in (1..).zip(lines(BufReader::new(file))) {
-            let line = line.map_err(StudyError::unreadable(&path))?.unwrap_or_default();
+            let line = line
+                .map_err(StudyError::unreadable(&path))?
+                .unwrap_or_default();
             let row = line.trim_end_matches('\r');
             if number == 1 {
                 let rest = row.strip_prefix(&header);
@@ -239,10 +274,18 @@ impl Results {
         // Only the last column, a reason, may contain a comma.
         let count = 3 + plan.scene_axes().len() + plan.record.len() + usize::from(has_reason);
         let mut columns = row.splitn(count, ',');
-        let cell = columns.next()?.parse().ok().filter(|cell| *cell < plan.cells())?;
+        let cell = columns
+            .next()?
+            .parse()
+            .ok()
+            .filter(|cell| *cell < plan.cells())?;
         // The values of the axes are those of the plan.
         for axis in 0..plan.axes.len() {
-            columns.next()?.parse::<f64>().ok().filter(|value| plan.value(cell, axis) == *value)?;
+            columns
+                .next()?
+                .parse::<f64>()
+                .ok()
+                .filter(|value| plan.value(cell, axis) == *value)?;
         }
         if plan.preloads().is_none() {
             columns.next().filter(|preload| preload.is_empty())?;
@@ -250,22 +293,33 @@ impl Results {
         let line = columns.next()?.parse::<u64>().ok()?.wrapping_sub(plan.seed);
         let value = |(quantity, text): (&Quantity, &str)| match quantity {
             _ if text.is_empty() => Some(f64::NAN),
-            _ if quantity.is_regime() => {
-                Regime::ALL.iter().position(|one| one.name() == text).map(|place| place as f64)
-            }
+            _ if quantity.is_regime() => Regime::ALL
+                .iter()
+                .position(|one| one.name() == text)
+                .map(|place| place as f64),
             _ => text.parse().ok(),
         };
         let values: Option<Vec<f64>> = plan.record.iter().zip(&mut columns).map(value).collect();
         let values = values.filter(|values| values.len() == plan.record.len())?;
         let reason = columns.next().unwrap_or_default();
-        if columns.next().is_some() || line >= plan.lines || values.iter().any(|value| value.is_infinite()) {
+        if columns.next().is_some()
+            || line >= plan.lines
+            || values.iter().any(|value| value.is_infinite())
+        {
             return None;
         }
-        let quoted = reason.strip_prefix('"').and_then(|reason| reason.strip_suffix('"'));
-        let reason = quoted.map_or_else(|| reason.to_owned(), |reason| reason.replace("\"\"", "\""));
+        let quoted = reason
+            .strip_prefix('"')
+            .and_then(|reason| reason.strip_suffix('"'));
+        let reason =
+            quoted.map_or_else(|| reason.to_owned(), |reason| reason.replace("\"\"", "\""));
         self.set_record(
             cell * self.plan.lines + line,
-            if reason.is_empty() { Ok(values) } else { Err(reason) },
+            if reason.is_empty() {
+                Ok(values)
+            } else {
+                Err(reason)
+            },
         );
         Some(())
     }

@@ -56,9 +56,9 @@ impl Place {
     /// Returns this place and all places inside which it lies, from the outermost to the innermost.
     fn all(&self) -> impl Iterator<Item = &Place> {
         std::iter::successors(Some(self), |place| match place {
-            Place::Measurement(_, inner) | Place::Surface(_, inner) | Place::FileOf(_, _, inner) => {
-                Some(&**inner)
-            }
+            Place::Measurement(_, inner)
+            | Place::Surface(_, inner)
+            | Place::FileOf(_, _, inner) => Some(&**inner),
             _ => None,
         })
     }
@@ -124,12 +124,24 @@ impl SurfaceError {
 
     /// Returns the number of the line with the fault, from 1; `None` if the place is not a line of a text.
     pub fn line(&self) -> Option<usize> {
-        self.find(|place| if let Place::Line(number) = place { Some(*number) } else { None })
+        self.find(|place| {
+            if let Place::Line(number) = place {
+                Some(*number)
+            } else {
+                None
+            }
+        })
     }
 
     /// Returns the index of the surface with the fault, from 0; `None` if the fault lies in all surfaces together.
     pub fn surface(&self) -> Option<usize> {
-        self.find(|place| if let Place::Surface(index, _) = place { Some(*index) } else { None })
+        self.find(|place| {
+            if let Place::Surface(index, _) = place {
+                Some(*index)
+            } else {
+                None
+            }
+        })
     }
 
     /// Returns the field of the scene with the fault, such as `roughness.file`; `None` for a surface that belongs to no scene.
@@ -142,7 +154,13 @@ impl SurfaceError {
 
     /// Returns the path of the file with the fault, if a scene names this file.
     pub fn file(&self) -> Option<String> {
-        self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
+        self.find(|place| {
+            if let Place::FileOf(_, file, _) = place {
+                Some(file.clone())
+            } else {
+                None
+            }
+        })
     }
 
     /// Returns the same error with a longer place, which `outer` makes from the present place.
@@ -150,7 +168,9 @@ impl SurfaceError {
         match &mut self {
             SurfaceError::Refused { place, .. }
             | SurfaceError::Unreadable { place, .. }
-            | SurfaceError::OutOfMemory { place, .. } => *place = outer(Box::new(std::mem::take(place))),
+            | SurfaceError::OutOfMemory { place, .. } => {
+                *place = outer(Box::new(std::mem::take(place)))
+            }
             SurfaceError::Transform(_) => {}
         }
         self
@@ -164,19 +184,28 @@ impl SurfaceError {
 
     /// Creates the error of a profile whose springs do not fit into memory.
     pub fn of_springs(error: OutOfMemory) -> Self {
-        SurfaceError::OutOfMemory { place: Place::Field("numerics.points"), error }
+        SurfaceError::OutOfMemory {
+            place: Place::Field("numerics.points"),
+            error,
+        }
     }
 }
 
 impl From<OutOfMemory> for SurfaceError {
     fn from(error: OutOfMemory) -> Self {
-        SurfaceError::OutOfMemory { place: Place::File, error }
+        SurfaceError::OutOfMemory {
+            place: Place::File,
+            error,
+        }
     }
 }
 
 impl From<ReadError> for SurfaceError {
     fn from(error: ReadError) -> Self {
-        SurfaceError::Unreadable { place: Place::File, reason: error.to_string() }
+        SurfaceError::Unreadable {
+            place: Place::File,
+            reason: error.to_string(),
+        }
     }
 }
 
@@ -189,7 +218,11 @@ impl From<TextFault> for SurfaceError {
             }
             TextFault::LongLine { line } => {
                 let most = format!("{} bytes", TextFault::LONGEST_LINE);
-                (Place::Line(line), format!("longer than {most}"), format!("at most {most}"))
+                (
+                    Place::Line(line),
+                    format!("longer than {most}"),
+                    format!("at most {most}"),
+                )
             }
             TextFault::OutOfMemory(error) => return error.into(),
             other => {
@@ -203,5 +236,9 @@ impl From<TextFault> for SurfaceError {
 
 /// Creates a [`SurfaceError::Refused`] from the place of a fault, what was found there, and what is allowed there.
 pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> SurfaceError {
-    SurfaceError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
+    SurfaceError::Refused {
+        place,
+        found: found.to_string(),
+        allowed: allowed.to_string(),
+    }
 }

@@ -30,18 +30,31 @@ pub struct BoundaryArguments {
     #[arg(long = "where", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
     /// Parameter of boundaries: kappa or elastic_energy_ratio
-    #[arg(long, value_enum, value_name = "PARAMETER", default_value = "kappa", hide_possible_values = true)]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "PARAMETER",
+        default_value = "kappa",
+        hide_possible_values = true
+    )]
     pub x: RoughnessParameter,
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
 fn level(text: &str) -> Result<f64, String> {
-    let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
+    let level = text
+        .trim()
+        .parse::<f64>()
+        .ok()
+        .filter(|level| *level > 0.0 && *level < 1.0);
     level.ok_or_else(|| "allowed: a share above 0 and below 1, such as 0.05".to_string())
 }
 
-pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn boundary(
+    arguments: &BoundaryArguments,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let levels = if arguments.levels.is_empty() {
         Boundaries::USUAL_LEVELS.to_vec()
@@ -49,5 +62,7 @@ pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) ->
         arguments.levels.clone()
     };
     let boundaries = Boundaries::of(&arguments.folder, arguments.x, &levels)?;
-    arguments.output.write(stdout, &boundaries, format, Origin::Files(&[]))
+    arguments
+        .output
+        .write(stdout, &boundaries, format, Origin::Files(&[]))
 }

@@ -31,14 +31,33 @@ pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Resul
     write_merged(&folder, &merged, stdout)
 }
 
-pub(super) fn write_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let Merged { records, failed, first_failed, total, duplicates, damaged, missing_cells, .. } = merged;
+pub(super) fn write_merged(
+    folder: &Folder,
+    merged: &Merged,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
+    let Merged {
+        records,
+        failed,
+        first_failed,
+        total,
+        duplicates,
+        damaged,
+        missing_cells,
+        ..
+    } = merged;
     let path = path_name(folder.path());
     let files = [Merged::RESULTS, Merged::SUMMARY, Merged::SIDECAR].join(", ");
     writeln!(stdout, "{records} of {total} records in {path}: {files}")?;
     for (count, what) in [
-        (failed, "records cannot be computed; results.csv has the reasons"),
-        (duplicates, "records were computed twice, with the same bits"),
+        (
+            failed,
+            "records cannot be computed; results.csv has the reasons",
+        ),
+        (
+            duplicates,
+            "records were computed twice, with the same bits",
+        ),
         (damaged, "torn or damaged lines were left out"),
         (missing_cells, "cells are not complete"),
     ] {
@@ -47,9 +66,10 @@ pub(super) fn write_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Wr
         }
     }
     match first_failed.first() {
-        Some((.., reason)) if failed == records => {
-            Err(CliError::named(path, format!("none of the {records} records can be computed: {reason}")))
-        }
+        Some((.., reason)) if failed == records => Err(CliError::named(
+            path,
+            format!("none of the {records} records can be computed: {reason}"),
+        )),
         _ => Ok(()),
     }
 }

@@ -28,7 +28,10 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
         return Ok(stdout.write_all(Plan::built_in(name)?.text.as_bytes())?);
     }
     let open = |name| -> Result<_, CliError> { Ok((name, Plan::open(name, &Changes::default())?)) };
-    let plans = Plan::BUILT_IN.iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
+    let plans = Plan::BUILT_IN
+        .iter()
+        .map(|plan| open(plan.name))
+        .collect::<Result<Vec<_>, _>>()?;
     let row = |(name, plan): &(&str, Plan)| {
         let size = format!("{} cells × {} profiles", plan.cells(), plan.lines);
         [(*name).to_owned(), size, plan.title.clone()]
@@ -43,5 +46,9 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
             "lines": plan.lines,
         }
     });
-    arguments.format.write(stdout, text, &object! { "plans": objects.collect::<Vec<_>>() })
+    arguments.format.write(
+        stdout,
+        text,
+        &object! { "plans": objects.collect::<Vec<_>>() },
+    )
 }

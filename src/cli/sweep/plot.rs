@@ -39,24 +39,48 @@ const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Pdf, Format::Text
 
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     // `-o -` writes an SVG into a pipe.
-    let usual = if arguments.output.output.is_none() { Format::Text } else { Format::Svg };
+    let usual = if arguments.output.output.is_none() {
+        Format::Text
+    } else {
+        Format::Svg
+    };
     let format = arguments.output.format(FORMATS, usual)?;
     let study = Results::open(&arguments.folder)?;
-    let selected = arguments.selection.of(&study).map_err(|error| CliError::message(error.to_string()))?;
-    let Selected { grid, quantities, curves, note } = selected;
+    let selected = arguments
+        .selection
+        .of(&study)
+        .map_err(|error| CliError::message(error.to_string()))?;
+    let Selected {
+        grid,
+        quantities,
+        curves,
+        note,
+    } = selected;
     // The figure is drawn even if standard error is closed.
     let _ = note.map(|note| writeln!(io::stderr(), "{note}"));
     // By request there is one scale alone.
-    let scales = if arguments.selection.scale.is_some() { 1 } else { 2 };
+    let scales = if arguments.selection.scale.is_some() {
+        1
+    } else {
+        2
+    };
     let charts = |quantity| match study_map(&grid, quantity, false).filter(|_| !curves) {
         Some(map) => vec![map],
-        None => study_curves(&grid, quantity).into_iter().take(scales).collect(),
+        None => study_curves(&grid, quantity)
+            .into_iter()
+            .take(scales)
+            .collect(),
     };
     let charts: Vec<_> = quantities.into_iter().flat_map(charts).collect();
     let figure = study_figure(&study.plan().title, &grid, charts);
     // The numbers that vary differ in the first and in the last cell.
     let cells = [0, study.plan().cells() - 1].map(|cell| study.plan().scene_of(cell));
-    let scenes: Vec<_> =
-        cells.into_iter().flatten().map(|scene| (String::new(), Scene::clone(&scene))).collect();
-    arguments.output.write_figure(stdout, &figure, format, &scenes)
+    let scenes: Vec<_> = cells
+        .into_iter()
+        .flatten()
+        .map(|scene| (String::new(), Scene::clone(&scene)))
+        .collect();
+    arguments
+        .output
+        .write_figure(stdout, &figure, format, &scenes)
 }

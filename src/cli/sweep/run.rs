@@ -45,7 +45,10 @@ pub struct SweepRunArguments {
 }
 
 pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
+    let changes = Changes {
+        set: arguments.overrides.set.clone(),
+        lines: arguments.lines,
+    };
     // The parser requires a plan if there is no command.
     let plan = Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes)?;
     let jobs = threads(arguments.jobs) as u64;
@@ -55,7 +58,11 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         "{} cells on {} {}: {} records; {jobs} {}, at most {} of memory",
         plan.cells(),
         plan.lines,
-        if plan.lines == 1 { "profile" } else { "profiles" },
+        if plan.lines == 1 {
+            "profile"
+        } else {
+            "profiles"
+        },
         plan.records_in_all(),
         if jobs == 1 { "thread" } else { "threads" },
         memory_size(memory)
@@ -65,30 +72,44 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         return Ok(());
     }
     let _ = writeln!(stderr, "{text}");
-    let Some(output) = &arguments.output else { return Ok(()) };
+    let Some(output) = &arguments.output else {
+        return Ok(());
+    };
     let folder = Folder::create(output, &plan)?;
     let stop = stop_by_signal()?;
     let (mut line, mut last) = (ProgressLine::default(), None::<Instant>);
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     let signal = || stop.load(Ordering::SeqCst);
-    let ended = run_study(&folder, shard, jobs as usize, &|| signal() != 0, &mut |progress| {
-        let text = progress_text(progress);
-        let is_due = progress.is_complete() || last.is_none_or(|last| last.elapsed() >= BETWEEN);
-        if is_due {
-            last = Some(Instant::now());
-        }
-        line.show(&text, is_due.then_some(&text));
-    });
+    let ended = run_study(
+        &folder,
+        shard,
+        jobs as usize,
+        &|| signal() != 0,
+        &mut |progress| {
+            let text = progress_text(progress);
+            let is_due =
+                progress.is_complete() || last.is_none_or(|last| last.elapsed() >= BETWEEN);
+            if is_due {
+                last = Some(Instant::now());
+            }
+            line.show(&text, is_due.then_some(&text));
+        },
+    );
     line.keep();
     let ended = ended?;
     if !ended.is_complete() {
         let (done, total) = (ended.done, ended.total);
-        let stopped =
-            format!("stopped: {done} of {total} records are complete; the same command continues the study");
+        let stopped = format!(
+            "stopped: {done} of {total} records are complete; the same command continues the study"
+        );
         return Err(CliError::interrupted(&stop, stopped));
     }
     if arguments.shard.is_some() {
-        let _ = writeln!(stderr, "all {} records of shard {} exist", ended.total, shard);
+        let _ = writeln!(
+            stderr,
+            "all {} records of shard {} exist",
+            ended.total, shard
+        );
         // The process that completes the study merges it; of two at the same time both do.
         if Status::of(&folder)?.missing > 0 {
             return Ok(());

@@ -28,5 +28,7 @@ pub struct StatusArguments {
 pub(super) fn status(arguments: &StatusArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let folder = Folder::open(&arguments.folder)?;
     let status = Status::of(&folder)?;
-    arguments.format.write(stdout, || status_text(folder.plan(), &status), &status)
+    arguments
+        .format
+        .write(stdout, || status_text(folder.plan(), &status), &status)
 }

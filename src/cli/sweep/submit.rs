@@ -62,16 +62,27 @@ pub struct SubmitArguments {
 }
 
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
+    let changes = Changes {
+        set: arguments.overrides.set.clone(),
+        lines: arguments.lines,
+    };
     let plan = Plan::open(&arguments.plan, &changes)?;
-    let script = script(arguments, &program_path()?, &std::path::absolute(&arguments.output)?)?;
+    let script = script(
+        arguments,
+        &program_path()?,
+        &std::path::absolute(&arguments.output)?,
+    )?;
     if arguments.check {
         return Ok(stdout.write_all(script.as_bytes())?);
     }
     let folder = Folder::create(&arguments.output, &plan)?;
     let answer = answer_of_sbatch(&script, &arguments.options).map_err(CliError::message)?;
     let path = quoted(folder.path());
-    writeln!(stdout, "{}\nasperity sweep status {path} shows the progress", printable_lines(answer.trim()))?;
+    writeln!(
+        stdout,
+        "{}\nasperity sweep status {path} shows the progress",
+        printable_lines(answer.trim())
+    )?;
     Ok(())
 }
 
@@ -81,7 +92,9 @@ fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<
     // Slurm ends directives at a backslash and reads double quotes.
     let allowed = "allowed: UTF-8 without backslashes, double quotes and control characters";
     let text_of = |path: &Path| {
-        let text = path.to_str().filter(|text| !text.contains(|c| c == '\\' || c == '"' || is_control(c)));
+        let text = path
+            .to_str()
+            .filter(|text| !text.contains(|c| c == '\\' || c == '"' || is_control(c)));
         text.map(str::to_owned).ok_or_else(|| {
             let refused = format!("a script of Slurm cannot contain this path; {allowed}");
             CliError::named(path_name(path), refused)
@@ -129,7 +142,11 @@ fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String
     }
     };
     let mut command = Command::new("sbatch");
-    command.args(options).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+        .args(options)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     let mut sbatch = command.spawn().map_err(not_run)?;
     if let Some(mut stdin) = sbatch.stdin.take() {
         // sbatch may refuse its options before it reads the script.
@@ -141,6 +158,10 @@ fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String
     if output.status.success() {
         return Ok(message + &answer);
     }
-    let reason = if message.trim().is_empty() { "no error message" } else { message.trim() };
+    let reason = if message.trim().is_empty() {
+        "no error message"
+    } else {
+        message.trim()
+    };
     Err(format!("sbatch failed ({}): {reason}", output.status))
 }

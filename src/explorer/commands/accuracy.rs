@@ -42,13 +42,19 @@ pub fn studies(app: &mut App) -> Vec<Study> {
             let is_long = computed.scene.numerics.points > MOST_ESTIMATED;
             wanted.extend(ensemble(app, is_long));
             let of = Arc::clone(&computed);
-            wanted.push(Study::new(generation, is_long, move |_, stop, _: &mut dyn FnMut(Estimate)| {
-                let known = estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop);
-                known.ok_or_else(|| "the error cannot be estimated".to_owned())
-            }));
+            wanted.push(Study::new(
+                generation,
+                is_long,
+                move |_, stop, _: &mut dyn FnMut(Estimate)| {
+                    let known = estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop);
+                    known.ok_or_else(|| "the error cannot be estimated".to_owned())
+                },
+            ));
             wanted.extend(measured::study(app));
             wanted.extend(
-                app.view.large.map_or_else(Vec::new, |pane| (panes::row(pane).studies)(app, &computed)),
+                app.view
+                    .large
+                    .map_or_else(Vec::new, |pane| (panes::row(pane).studies)(app, &computed)),
             );
             wanted.extend(app.view.squares.then(|| squares(app)));
         }
@@ -61,7 +67,10 @@ fn preview(document: &Document) -> Study {
     let (text, scene) = (document.text().to_owned(), scene_of(document));
     Study::new(document.text(), false, move |simulation, stop, _| {
         let outcome = simulation.run(&scene, stop, &mut |_, _, _| Ok(()));
-        Ok(Preview { text, outcome: outcome.map_err(|error| error.to_string())? })
+        Ok(Preview {
+            text,
+            outcome: outcome.map_err(|error| error.to_string())?,
+        })
     })
 }
 
@@ -72,7 +81,9 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     (profiles > 1).then(|| {
         Study::new(key, is_long, move |simulation, stop, report| {
             let solver = (std::mem::take(simulation), threads());
-            let found = Ensemble::of(&scene, &[], profiles, solver, stop, &mut |_, part| report(part()));
+            let found = Ensemble::of(&scene, &[], profiles, solver, stop, &mut |_, part| {
+                report(part())
+            });
             found.map_err(|error| error.to_string())
         })
     })
@@ -83,7 +94,9 @@ fn squares(app: &App) -> Study {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
     Study::new(key, true, move |simulation, stop, report| {
         let own = std::mem::take(simulation);
-        let found = SquareLoops::of(&scene, own, threads(), stop, &mut |part| report(part.clone()));
+        let found = SquareLoops::of(&scene, own, threads(), stop, &mut |part| {
+            report(part.clone())
+        });
         found.map_err(|error| error.to_string())
     })
 }
@@ -92,9 +105,17 @@ fn squares(app: &App) -> Study {
 fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     Study::new(generation, false, move |_, stop, report| {
         let found = choose(&scene, Path::new(FOLDER), tolerance, stop, &mut |points| {
-            report(Choosing { tolerance, tried: Some(points), found: None });
+            report(Choosing {
+                tolerance,
+                tried: Some(points),
+                found: None,
+            });
         });
-        Ok(Choosing { tolerance, tried: None, found: Some(found) })
+        Ok(Choosing {
+            tolerance,
+            tried: None,
+            found: Some(found),
+        })
     })
 }
 
@@ -114,14 +135,25 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     if !app.is_current() {
         return Err(NOT_COMPUTED.to_owned());
     }
-    app.studies.set(app.edit.generation, Choosing { tolerance, tried: None, found: None }, false);
+    app.studies.set(
+        app.edit.generation,
+        Choosing {
+            tolerance,
+            tried: None,
+            found: None,
+        },
+        false,
+    );
     app.effects.push(Task::Study);
     Ok(())
 }
 
 /// Applies the result of the search to the scene.
 pub fn found(app: &mut App) {
-    if let Some(Choosing { found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
+    if let Some(Choosing {
+        found: Some(found), ..
+    }) = app.studies.value::<Choosing>().cloned()
+    {
         app.studies.forget::<Choosing>();
         app.effects.push(Task::Study);
         match found {
@@ -136,7 +168,10 @@ fn apply(app: &mut App, choice: &Choice) {
     let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
     if !is_so {
         let points = choice.points.to_string();
-        let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
+        let fields = [
+            ("numerics.points", points.as_str()),
+            ("numerics.edges", choice.edges.name()),
+        ];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
         edit::apply(app, app.edit.document.set_all(&fields));
         if app.is_refused() {
@@ -144,6 +179,11 @@ fn apply(app: &mut App, choice: &Choice) {
         }
     }
     // From finer solutions than those of an estimate.
-    app.studies.set(app.edit.generation, choice.estimate(), true);
-    app.set_done(format!("{}{}", if is_so { "as it is: " } else { "" }, choice.sentence()));
+    app.studies
+        .set(app.edit.generation, choice.estimate(), true);
+    app.set_done(format!(
+        "{}{}",
+        if is_so { "as it is: " } else { "" },
+        choice.sentence()
+    ));
 }

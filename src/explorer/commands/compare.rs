@@ -23,12 +23,21 @@ pub fn toggle_squares(app: &mut App) {
 
 fn ghost(app: &App) -> Option<Ghost> {
     let outcome = Arc::new(app.current()?.outcome.clone());
-    Some(Ghost { document: app.edit.document.clone(), outcome })
+    Some(Ghost {
+        document: app.edit.document.clone(),
+        outcome,
+    })
 }
 
 pub fn pin(app: &mut App) {
-    let Some(ghost) = ghost(app) else { return app.set_error("there is no curve yet to keep") };
-    if app.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
+    let Some(ghost) = ghost(app) else {
+        return app.set_error("there is no curve yet to keep");
+    };
+    if app
+        .ghosts
+        .iter()
+        .any(|kept| kept.document.scene() == ghost.document.scene())
+    {
         return app.set_done("this loop is kept already");
     }
     let is_full = app.ghosts.len() == MOST_GHOSTS;
@@ -37,7 +46,11 @@ pub fn pin(app: &mut App) {
     }
     app.ghosts.push(ghost);
     let name = letter(app.ghosts.len() - 1);
-    let rest = if is_full { "the oldest ghost has been removed" } else { "x swaps it with the scene" };
+    let rest = if is_full {
+        "the oldest ghost has been removed"
+    } else {
+        "x swaps it with the scene"
+    };
     app.set_done(format!("kept as ghost {name}; {rest}"));
 }
 

@@ -27,7 +27,9 @@ pub fn toggle(app: &mut App) {
 
 /// Moves the crosshair by a small or a large step.
 pub fn step(app: &mut App, key: &KeyEvent) {
-    let Some(((columns, _), is_coarse)) = direction(key) else { return };
+    let Some(((columns, _), is_coarse)) = direction(key) else {
+        return;
+    };
     let (low, high) = ends(app);
     let step = (high - low) / if is_coarse { STEPS.1 } else { STEPS.0 };
     let now = app.view.crosshair.unwrap_or(low);
@@ -44,8 +46,12 @@ pub fn go_to_end(app: &mut App, key: &KeyEvent) {
 /// Moves the crosshair to a number on the horizontal axis of the selected pane.
 pub fn point_at(app: &mut App, x: f64) {
     let share = match app.section().zip(app.snapshot.as_deref()) {
-        Some((_, snapshot)) => (x / snapshot.line.spacing - snapshot.line.first as f64) / springs(app),
-        None => match panes::figure(app, app.view.pane).and_then(|figure| figure.charts.into_iter().next()) {
+        Some((_, snapshot)) => {
+            (x / snapshot.line.spacing - snapshot.line.first as f64) / springs(app)
+        }
+        None => match panes::figure(app, app.view.pane)
+            .and_then(|figure| figure.charts.into_iter().next())
+        {
             Some(chart) => chart.x.share(x),
             None => return,
         },
@@ -61,10 +67,13 @@ fn ends(app: &App) -> (f64, f64) {
     if let Some(section) = app.section() {
         return (share(section.first), share(section.first + section.springs));
     }
-    let chart = panes::figure(app, app.view.pane).and_then(|figure| figure.charts.into_iter().next());
+    let chart =
+        panes::figure(app, app.view.pane).and_then(|figure| figure.charts.into_iter().next());
     let shares = chart.iter().flat_map(|chart| {
         let named = chart.layers.iter().filter(|layer| !layer.name.is_empty());
-        named.flat_map(|layer| layer.shape.points()).map(|point| chart.x.share(point.0).clamp(0.0, 1.0))
+        named
+            .flat_map(|layer| layer.shape.points())
+            .map(|point| chart.x.share(point.0).clamp(0.0, 1.0))
     });
     shares
         .fold(None, |ends: Option<(f64, f64)>, at| {
@@ -75,5 +84,7 @@ fn ends(app: &App) -> (f64, f64) {
 }
 
 fn springs(app: &App) -> f64 {
-    app.solved.as_ref().map_or(1.0, |computed| computed.outcome.history.work.springs.max(1) as f64)
+    app.solved.as_ref().map_or(1.0, |computed| {
+        computed.outcome.history.work.springs.max(1) as f64
+    })
 }

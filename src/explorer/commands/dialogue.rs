@@ -19,7 +19,12 @@ const HELP: &str = "Help";
 
 /// Opens the search of the list of parameters, and its pane.
 pub fn find_parameter(app: &mut App) {
-    app.ask(Purpose::Parameter { before: app.view.pane }, "");
+    app.ask(
+        Purpose::Parameter {
+            before: app.view.pane,
+        },
+        "",
+    );
     edit::show_parameters(app)
 }
 
@@ -44,26 +49,59 @@ pub fn open_help(app: &mut App) {
         words: String::new(),
         aim: Aim::Nothing,
     };
-    let notice = app.edit.document.scene().notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    let notice = app
+        .edit
+        .document
+        .scene()
+        .notice
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
     let notice = (!notice.is_empty()).then(|| topic("This scene", &notice));
-    let panes =
-        Pane::ALL.iter().flat_map(|pane| panes::row(*pane).help).map(|(name, text)| topic(name, text));
+    let panes = Pane::ALL
+        .iter()
+        .flat_map(|pane| panes::row(*pane).help)
+        .map(|(name, text)| topic(name, text));
     let keys = app.config.bindings.rows().map(Topic::of);
     let topics = notice.into_iter().chain(panes).chain(keys).collect();
-    app.ask(Purpose::Topics { name: HELP, topics, is_typed: false }, "");
+    app.ask(
+        Purpose::Topics {
+            name: HELP,
+            topics,
+            is_typed: false,
+        },
+        "",
+    );
 }
 
 /// Opens the list of commands, of the parameters of the scene, and of the built-in scenes.
 pub fn open_commands(app: &mut App) {
     let commands = app.config.bindings.listed().map(Topic::of);
-    let parameters = app.edit.parameters.iter().enumerate().map(Topic::of_parameter);
-    let topics = commands.chain(parameters).chain(presets().iter().map(Topic::of_preset)).collect();
-    app.ask(Purpose::Topics { name: "Commands", topics, is_typed: true }, "");
+    let parameters = app
+        .edit
+        .parameters
+        .iter()
+        .enumerate()
+        .map(Topic::of_parameter);
+    let topics = commands
+        .chain(parameters)
+        .chain(presets().iter().map(Topic::of_preset))
+        .collect();
+    app.ask(
+        Purpose::Topics {
+            name: "Commands",
+            topics,
+            is_typed: true,
+        },
+        "",
+    );
 }
 
 /// Searches the help for what is typed next.
 pub fn search_help(app: &mut App) {
-    if let Some(Purpose::Topics { is_typed, .. }) = app.prompt.as_mut().map(|prompt| &mut prompt.purpose) {
+    if let Some(Purpose::Topics { is_typed, .. }) =
+        app.prompt.as_mut().map(|prompt| &mut prompt.purpose)
+    {
         *is_typed = true;
     }
 }
@@ -72,7 +110,10 @@ pub fn search_help(app: &mut App) {
 pub fn select(app: &mut App, rows: i32) {
     if let Some(prompt) = &mut app.prompt {
         let last = prompt.found.len().saturating_sub(1);
-        prompt.selected = prompt.selected.saturating_add_signed(rows as isize).min(last);
+        prompt.selected = prompt
+            .selected
+            .saturating_add_signed(rows as isize)
+            .min(last);
     }
 }
 
@@ -93,21 +134,39 @@ pub fn select_by(app: &mut App, key: &KeyEvent) {
 /// rows.
 pub fn page(app: &mut App, key: &KeyEvent) {
     let rows = i32::from(Layout::of(app).body().height / 2).max(1);
-    let rows = if key.code == KeyCode::PageUp { -rows } else { rows };
-    if app.prompt.is_some() { select(app, rows) } else { edit::move_selection(app, rows) }
+    let rows = if key.code == KeyCode::PageUp {
+        -rows
+    } else {
+        rows
+    };
+    if app.prompt.is_some() {
+        select(app, rows)
+    } else {
+        edit::move_selection(app, rows)
+    }
 }
 
 /// Accepts the typed line, the selected row, or the question. A refused line stays in the prompt, with the reason.
 pub fn accept(app: &mut App) {
-    let Some(mut prompt) = app.prompt.take() else { return };
-    if let Purpose::Topics { name: HELP, is_typed: is_typed @ true, .. } = &mut prompt.purpose {
+    let Some(mut prompt) = app.prompt.take() else {
+        return;
+    };
+    if let Purpose::Topics {
+        name: HELP,
+        is_typed: is_typed @ true,
+        ..
+    } = &mut prompt.purpose
+    {
         // The search of the help is over, and its results stay.
         *is_typed = false;
         app.prompt = Some(prompt);
         return;
     }
     if let Err(why) = accept_prompt(app, &prompt) {
-        app.prompt = Some(Prompt { refused: Some(why), ..prompt });
+        app.prompt = Some(Prompt {
+            refused: Some(why),
+            ..prompt
+        });
     }
 }
 
@@ -125,7 +184,10 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         Purpose::Export => return files::export(app, typed_path(typed)),
         Purpose::Scene(_) => match prompt.scene() {
             Some(entry) => {
-                let document = entry.document.clone().map_err(|errors| errors.to_string())?;
+                let document = entry
+                    .document
+                    .clone()
+                    .map_err(|errors| errors.to_string())?;
                 edit::open(app, document);
             }
             None if typed.trim().is_empty() => return Err("type a name or a path".to_owned()),
@@ -140,7 +202,10 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
             app.show(Pane::Parameters);
         }
         Purpose::Topics { topics, .. } => {
-            let topic = prompt.choice().and_then(|index| topics.get(index)).ok_or_else(nothing)?;
+            let topic = prompt
+                .choice()
+                .and_then(|index| topics.get(index))
+                .ok_or_else(nothing)?;
             match &topic.aim {
                 Aim::Nothing => {}
                 Aim::Command(row) => choose(app, Command { row, key: None }),
@@ -152,7 +217,10 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
             }
         }
         Purpose::Overwrite(file) => {
-            app.effects.push(Task::Write(OutputFile { overwrite: true, ..file.clone() }));
+            app.effects.push(Task::Write(OutputFile {
+                overwrite: true,
+                ..file.clone()
+            }));
         }
         Purpose::Leave => {}
     }
@@ -181,8 +249,12 @@ fn choose(app: &mut App, command: Command) {
 }
 
 /// Paths of parameters whose values contain names of files.
-const WITH_FILES: [&str; 4] =
-    ["roughness", "roughness.file", "roughness.further_files", "roughness.opposite"];
+const WITH_FILES: [&str; 4] = [
+    "roughness",
+    "roughness.file",
+    "roughness.further_files",
+    "roughness.opposite",
+];
 
 /// The path being typed: the whole line, or in a value what follows the last quote, relative to the folder of the scene.
 fn typed_in_line(app: &App) -> Option<String> {
@@ -192,7 +264,13 @@ fn typed_in_line(app: &App) -> Option<String> {
         Purpose::Save { .. } | Purpose::Export | Purpose::Scene(_) => Some(text.to_owned()),
         Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {
             let path = text.rsplit('"').next().unwrap_or(text);
-            Some(app.edit.document.resolve(path).to_string_lossy().into_owned())
+            Some(
+                app.edit
+                    .document
+                    .resolve(path)
+                    .to_string_lossy()
+                    .into_owned(),
+            )
         }
         _ => None,
     }
@@ -211,7 +289,9 @@ pub fn complete(app: &mut App) {
 
 /// Completes the typed path by what all these paths begin with, and shows them if they are several.
 pub fn completed(app: &mut App, paths: Vec<String>) {
-    let Some(typed) = typed_in_line(app) else { return };
+    let Some(typed) = typed_in_line(app) else {
+        return;
+    };
     let common = common_start(&paths);
     if let Some(rest) = common.strip_prefix(&typed) {
         edit::edit_line(app, |line| {
@@ -219,7 +299,11 @@ pub fn completed(app: &mut App, paths: Vec<String>) {
             line.insert(rest);
         });
     }
-    app.refuse(paths.is_empty().then(|| "no file or folder begins so".to_owned()));
+    app.refuse(
+        paths
+            .is_empty()
+            .then(|| "no file or folder begins so".to_owned()),
+    );
     if let Some(prompt) = &mut app.prompt {
         prompt.paths = if paths.len() > 1 { paths } else { Vec::new() };
     }

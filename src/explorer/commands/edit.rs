@@ -52,14 +52,19 @@ pub fn open(app: &mut App, document: Document) {
 
 /// Opens the editor of the selected value; `first` is a first typed character, which replaces the value.
 pub fn edit_value(app: &mut App, first: Option<char>) {
-    let Some(parameter) = app.edit.parameter() else { return };
+    let Some(parameter) = app.edit.parameter() else {
+        return;
+    };
     match parameter.setting {
         _ if first.is_some() && !parameter.takes_number() => {
             let way = way_of_changing(parameter);
             app.set_done(way);
         }
         Setting::Heading => app.set_done(way_of_changing(parameter)),
-        Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion | Setting::Reading(_) => {
+        Setting::Field
+        | Setting::RoughnessParameter(_)
+        | Setting::WorkOfAdhesion
+        | Setting::Reading(_) => {
             let text = editable(app, parameter);
             app.ask(Purpose::Value, &text);
             // No preview of an earlier edit.
@@ -104,7 +109,9 @@ pub fn clear_line(app: &mut App) {
 
 /// Edits the typed line and updates its preview or its list.
 pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
-    let Some(prompt) = &mut app.prompt else { return };
+    let Some(prompt) = &mut app.prompt else {
+        return;
+    };
     let before = prompt.line.text().to_owned();
     change(&mut prompt.line);
     if prompt.line.text() == before && prompt.line.left_out().is_none() {
@@ -121,7 +128,11 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
 
 /// States how a parameter without a number is changed.
 pub fn way_of_changing(parameter: &Parameter) -> String {
-    let way = match (parameter.setting, parameter.field.step, parameter.field.range) {
+    let way = match (
+        parameter.setting,
+        parameter.field.step,
+        parameter.field.range,
+    ) {
         (Setting::Heading, ..) => "a group: its fields are in the rows below",
         (Setting::Reading(_), _, Range::Choice(_)) => "a choice: ← → change it",
         (_, Step::Choice, _) => "a choice: ← → change it",
@@ -141,23 +152,35 @@ pub fn show_parameters(app: &mut App) {
 
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     show_parameters(app);
-    let Some(parameter) = app.edit.parameter() else { return };
-    let is_text = matches!(parameter.field.range, Range::Text { .. }) || parameter.path == "loading";
+    let Some(parameter) = app.edit.parameter() else {
+        return;
+    };
+    let is_text =
+        matches!(parameter.field.range, Range::Text { .. }) || parameter.path == "loading";
     if parameter.setting == Setting::Heading || is_text {
         return refuse(app, way_of_changing(parameter));
     }
     if let Setting::RoughnessParameter(of) = parameter.setting
-        && app.governing().is_some_and(|governing| governing.amplitude.is_none())
+        && app
+            .governing()
+            .is_some_and(|governing| governing.amplitude.is_none())
     {
         return refuse(app, undefined(of));
     }
     if let Some(given) = parameter.follows_from(app.edit.document.scene()) {
         let name = parameter.name();
-        return refuse(app, format!("{name} follows from {given}; Enter types a value of its own"));
+        return refuse(
+            app,
+            format!("{name} follows from {given}; Enter types a value of its own"),
+        );
     }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
     if parameter.field.step == Step::Choice {
-        return match app.edit.document.with_next_choice(parameter.field, steps > 0) {
+        return match app
+            .edit
+            .document
+            .with_next_choice(parameter.field, steps > 0)
+        {
             Ok(Some(document)) => apply(app, Ok(document)),
             Ok(None) => refuse(app, no_step),
             Err(errors) => apply(app, Err(errors)),
@@ -182,22 +205,33 @@ pub fn editable(app: &App, parameter: &Parameter) -> String {
     match parameter.field.range {
         _ if parameter.group == "loading" => {
             let loading = &app.edit.document.scene().loading;
-            let stages = parameter.leg.map_or(loading.get(..), |leg| loading.get(leg..=leg));
+            let stages = parameter
+                .leg
+                .map_or(loading.get(..), |leg| loading.get(leg..=leg));
             loading_text(stages.unwrap_or_default(), exact_quantity)
         }
         Range::Text { .. } => text_of(&written),
-        _ => parameter.field.quantities(&written, exact_quantity).unwrap_or(written),
+        _ => parameter
+            .field
+            .quantities(&written, exact_quantity)
+            .unwrap_or(written),
     }
 }
 
 pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
-    let Some(parameter) = app.edit.parameter() else { return Ok(()) };
+    let Some(parameter) = app.edit.parameter() else {
+        return Ok(());
+    };
     if typed == editable(app, parameter) {
         return Ok(());
     }
     let document = with_typed(app, typed)?;
     // A loading that the contact does not follow is known once its preview has been computed.
-    if let Some(why) = app.studies.failure::<Preview>().filter(|_| app.tried.is_some()) {
+    if let Some(why) = app
+        .studies
+        .failure::<Preview>()
+        .filter(|_| app.tried.is_some())
+    {
         return Err(why.to_owned());
     }
     apply(app, Ok(document));
@@ -215,7 +249,10 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let Some(leg) = parameter.leg else {
         let written = parameter.field.read_typed(typed);
         let allowed = || parameter.field.allowed();
-        return with_selected(app, &written.map_err(|error| format!("{error}; allowed: {}", allowed()))?);
+        return with_selected(
+            app,
+            &written.map_err(|error| format!("{error}; allowed: {}", allowed()))?,
+        );
     };
     let mut stages = document.stages();
     let (kind, _) = StageKind::of(&stages[leg].1);
@@ -224,7 +261,9 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
         (same, Some(number)) if same == kind => with_selected(app, &ron_float(number)),
         _ => {
             stages[leg] = (None, stage);
-            let changed = document.with_stages(&stages).map_err(|errors| reasons(&errors))?;
+            let changed = document
+                .with_stages(&stages)
+                .map_err(|errors| reasons(&errors))?;
             within_reach(app, changed)
         }
     }
@@ -235,7 +274,9 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     let force = pressing_force(&changed.scene().loading);
     let is_more = force > pressing_force(&app.edit.document.scene().loading);
     let solved = app.current().filter(|_| is_more);
-    solved.and_then(|solved| solved.reach.refusal(Move::ToForce(force))).map_or(Ok(changed), Err)
+    solved
+        .and_then(|solved| solved.reach.refusal(Move::ToForce(force)))
+        .map_or(Ok(changed), Err)
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
@@ -255,14 +296,21 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let changed = match selected.setting {
         Setting::Field | Setting::Heading | Setting::Reading(_) => {
             let other = replaced_by(&selected.path);
-            let other = other.filter(|path| document.value(path).is_some_and(|value| value != "None"));
+            let other =
+                other.filter(|path| document.value(path).is_some_and(|value| value != "None"));
             let pair = |path: &str, value: &str| (path.to_owned(), value.to_owned());
             let replaced = other.map(|path| pair(path, "None"));
-            document.set_all(&replaced.into_iter().chain([pair(&selected.path, written)]).collect::<Vec<_>>())
+            document.set_all(
+                &replaced
+                    .into_iter()
+                    .chain([pair(&selected.path, written)])
+                    .collect::<Vec<_>>(),
+            )
         }
         Setting::WorkOfAdhesion => {
             let work = number()?;
-            document.with_adhesion(adhesion.map_or(Adhesion::by_work(work), |of| of.with_work(work)))
+            document
+                .with_adhesion(adhesion.map_or(Adhesion::by_work(work), |of| of.with_work(work)))
         }
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
@@ -275,22 +323,30 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
                     field.name
                 ));
             }
-            match (adhesion.filter(|adhesion| adhesion.work().is_some()), app.governing()) {
+            match (
+                adhesion.filter(|adhesion| adhesion.work().is_some()),
+                app.governing(),
+            ) {
                 // The scene has γ, which follows from the parameter.
                 (Some(adhesion), Some(governing)) => {
-                    let work = governing.work_for(parameter, value).ok_or_else(|| undefined(parameter))?;
+                    let work = governing
+                        .work_for(parameter, value)
+                        .ok_or_else(|| undefined(parameter))?;
                     document.with_adhesion(adhesion.with_work(work))
                 }
                 (Some(_), None) => return Err("the scene is still being computed".to_owned()),
                 (None, _) => {
                     let by_parameter = Adhesion::by_parameter(parameter, value);
-                    let changed = adhesion.map_or(by_parameter, |of| of.with_parameter(parameter, value));
+                    let changed =
+                        adhesion.map_or(by_parameter, |of| of.with_parameter(parameter, value));
                     document.with_adhesion(changed)
                 }
             }
         }
     };
-    changed.map_err(|errors| reasons(&errors)).and_then(|changed| within_reach(app, changed))
+    changed
+        .map_err(|errors| reasons(&errors))
+        .and_then(|changed| within_reach(app, changed))
 }
 
 fn undefined(parameter: RoughnessParameter) -> String {
@@ -299,7 +355,11 @@ fn undefined(parameter: RoughnessParameter) -> String {
 
 /// Errors of values, without their places.
 pub fn reasons(errors: &SceneErrors) -> String {
-    errors.iter().map(|error| error.what()).collect::<Vec<_>>().join("; ")
+    errors
+        .iter()
+        .map(|error| error.what())
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// Largest number of springs for a preview while a value is typed; the next character stops the computation.
@@ -313,9 +373,14 @@ fn is_previewed(document: &Document) -> bool {
 
 /// Requests the curve for the value typed so far; no curve if the value is not allowed.
 pub fn preview(app: &mut App) {
-    let typed = app.prompt.as_ref().filter(|_| app.is_typing_value()).map(|prompt| prompt.line.text());
+    let typed = app
+        .prompt
+        .as_ref()
+        .filter(|_| app.is_typing_value())
+        .map(|prompt| prompt.line.text());
     let tried = typed.and_then(|typed| with_typed(app, typed).ok());
-    let tried = tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
+    let tried =
+        tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
     if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
         return;
     }
@@ -327,11 +392,17 @@ pub fn preview(app: &mut App) {
 pub fn toggle_effect(app: &mut App) {
     show_parameters(app);
     let Some(effect) = app.edit.parameter().and_then(|parameter| parameter.effect) else {
-        return refuse(app, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
+        return refuse(
+            app,
+            "no effect to switch; form, roughness, adhesion, loading have one".to_owned(),
+        );
     };
     let document = &app.edit.document;
-    let changed =
-        if effect.is_on(document.scene()) { document.without(effect) } else { document.with(effect) };
+    let changed = if effect.is_on(document.scene()) {
+        document.without(effect)
+    } else {
+        document.with(effect)
+    };
     apply(app, changed)
 }
 
@@ -361,13 +432,23 @@ pub fn draw_seed(app: &mut App) {
 pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     match changed {
         Ok(document) => {
-            let lost = app.edit.document.comments().saturating_sub(document.comments());
+            let lost = app
+                .edit
+                .document
+                .comments()
+                .saturating_sub(document.comments());
             // The words of a built-in scene go with the values that they describe.
             let are_own = !document.is_changed_built_in();
             adopt(app, document);
             if lost > 0 && are_own {
-                let (comments, them) = if lost == 1 { ("comment", "it") } else { ("comments", "them") };
-                app.set_done(format!("{lost} {comments} removed with the replaced value; u restores {them}"));
+                let (comments, them) = if lost == 1 {
+                    ("comment", "it")
+                } else {
+                    ("comments", "them")
+                };
+                app.set_done(format!(
+                    "{lost} {comments} removed with the replaced value; u restores {them}"
+                ));
             }
         }
         Err(errors) => refuse(app, reasons(&errors)),
@@ -395,7 +476,9 @@ pub fn replace(app: &mut App, document: Document) {
 /// Undoes the last edit or, unless `back`, redoes the last undone edit; states the change.
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
-    let Some(what) = app.edit.undo(back) else { return app.set_done(format!("nothing to {name}")) };
+    let Some(what) = app.edit.undo(back) else {
+        return app.set_done(format!("nothing to {name}"));
+    };
     after_edit(app);
     if !matches!(app.message, Some(Message::Done(_))) {
         app.set_done(format!("{name}: {what}"));
@@ -404,11 +487,16 @@ pub fn undo(app: &mut App, back: bool) {
 
 /// Drops what belongs to the former scene.
 fn after_edit(app: &mut App) {
-    app.message.take_if(|message| !matches!(message, Message::Done(_)));
+    app.message
+        .take_if(|message| !matches!(message, Message::Done(_)));
     app.progress = Some(0);
     app.map.moving = false;
     let map = app.map.key(&app.edit.scene).unwrap_or_default();
-    app.studies.keep(&[&map, app.edit.document.text(), &ensemble_key(&app.edit.scene)]);
+    app.studies.keep(&[
+        &map,
+        app.edit.document.text(),
+        &ensemble_key(&app.edit.scene),
+    ]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");

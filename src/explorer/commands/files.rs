@@ -13,8 +13,14 @@ use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {
     let name = app.edit.document.name();
-    let is_file = Path::new(name).extension().is_some_and(|extension| extension == "ron");
-    let file = if is_file { name.to_owned() } else { format!("{name}.ron") };
+    let is_file = Path::new(name)
+        .extension()
+        .is_some_and(|extension| extension == "ron");
+    let file = if is_file {
+        name.to_owned()
+    } else {
+        format!("{name}.ron")
+    };
     app.ask(Purpose::Save { then_quit }, &file);
 }
 
@@ -27,13 +33,22 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     if path.as_os_str().is_empty() {
         return Err("type the name of a file".to_owned());
     }
-    app.effects.push(Task::Write(OutputFile { path, content, overwrite: false, then_quit }));
+    app.effects.push(Task::Write(OutputFile {
+        path,
+        content,
+        overwrite: false,
+        then_quit,
+    }));
     Ok(())
 }
 
 /// Asks for the file of the scene or, if that is saved, of another scene with unsaved changes.
 pub fn save_before_leaving(app: &mut App) {
-    let left = app.edit.unsaved().first().map(|document| Document::clone(document));
+    let left = app
+        .edit
+        .unsaved()
+        .first()
+        .map(|document| Document::clone(document));
     if let Some(document) = left.filter(|_| !app.edit.is_unsaved()) {
         edit::adopt(app, document);
     }
@@ -42,15 +57,22 @@ pub fn save_before_leaving(app: &mut App) {
 
 pub fn ask_export(app: &mut App) {
     let name = Path::new(app.edit.document.name());
-    let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-    app.ask(Purpose::Export, &format!("{stem}-{}.csv", app.view.pane.file_name()));
+    let stem = name
+        .file_stem()
+        .map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+    app.ask(
+        Purpose::Export,
+        &format!("{stem}-{}.csv", app.view.pane.file_name()),
+    );
 }
 
 /// Exports the selected pane to a file; the extension of the name chooses the format.
 pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     let extensions = EXPORTS.map(Format::extension);
     let place = check_extension(&path, &extensions)?.ok_or_else(|| {
-        let extensions = extensions.map(|extension| format!(".{extension}")).join(", ");
+        let extensions = extensions
+            .map(|extension| format!(".{extension}"))
+            .join(", ");
         format!("the extension chooses the format; use one of {extensions}")
     })?;
     write(app, path, Content::Pane(EXPORTS[place]), false)
@@ -61,7 +83,11 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
     let path = file.path.display();
     match result {
         Ok(()) => {
-            let how = if file.content == Content::Scene { "saved" } else { "exported" };
+            let how = if file.content == Content::Scene {
+                "saved"
+            } else {
+                "exported"
+            };
             app.set_done(format!("{how} to {path}"));
             if file.content == Content::Scene {
                 app.edit.set_saved_as(&file.path);
@@ -73,8 +99,13 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
         Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), ""),
         Err(WriteFailure::Refused(error)) => {
             let is_scene = file.content == Content::Scene;
-            let purpose =
-                if is_scene { Purpose::Save { then_quit: file.then_quit } } else { Purpose::Export };
+            let purpose = if is_scene {
+                Purpose::Save {
+                    then_quit: file.then_quit,
+                }
+            } else {
+                Purpose::Export
+            };
             app.ask_again(purpose, &file.path.to_string_lossy(), &error);
         }
     }
@@ -90,15 +121,24 @@ pub fn ask_quit(app: &mut App) {
 }
 
 pub fn copy_command(app: &mut App) {
-    let measured =
-        app.edit.measured.as_ref().map_or_else(String::new, |Measured { path, options, .. }| {
+    let measured = app
+        .edit
+        .measured
+        .as_ref()
+        .map_or_else(String::new, |Measured { path, options, .. }| {
             format!(" --measured={}{options}", quoted(path))
         });
     let program = format!("asperity{measured}");
-    let command = command_line(&program, app.edit.document.name(), app.edit.document.overrides());
+    let command = command_line(
+        &program,
+        app.edit.document.name(),
+        app.edit.document.overrides(),
+    );
     if command.contains(is_control) {
         // Pasted into a shell they would act on its terminal.
-        app.set_error("not copied: control characters in the name of the file; allowed: a name without any");
+        app.set_error(
+            "not copied: control characters in the name of the file; allowed: a name without any",
+        );
         return;
     }
     // The terminal does not confirm a copy, so the notice has the command too.

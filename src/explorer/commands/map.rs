@@ -40,7 +40,9 @@ pub fn step_slice(app: &mut App, key: &KeyEvent) {
         return;
     }
     let next = study.stepped(steps);
-    let goes_with = study.study_map.is_of(study.slice, app.edit.document.scene());
+    let goes_with = study
+        .study_map
+        .is_of(study.slice, app.edit.document.scene());
     let followed = goes_with.then(|| study.study_map.follow(next, &app.edit.document));
     let study_map = Arc::clone(&study.study_map);
     app.map.study = Some(OpenStudy::new(study_map, next));
@@ -59,8 +61,11 @@ const LARGE_STEP: i32 = 4;
 
 /// Moves the mark, and with it the scene, by a column or a row of the map, or by several.
 pub fn step(app: &mut App, key: &KeyEvent) {
-    let Some(((columns, rows), is_coarse)) = direction(key) else { return };
-    let [columns, rows] = [columns, rows].map(|steps| steps * if is_coarse { LARGE_STEP } else { 1 });
+    let Some(((columns, rows), is_coarse)) = direction(key) else {
+        return;
+    };
+    let [columns, rows] =
+        [columns, rows].map(|steps| steps * if is_coarse { LARGE_STEP } else { 1 });
     let Some((at_across, at_up)) = app.place() else {
         let why = match Plan::of_map(app.edit.document.scene()) {
             Err(why) => why.to_string(),
@@ -70,13 +75,22 @@ pub fn step(app: &mut App, key: &KeyEvent) {
         app.set_error(why);
         return;
     };
-    let Some((across, up)) = app.map_axes() else { return };
+    let Some((across, up)) = app.map_axes() else {
+        return;
+    };
     if rows != 0 && up.is_none() {
-        app.set_error(format!("this map has one axis, {}", across.symbol_or_name()));
+        app.set_error(format!(
+            "this map has one axis, {}",
+            across.symbol_or_name()
+        ));
         return;
     }
     let next = |at: f64, steps: i32, axis: &Axis| {
-        if steps == 0 { Some(at) } else { axis.next_beyond(at, steps) }
+        if steps == 0 {
+            Some(at)
+        } else {
+            axis.next_beyond(at, steps)
+        }
     };
     let to_up = match (at_up, &up) {
         (Some(at), Some(axis)) => next(at, rows, axis).map(Some),
@@ -104,12 +118,20 @@ pub fn move_to(app: &mut App, place: GridPlace) {
 /// The scene moved to a place on the map. A preload in units of E* h L may change with the place.
 fn moved_to(app: &App, (to_across, to_up): GridPlace) -> Result<Document, SceneErrors> {
     let axes = app.map_axes();
-    let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
-    let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();
+    let (across, up) = axes
+        .as_ref()
+        .map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
+    let values: Vec<(&Axis, f64)> = across
+        .zip(Some(to_across))
+        .into_iter()
+        .chain(up.zip(to_up))
+        .collect();
     let moved = Axis::set_all(&app.edit.document, &values)?;
     match app.map.shown_study() {
         Some(study)
-            if study.study_map.is_of(study.slice, app.edit.document.scene())
+            if study
+                .study_map
+                .is_of(study.slice, app.edit.document.scene())
                 && !study.study_map.is_of(study.slice, moved.scene()) =>
         {
             study.study_map.follow(study.slice, &moved)

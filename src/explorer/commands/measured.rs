@@ -18,20 +18,34 @@ const REPORTED: u64 = 64;
 
 /// The study of the measured curve: the requested fit, or else the position of the curve and the residual.
 pub fn study(app: &App) -> Option<Study> {
-    let (curve, document) = (Arc::clone(&app.edit.measured.as_ref()?.curve), app.edit.document.clone());
+    let (curve, document) = (
+        Arc::clone(&app.edit.measured.as_ref()?.curve),
+        app.edit.document.clone(),
+    );
     Some(match app.studies.value::<Fitting>() {
         Some(Fitting { free, .. }) => {
             let free = free.clone();
             Study::new(app.edit.generation, true, move |_, stop, report| {
                 let mut count = |evaluations: u64| {
                     if evaluations.is_multiple_of(REPORTED) {
-                        report(Fitting { free: free.clone(), evaluations, found: None });
+                        report(Fitting {
+                            free: free.clone(),
+                            evaluations,
+                            found: None,
+                        });
                     }
                 };
                 let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
-                let found = fit.run(&curve, Control::default().stopped_by(stop).reporting_to(&mut count));
+                let found = fit.run(
+                    &curve,
+                    Control::default().stopped_by(stop).reporting_to(&mut count),
+                );
                 let found = found.map(Arc::new).map_err(|error| error.to_string());
-                Ok(Fitting { free: free.clone(), evaluations: 0, found: Some(found) })
+                Ok(Fitting {
+                    free: free.clone(),
+                    evaluations: 0,
+                    found: Some(found),
+                })
             })
         }
         None => Study::new(app.edit.generation, true, move |_, stop, _| {
@@ -50,18 +64,32 @@ pub fn ask_fit(app: &mut App) {
 }
 
 pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
-    let free = typed.split(',').map(|one| one.trim().parse()).collect::<Result<Vec<Free>, String>>()?;
+    let free = typed
+        .split(',')
+        .map(|one| one.trim().parse())
+        .collect::<Result<Vec<Free>, String>>()?;
     if !app.is_current() {
         return Err("the scene is still being computed".to_owned());
     }
-    app.studies.set(app.edit.generation, Fitting { free, evaluations: 0, found: None }, false);
+    app.studies.set(
+        app.edit.generation,
+        Fitting {
+            free,
+            evaluations: 0,
+            found: None,
+        },
+        false,
+    );
     app.effects.push(Task::Study);
     Ok(())
 }
 
 /// Applies what a study has found: the position of the curve, and the scene of a fit.
 pub fn found(app: &mut App) {
-    if let Some(Fitting { found: Some(found), .. }) = app.studies.value::<Fitting>().cloned() {
+    if let Some(Fitting {
+        found: Some(found), ..
+    }) = app.studies.value::<Fitting>().cloned()
+    {
         app.studies.forget::<Fitting>();
         match found {
             Ok(fit) => {
@@ -73,7 +101,8 @@ pub fn found(app: &mut App) {
         }
     }
     let is_offset = |one: &&FittedParameter| one.parameter == Parameter::Offset;
-    let offset = fitted(&app.studies).and_then(|fit| Some(fit.parameters.iter().find(is_offset)?.value));
+    let offset =
+        fitted(&app.studies).and_then(|fit| Some(fit.parameters.iter().find(is_offset)?.value));
     if let Some((measured, offset)) = app.edit.measured.as_mut().zip(offset) {
         measured.offset = offset;
     }
@@ -94,10 +123,15 @@ pub fn is_option(app: &App) -> bool {
 
 /// Takes a typed value of the selected option; the curve is then read anew.
 pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
-    let Some((option, measured)) = selected(app) else { return Ok(()) };
+    let Some((option, measured)) = selected(app) else {
+        return Ok(());
+    };
     let options = option.with(&measured.options, &option.with_unit(measured, typed))?;
     if options != measured.options {
-        app.effects.push(Task::Read(Reading { options, typed: Some(typed.to_owned()) }));
+        app.effects.push(Task::Read(Reading {
+            options,
+            typed: Some(typed.to_owned()),
+        }));
     }
     Ok(())
 }
@@ -105,15 +139,29 @@ pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
 /// Changes the selected option to the next choice; given forces change as the forces of a scene do.
 pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     edit::show_parameters(app);
-    let Some((option, measured)) = selected(app) else { return };
-    let next = option.next_choice(&measured.options, steps > 0).map(str::to_owned);
-    let written = || option.field.stepped(&option.value(&measured.options)?, steps, coarse);
+    let Some((option, measured)) = selected(app) else {
+        return;
+    };
+    let next = option
+        .next_choice(&measured.options, steps > 0)
+        .map(str::to_owned);
+    let written = || {
+        option
+            .field
+            .stepped(&option.value(&measured.options)?, steps, coarse)
+    };
     let Some(next) = next.or_else(written) else {
         let name = option.field.name;
-        return edit::refuse(app, format!("{name}: {}; Enter types a value", option.shown(measured)));
+        return edit::refuse(
+            app,
+            format!("{name}: {}; Enter types a value", option.shown(measured)),
+        );
     };
     match option.with(&measured.options, &next) {
-        Ok(options) => app.effects.push(Task::Read(Reading { options, typed: None })),
+        Ok(options) => app.effects.push(Task::Read(Reading {
+            options,
+            typed: None,
+        })),
         Err(why) => edit::refuse(app, why),
     }
 }
@@ -123,13 +171,22 @@ pub fn read(app: &mut App, reading: &Reading, read: Result<Box<Measured>, String
     let loaded = |measured: Box<Measured>| {
         let document = measured.curve.load(&app.edit.document, measured.offset);
         let document = document.map_err(|errors| errors.to_string())?;
-        Ok(Edited { document, measured: Some(*measured) })
+        Ok(Edited {
+            document,
+            measured: Some(*measured),
+        })
     };
     match (read.and_then(loaded), &reading.typed) {
         (Ok(edited), _) => {
             edit::adopt_all(app, edited);
-            let statements = app.edit.measured.as_ref().map(|measured| measured.curve.statements.join(" "));
-            statements.into_iter().for_each(|statements| app.set_done(statements));
+            let statements = app
+                .edit
+                .measured
+                .as_ref()
+                .map(|measured| measured.curve.statements.join(" "));
+            statements
+                .into_iter()
+                .for_each(|statements| app.set_done(statements));
         }
         (Err(why), Some(typed)) => app.ask_again(Purpose::Value, typed, &why),
         (Err(why), None) => edit::refuse(app, why),
@@ -140,14 +197,25 @@ pub fn read(app: &mut App, reading: &Reading, read: Result<Box<Measured>, String
 fn sentence(fit: &FitResult) -> String {
     let found = |one: &FittedParameter| {
         let interval = one_unit([one.interval.0, one.interval.1].map(|end| one.text(end)));
-        format!("{} {} ({interval})", one.parameter.row().symbol, one.text(one.value))
+        format!(
+            "{} {} ({interval})",
+            one.parameter.row().symbol,
+            one.text(one.value)
+        )
     };
-    let found = fit.parameters.iter().map(found).collect::<Vec<_>>().join(", ");
+    let found = fit
+        .parameters
+        .iter()
+        .map(found)
+        .collect::<Vec<_>>()
+        .join(", ");
     match fit.reason {
         None => format!("fit: {found}; u undoes"),
         Some(reason) => {
             let misfit = format_rounded(fit.misfit, 3, "1");
-            format!("the scene does not describe the curve, misfit {misfit}; {found}; {reason} u undoes")
+            format!(
+                "the scene does not describe the curve, misfit {misfit}; {found}; {reason} u undoes"
+            )
         }
     }
 }

@@ -58,9 +58,20 @@ pub fn step(app: &mut App, steps: i32) {
     let player = app.play;
     app.play = match player.leg {
         // Not past the boundary to another stage.
-        leg if to > 1.0 && leg + 1 < app.legs().len() => Player { leg: leg + 1, at: At::Start, ..player },
-        leg if to < 0.0 && leg > 0 => Player { leg: leg - 1, at: At::End, ..player },
-        _ => Player { at: player.advanced(app.legs(), share), ..player },
+        leg if to > 1.0 && leg + 1 < app.legs().len() => Player {
+            leg: leg + 1,
+            at: At::Start,
+            ..player
+        },
+        leg if to < 0.0 && leg > 0 => Player {
+            leg: leg - 1,
+            at: At::End,
+            ..player
+        },
+        _ => Player {
+            at: player.advanced(app.legs(), share),
+            ..player
+        },
     };
 }
 
@@ -74,7 +85,10 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
     // A playing animation is past the start at once.
     let back = legs < 0 && app.play.share(app.legs()) > NEAR_START;
-    let leg = app.play.leg.saturating_add_signed(if back { 0 } else { legs as isize });
+    let leg = app
+        .play
+        .leg
+        .saturating_add_signed(if back { 0 } else { legs as isize });
     app.play.leg = leg.min(app.legs().len().saturating_sub(1));
     app.play.at = At::Start;
 }
@@ -83,7 +97,9 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
 pub fn go_to_pull_off(app: &mut App) {
     let rest = Player::at_rest(app.legs());
     if rest.at == At::End {
-        app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading");
+        app.set_error(
+            "there is no pull-off: the force does not fall below 0 N in the last unloading",
+        );
         return;
     }
     (app.play, app.manual) = (rest, None);
@@ -99,11 +115,19 @@ pub fn elapse(app: &mut App, time: Duration) {
     // The distance does not depend on the frame rate: its rest continues on the next stage.
     while player.leg < last && share > 1.0 - player.share(legs) {
         share -= 1.0 - player.share(legs);
-        player = Player { leg: player.leg + 1, at: At::Start, ..player };
+        player = Player {
+            leg: player.leg + 1,
+            at: At::Start,
+            ..player
+        };
     }
     player.at = player.advanced(legs, share);
     if player.leg == last && player.at == At::End {
-        player = if app.config.repeat { Player::START } else { Player::at_rest(legs) };
+        player = if app.config.repeat {
+            Player::START
+        } else {
+            Player::at_rest(legs)
+        };
     }
     app.play = player;
 }
@@ -115,8 +139,12 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
         app.view.close_up.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
     if let Some((manual, travel)) = app.manual.as_mut().zip(snapshot.manual.as_ref()) {
-        manual.path.extend(travel.path.iter().map(|(_, point)| point));
-        manual.stages.extend(travel.path.iter().map(|(stage, _)| stage));
+        manual
+            .path
+            .extend(travel.path.iter().map(|(_, point)| point));
+        manual
+            .stages
+            .extend(travel.path.iter().map(|(stage, _)| stage));
         let old = manual.path.len().saturating_sub(PATH_KEPT);
         manual.path.drain(..old);
         manual.stages.drain(..old);
@@ -144,12 +172,25 @@ pub fn take(app: &mut App, order: Option<ManualMove>) {
         let Player { leg, at, .. } = app.play;
         let start = app.present().map(|snapshot| snapshot.point);
         app.play.playing = false;
-        let at = if at == At::PullOff { At::Indentation(app.indentation()) } else { at };
+        let at = if at == At::PullOff {
+            At::Indentation(app.indentation())
+        } else {
+            at
+        };
         let moves = vec![ManualMove::Take { leg, at }];
         // The start of a stage is the end of the one before, which the path may continue.
-        let stage = if at == At::Start { leg.saturating_sub(1) } else { leg };
+        let stage = if at == At::Start {
+            leg.saturating_sub(1)
+        } else {
+            leg
+        };
         let (path, stages) = start.map(|point| (point, stage)).into_iter().unzip();
-        app.manual = Some(ManualState { path, stages, moves, ..ManualState::default() });
+        app.manual = Some(ManualState {
+            path,
+            stages,
+            moves,
+            ..ManualState::default()
+        });
     }
     if let Some(manual) = &mut app.manual {
         manual.moves.extend(order);

@@ -15,10 +15,17 @@ use std::sync::Arc;
 
 /// Creates the state of an explorer in a window of this size, opened with the arguments of the program.
 pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config: Config) -> App {
-    let Opening { document, study_map, ghost, measured } = opening;
+    let Opening {
+        document,
+        study_map,
+        ghost,
+        measured,
+    } = opening;
     let mut app = App::new(document, size, appearance, config);
     app.ghosts.extend(ghost);
-    study_map.into_iter().for_each(|study_map| show_study(&mut app, study_map));
+    study_map
+        .into_iter()
+        .for_each(|study_map| show_study(&mut app, study_map));
     if let Some(measured) = measured {
         app.edit.begin_with(measured.clone());
         show_measured(&mut app, measured);
@@ -30,9 +37,15 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
 pub fn open(app: &mut App, opened: Opened) {
     match opened {
         Opened::Scene(opening) => {
-            let Opening { document, study_map, .. } = *opening;
+            let Opening {
+                document,
+                study_map,
+                ..
+            } = *opening;
             edit::open(app, document);
-            study_map.into_iter().for_each(|study_map| show_study(app, study_map));
+            study_map
+                .into_iter()
+                .for_each(|study_map| show_study(app, study_map));
         }
         Opened::Curve(measured) => show_measured(app, *measured),
     }
@@ -52,10 +65,22 @@ fn show_measured(app: &mut App, measured: Measured) {
         Ok(document) => (document, None),
         Err(errors) => (present, Some(errors)),
     };
-    edit::adopt_all(app, Edited { document, measured: Some(measured) });
-    let undone = if is_new { "u closes it" } else { "u returns to its own" };
+    edit::adopt_all(
+        app,
+        Edited {
+            document,
+            measured: Some(measured),
+        },
+    );
+    let undone = if is_new {
+        "u closes it"
+    } else {
+        "u returns to its own"
+    };
     match wrong {
-        None => app.set_done(format!("{name}: the scene has the loading of the measured curve; {undone}")),
+        None => app.set_done(format!(
+            "{name}: the scene has the loading of the measured curve; {undone}"
+        )),
         Some(errors) => app.set_error(errors.to_string()),
     }
     app.view.curve.quantities = LoopQuantities::ForceDisplacement;

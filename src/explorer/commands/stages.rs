@@ -16,7 +16,10 @@ type Stages = Vec<(Option<usize>, Move)>;
 fn selected(app: &mut App) -> Option<usize> {
     edit::show_parameters(app);
     let last = app.edit.document.scene().loading.len() - 1;
-    let parameter = app.edit.parameter().filter(|parameter| parameter.group == "loading");
+    let parameter = app
+        .edit
+        .parameter()
+        .filter(|parameter| parameter.group == "loading");
     let stage = parameter.map(|parameter| parameter.leg.unwrap_or(last));
     if stage.is_none() {
         app.set_error("no loading stage is selected; select a row of the loading");
@@ -39,7 +42,11 @@ fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
 fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     let is_allowed = changed.is_ok();
     edit::apply(app, changed);
-    let row = app.edit.parameters.iter().position(|one| one.leg == Some(stage));
+    let row = app
+        .edit
+        .parameters
+        .iter()
+        .position(|one| one.leg == Some(stage));
     if let Some(row) = row.filter(|_| is_allowed) {
         app.edit.select(row);
     }
@@ -51,8 +58,15 @@ pub fn add(app: &mut App) {
     let (force, before) = (pressing_force(app), app.edit.generation);
     change(app, |stages, at| {
         let presses = matches!(stages[at].1, Move::ToForce(to) | Move::ToIndentation(to) | Move::ToDisplacement(to) if to > 0.0);
-        let pull = if at + 1 == stages.len() { Move::ToSeparation } else { Move::ToZeroForce };
-        stages.insert(at + 1, (None, if presses { pull } else { Move::ToForce(force) }));
+        let pull = if at + 1 == stages.len() {
+            Move::ToSeparation
+        } else {
+            Move::ToZeroForce
+        };
+        stages.insert(
+            at + 1,
+            (None, if presses { pull } else { Move::ToForce(force) }),
+        );
         at + 1
     });
     if app.edit.generation != before {
@@ -83,7 +97,12 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     let legs = app.current().map(|solved| &solved.outcome.history.legs);
     let end = legs.and_then(|legs| legs.get(at)?.curve.last());
     let pressing = pressing_force(app);
-    let stiffness = app.edit.document.scene().loading_stiffness.unwrap_or(f64::INFINITY);
+    let stiffness = app
+        .edit
+        .document
+        .scene()
+        .loading_stiffness
+        .unwrap_or(f64::INFINITY);
     let number = |kind: &StageKind| match (kind.unit, end, (kind.stage)(0.0)) {
         ("m", None, _) => 1e-7,
         ("m", Some(end), Move::ToDisplacement(_)) => end.displacement(stiffness),
@@ -94,7 +113,8 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     let (stages, count) = (app.edit.document.stages(), StageKind::ALL.len());
     let here = StageKind::of(&stages[at].1).0;
     let changed = (1..count).map(|distance| {
-        let kind = &StageKind::ALL[(here + if forwards { distance } else { count - distance }) % count];
+        let kind =
+            &StageKind::ALL[(here + if forwards { distance } else { count - distance }) % count];
         let mut stages = stages.clone();
         stages[at] = (None, (kind.stage)(round_to(number(kind), 4)));
         app.edit.document.with_stages(&stages)
@@ -115,22 +135,37 @@ fn pressing_force(app: &App) -> f64 {
         .map(|document| asperity_scene::loading::pressing_force(&document.scene().loading));
     let computed = app.current().map_or(0.0, |solved| {
         round_to(
-            solved.outcome.figures.preload.unwrap_or_default().max(0.01 * solved.reach.full_contact.0),
+            solved
+                .outcome
+                .figures
+                .preload
+                .unwrap_or_default()
+                .max(0.01 * solved.reach.full_contact.0),
             2,
         )
     });
-    given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
+    given
+        .chain([computed])
+        .find(|force| *force > 0.0)
+        .unwrap_or(1e-5)
 }
 
 /// Steps the selected value; for an option of reading the next choice. A stage without a number, such as a separation,
 /// stays, since another kind of stage is another loading.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
-    let Some(parameter) = app.edit.parameter() else { return };
+    let Some(parameter) = app.edit.parameter() else {
+        return;
+    };
     match parameter.leg {
-        None if matches!(parameter.setting, Setting::Reading(_)) => measured::step_option(app, steps, coarse),
+        None if matches!(parameter.setting, Setting::Reading(_)) => {
+            measured::step_option(app, steps, coarse)
+        }
         Some(_) if parameter.field.unit.is_empty() => {
             let name = parameter.name();
-            edit::refuse(app, format!("{name} has no number; V changes its kind, Enter types another stage"));
+            edit::refuse(
+                app,
+                format!("{name} has no number; V changes its kind, Enter types another stage"),
+            );
         }
         _ => edit::step_value(app, steps, coarse),
     }
@@ -146,7 +181,11 @@ fn replaced(document: &Document, loading: impl IntoIterator<Item = Move>) -> Sta
 /// The scene with the path of manual loading as its loading; `None` without manual loading.
 pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
     let loading = &app.manual.as_ref()?.loading;
-    Some(app.edit.document.with_stages(&replaced(&app.edit.document, loading.iter().copied())))
+    Some(
+        app.edit
+            .document
+            .with_stages(&replaced(&app.edit.document, loading.iter().copied())),
+    )
 }
 
 /// Makes the path of manual loading the loading of the scene, with the body at its end.
@@ -157,9 +196,19 @@ pub fn keep_path(app: &mut App) {
         Some(Ok(document)) => {
             let count = document.scene().loading.len();
             edit::adopt(app, document);
-            app.play = Player { leg: count - 1, at: At::End, playing: false };
-            let stages = if count == 1 { "1 stage".to_owned() } else { format!("{count} stages") };
-            app.set_done(format!("the path is the loading of the scene, {stages}; u undoes"));
+            app.play = Player {
+                leg: count - 1,
+                at: At::End,
+                playing: false,
+            };
+            let stages = if count == 1 {
+                "1 stage".to_owned()
+            } else {
+                format!("{count} stages")
+            };
+            app.set_done(format!(
+                "the path is the loading of the scene, {stages}; u undoes"
+            ));
         }
     }
 }

@@ -2,7 +2,8 @@
 //! docs/keys.md.
 
 use super::{
-    accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target, view,
+    accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target,
+    view,
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
@@ -31,7 +32,12 @@ enum Run {
 
 /// Runs a command, which changes the state.
 pub fn run(command: Command, app: &mut App) {
-    let Some(entry) = TABLE.iter().find(|entry| std::ptr::eq(&entry.row, command.row)) else { return };
+    let Some(entry) = TABLE
+        .iter()
+        .find(|entry| std::ptr::eq(&entry.row, command.row))
+    else {
+        return;
+    };
     // A command without a key acts as its first key does.
     let first = || key::Key::named(command.row.keys.split(' ').next()?).map(|key| key.event());
     match (entry.run, command.key) {
@@ -46,9 +52,14 @@ pub fn bindings() -> Bindings {
 
 /// Keys and rows for the footer, the most important first; neighbouring rows with the same label are one item.
 pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
-    let is_hidden =
-        |row: &Row| TABLE.iter().any(|entry| std::ptr::eq(&entry.row, row) && !(entry.is_shown)(app));
-    app.config.bindings.footer(app.keys(), app.manual.is_some(), is_hidden)
+    let is_hidden = |row: &Row| {
+        TABLE
+            .iter()
+            .any(|entry| std::ptr::eq(&entry.row, row) && !(entry.is_shown)(app))
+    };
+    app.config
+        .bindings
+        .footer(app.keys(), app.manual.is_some(), is_hidden)
 }
 
 /// Contexts in which arrows select a parameter: not the map and the crosshair, where they move these.
@@ -92,8 +103,24 @@ const fn row(
     let takes_key = matches!(run, Key(_));
     let (rank, is_listed, merges) = (3, true, false);
     let words = "";
-    let row = Row { keys, contexts, name, label, help, words, section, rank, is_listed, merges, takes_key };
-    Entry { row, run, is_shown: always }
+    let row = Row {
+        keys,
+        contexts,
+        name,
+        label,
+        help,
+        words,
+        section,
+        rank,
+        is_listed,
+        merges,
+        takes_key,
+    };
+    Entry {
+        row,
+        run,
+        is_shown: always,
+    }
 }
 
 impl Entry {
@@ -132,7 +159,9 @@ fn is_manual(app: &App) -> bool {
 }
 
 fn is_stage(app: &App) -> bool {
-    app.edit.parameter().is_some_and(|parameter| parameter.leg.is_some())
+    app.edit
+        .parameter()
+        .is_some_and(|parameter| parameter.leg.is_some())
 }
 
 fn takes_number(app: &App) -> bool {

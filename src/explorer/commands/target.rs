@@ -34,14 +34,19 @@ fn sought(parameter: &Parameter) -> Option<&str> {
 
 /// Name of the number that is sought on the selected row.
 pub fn name(app: &App) -> String {
-    let parameter = app.edit.parameter().filter(|parameter| sought(parameter) != Some("preload"));
+    let parameter = app
+        .edit
+        .parameter()
+        .filter(|parameter| sought(parameter) != Some("preload"));
     parameter.map_or_else(|| "the preload".to_owned(), Parameter::name)
 }
 
 /// Asks for a target of the selected row.
 pub fn ask(app: &mut App) {
     edit::show_parameters(app);
-    let Some(parameter) = app.edit.parameter() else { return };
+    let Some(parameter) = app.edit.parameter() else {
+        return;
+    };
     if sought(parameter).is_none() {
         let why = format!(
             "{} has no number to find; select a row with a number, or a loading stage",
@@ -55,7 +60,10 @@ pub fn ask(app: &mut App) {
 
 /// The condition being typed; `None` without such a prompt.
 fn typed(app: &App) -> Option<&str> {
-    let prompt = app.prompt.as_ref().filter(|prompt| matches!(prompt.purpose, Purpose::Target))?;
+    let prompt = app
+        .prompt
+        .as_ref()
+        .filter(|prompt| matches!(prompt.purpose, Purpose::Target))?;
     Some(prompt.line.text())
 }
 
@@ -67,63 +75,102 @@ fn key(app: &App, typed: &str) -> Option<String> {
 
 /// Finds the value for the typed target; `None` without a target that can be read.
 pub fn study(app: &App) -> Option<Study> {
-    let (key, condition) = (key(app, typed(app)?)?, Question::parse_condition(typed(app)?).ok()?);
-    let (scene, path) = (Arc::clone(&app.edit.scene), sought(app.edit.parameter()?)?.to_owned());
-    Some(Study::new(key.clone(), false, move |simulation, stop, _| {
-        let mut simulation = std::mem::take(simulation);
-        let profiles = Ensemble::profiles_of(&scene);
-        let found = Question::new(&scene, &path, condition, profiles, &mut simulation)
-            .and_then(|question| Found::of(question, (simulation, threads()), stop, &mut |_| ()));
-        Ok(Sought { key, found: found.map_err(|error| error.to_string()) })
-    }))
+    let (key, condition) = (
+        key(app, typed(app)?)?,
+        Question::parse_condition(typed(app)?).ok()?,
+    );
+    let (scene, path) = (
+        Arc::clone(&app.edit.scene),
+        sought(app.edit.parameter()?)?.to_owned(),
+    );
+    Some(Study::new(
+        key.clone(),
+        false,
+        move |simulation, stop, _| {
+            let mut simulation = std::mem::take(simulation);
+            let profiles = Ensemble::profiles_of(&scene);
+            let found = Question::new(&scene, &path, condition, profiles, &mut simulation)
+                .and_then(|question| {
+                    Found::of(question, (simulation, threads()), stop, &mut |_| ())
+                });
+            Ok(Sought {
+                key,
+                found: found.map_err(|error| error.to_string()),
+            })
+        },
+    ))
 }
 
 /// The answer to the question with this condition; `None` while it is not known.
 fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     let key = key(app, typed)?;
-    app.studies.value::<Sought>().filter(|sought| sought.key == key).map(|sought| &sought.found)
+    app.studies
+        .value::<Sought>()
+        .filter(|sought| sought.key == key)
+        .map(|sought| &sought.found)
 }
 
 /// The answer in words, or what is missing; `None` without a question.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
-    Some(match (Question::parse_condition(typed), found(app, typed)) {
-        (Err(why), _) => why.to_string(),
-        (Ok(_), None) => "finding the value on all profiles…".to_owned(),
-        (Ok(_), Some(Ok(found))) => {
-            let any = found.question.seeks_least_preload()
-                && found.quantile(0.5) == Some(found.question.searched.0);
-            match value(found) {
-                Some(_) => found_in_words(found) + " Enter takes the median.",
-                None if any => format!("At any preload on most profiles. {}", found_in_words(found)),
-                None => found_in_words(found),
+    Some(
+        match (Question::parse_condition(typed), found(app, typed)) {
+            (Err(why), _) => why.to_string(),
+            (Ok(_), None) => "finding the value on all profiles…".to_owned(),
+            (Ok(_), Some(Ok(found))) => {
+                let any = found.question.seeks_least_preload()
+                    && found.quantile(0.5) == Some(found.question.searched.0);
+                match value(found) {
+                    Some(_) => found_in_words(found) + " Enter takes the median.",
+                    None if any => {
+                        format!("At any preload on most profiles. {}", found_in_words(found))
+                    }
+                    None => found_in_words(found),
+                }
             }
-        }
-        (Ok(_), Some(Err(why))) => why.clone(),
-    })
+            (Ok(_), Some(Err(why))) => why.clone(),
+        },
+    )
 }
 
 /// The value to take: the median over the profiles, if the target needs one.
 fn value(found: &Found) -> Option<f64> {
-    let is_needed = |value: &f64| !found.question.seeks_least_preload() || *value > found.question.searched.0;
+    let is_needed =
+        |value: &f64| !found.question.seeks_least_preload() || *value > found.question.searched.0;
     found.quantile(0.5).filter(is_needed)
 }
 
 /// Gives the selected row the found value; a preload goes to the stage that presses most.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     Question::parse_condition(typed).map_err(|error| error.to_string())?;
-    let found = found(app, typed).ok_or("the value is still being found")?.as_ref().map_err(Clone::clone)?;
-    let (value, is_preload) =
-        (value(found).ok_or_else(|| found_in_words(found))?, found.question.is_of_preload());
+    let found = found(app, typed)
+        .ok_or("the value is still being found")?
+        .as_ref()
+        .map_err(Clone::clone)?;
+    let (value, is_preload) = (
+        value(found).ok_or_else(|| found_in_words(found))?,
+        found.question.is_of_preload(),
+    );
     app.prompt = None;
     if is_preload {
         let loading = &app.edit.document.scene().loading;
-        let force = |stage: &Move| if let Move::ToForce(force) = stage { *force } else { f64::NEG_INFINITY };
-        let most =
-            (0..loading.len()).max_by(|one, other| force(&loading[*one]).total_cmp(&force(&loading[*other])));
+        let force = |stage: &Move| {
+            if let Move::ToForce(force) = stage {
+                *force
+            } else {
+                f64::NEG_INFINITY
+            }
+        };
+        let most = (0..loading.len())
+            .max_by(|one, other| force(&loading[*one]).total_cmp(&force(&loading[*other])));
         let stage = most.filter(|stage| force(&loading[*stage]) > 0.0);
-        let stage = stage.ok_or("no loading stage presses to a force; V changes the kind of a stage")?;
-        let row = app.edit.parameters.iter().position(|one| one.leg == Some(stage));
+        let stage =
+            stage.ok_or("no loading stage presses to a force; V changes the kind of a stage")?;
+        let row = app
+            .edit
+            .parameters
+            .iter()
+            .position(|one| one.leg == Some(stage));
         app.edit.select(row.unwrap_or(app.edit.selected));
     }
     edit::set_selected(app, &ron_float(value));

@@ -15,13 +15,19 @@ const FEWEST_SPRINGS: usize = 8;
 
 /// Shows the patch that answers a question; `question` receives the spring of the shown patch.
 pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
-    let fragment = app.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.patch);
+    let fragment = app
+        .snapshot
+        .as_ref()
+        .and_then(|snapshot| snapshot.close_up.patch);
     app.view.close_up.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
 pub fn next_pane(app: &mut App) {
     let panes = app.panes();
-    let place = panes.iter().position(|pane| *pane == app.view.pane).unwrap_or(0);
+    let place = panes
+        .iter()
+        .position(|pane| *pane == app.view.pane)
+        .unwrap_or(0);
     app.view.pane = panes[(place + 1) % panes.len()];
 }
 
@@ -40,13 +46,23 @@ pub fn toggle_preload_scale(app: &mut App) {
 }
 
 fn springs(app: &App) -> usize {
-    app.solved.as_ref().map_or(1, |computed| computed.outcome.line.points).max(1)
+    app.solved
+        .as_ref()
+        .map_or(1, |computed| computed.outcome.line.points)
+        .max(1)
 }
 
 /// Number of springs in the close-up.
 fn close_up_springs(app: &App) -> usize {
-    let shown = app.snapshot.as_ref().map(|snapshot| snapshot.close_up.section.springs);
-    app.view.close_up.springs.or(shown).unwrap_or(FEWEST_SPRINGS)
+    let shown = app
+        .snapshot
+        .as_ref()
+        .map(|snapshot| snapshot.close_up.section.springs);
+    app.view
+        .close_up
+        .springs
+        .or(shown)
+        .unwrap_or(FEWEST_SPRINGS)
 }
 
 /// Zooms the profile if its pane is selected, otherwise the close-up; positive steps zoom in.
@@ -70,7 +86,11 @@ pub fn zoom(app: &mut App, steps: i32) {
 pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     let share = |(position, snapshot): (f64, &Arc<ContactSnapshot>)| {
         let is_profile = app.view.pane == Pane::Profile;
-        let section = if is_profile { &snapshot.profile } else { &snapshot.close_up.section };
+        let section = if is_profile {
+            &snapshot.profile
+        } else {
+            &snapshot.close_up.section
+        };
         let first = (snapshot.line.first + section.first) as f64;
         (position / snapshot.line.spacing - first) / section.springs.max(1) as f64
     };
@@ -94,7 +114,11 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
 
 /// Moves along the profile by a quarter of the visible part.
 pub fn pan(app: &mut App, key: &KeyEvent) {
-    let quarters = if key.code == KeyCode::Char('(') { -0.25 } else { 0.25 };
+    let quarters = if key.code == KeyCode::Char('(') {
+        -0.25
+    } else {
+        0.25
+    };
     if app.view.pane == Pane::Profile {
         let half = app.view.profile.share / 2.0;
         let centre = app.view.profile.centre + quarters * app.view.profile.share;

@@ -44,7 +44,12 @@ impl Demo {
         app.view.shows_times = false;
         app.view.demo = Some("");
         let engine = Engine::inline(Simulation::run, |study| !study.is_long);
-        let mut explorer = Runtime { app, engine, asked: 0, folder: PathBuf::new() };
+        let mut explorer = Runtime {
+            app,
+            engine,
+            asked: 0,
+            folder: PathBuf::new(),
+        };
         explorer.perform(vec![Task::Ask]);
         Demo {
             explorer,
@@ -59,7 +64,11 @@ impl Demo {
 
     /// Advances to the next frame and returns its time in seconds; `None` when the demo is over.
     pub fn advance(&mut self) -> Option<f64> {
-        let mut left = if std::mem::replace(&mut self.begun, true) { self.frame } else { 0.0 };
+        let mut left = if std::mem::replace(&mut self.begun, true) {
+            self.frame
+        } else {
+            0.0
+        };
         while self.pause <= left {
             left -= self.pause;
             self.play(self.pause);
@@ -70,7 +79,8 @@ impl Demo {
             } else if let Some(prompt) = &self.explorer.app.prompt {
                 // A refused value stays in the editor.
                 let is_refused = prompt.refused.is_some();
-                self.explorer.command(if is_refused { "cancel" } else { "accept" });
+                self.explorer
+                    .command(if is_refused { "cancel" } else { "accept" });
             } else {
                 let cue = self.cues.pop_front()?;
                 self.follow(cue);
@@ -97,7 +107,8 @@ impl Demo {
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
         if seconds > 0.0 && self.explorer.app.manual.is_none() {
-            self.explorer.act(Action::Elapse(Duration::from_secs_f64(seconds)));
+            self.explorer
+                .act(Action::Elapse(Duration::from_secs_f64(seconds)));
         }
     }
 
@@ -106,7 +117,8 @@ impl Demo {
             Cue::Wait(seconds) => self.pause = seconds,
             Cue::Do(command) => drop(self.explorer.command(command)),
             Cue::Open(name) => {
-                let opened = open(name).map(|document| Opened::Scene(Box::new(Opening::from(document))));
+                let opened =
+                    open(name).map(|document| Opened::Scene(Box::new(Opening::from(document))));
                 let opened = opened.map_err(|errors| errors.to_string());
                 self.explorer.act(Action::Opened(name.to_owned(), opened));
             }
@@ -114,7 +126,8 @@ impl Demo {
             Cue::Repeat(times, seconds, command) => {
                 self.explorer.command(command);
                 self.pause = seconds;
-                self.cues.push_front(Cue::Repeat(times - 1, seconds, command));
+                self.cues
+                    .push_front(Cue::Repeat(times - 1, seconds, command));
             }
             Cue::Select(path) => {
                 let edit = &mut self.explorer.app.edit;

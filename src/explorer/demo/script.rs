@@ -77,7 +77,10 @@ mod tests {
         });
         let names: Vec<&str> = names.collect();
         assert!(
-            names.len() > 15 && names.iter().all(|name| bindings.named(name, Context::Explore).is_some()),
+            names.len() > 15
+                && names
+                    .iter()
+                    .all(|name| bindings.named(name, Context::Explore).is_some()),
             "{names:?}"
         );
     }

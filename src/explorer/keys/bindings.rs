@@ -60,26 +60,43 @@ impl fmt::Debug for Row {
 }
 
 /// Contexts of the keys while exploring, whichever pane is selected.
-pub const EXPLORE: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair, Context::Parameters];
+pub const EXPLORE: &[Context] = &[
+    Context::Explore,
+    Context::Map,
+    Context::Crosshair,
+    Context::Parameters,
+];
 pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 pub const MANUAL: &str = "Manual loading";
 
 impl Row {
     /// Returns true if the configuration may replace the keys of the row. Digits and keys for prompts are fixed.
     fn is_rebindable(&self) -> bool {
-        !self.takes_key && self.contexts.iter().all(|context| EXPLORE.contains(context))
+        !self.takes_key
+            && self
+                .contexts
+                .iter()
+                .all(|context| EXPLORE.contains(context))
     }
 
     /// Returns true if the list of commands has the row. Keys for texts and questions only work in a prompt.
     fn is_listed(&self) -> bool {
-        self.is_listed && self.contexts.iter().any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
+        self.is_listed
+            && self
+                .contexts
+                .iter()
+                .any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
     }
 
     /// Group in the footer: help and quit, which even the smallest window shows; keys of this context only; main keys;
     /// others.
     fn place(&self, is_manual: bool) -> u8 {
         let is_special = !self.contexts.contains(&Context::Explore);
-        if is_special || is_manual && self.section == MANUAL { self.rank.min(1) } else { self.rank }
+        if is_special || is_manual && self.section == MANUAL {
+            self.rank.min(1)
+        } else {
+            self.rank
+        }
     }
 }
 
@@ -91,7 +108,11 @@ pub struct Binding {
 
 impl Binding {
     pub fn names(&self) -> String {
-        self.keys.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(" ")
+        self.keys
+            .iter()
+            .map(|key| key.name.as_str())
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 }
 
@@ -103,7 +124,13 @@ impl Bindings {
     /// Creates the bindings of these rows with the keys of the table.
     pub fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
         let keys = |row: &Row| row.keys.split(' ').filter_map(Key::named).collect();
-        Bindings(rows.map(|row| Binding { row, keys: keys(row) }).collect())
+        Bindings(
+            rows.map(|row| Binding {
+                row,
+                keys: keys(row),
+            })
+            .collect(),
+        )
     }
 
     pub fn rows(&self) -> impl Iterator<Item = &Binding> {
@@ -111,12 +138,18 @@ impl Bindings {
     }
 
     pub fn valid_in(&self, context: Context) -> impl Iterator<Item = &Binding> {
-        self.rows().filter(move |binding| binding.row.contexts.contains(&context))
+        self.rows()
+            .filter(move |binding| binding.row.contexts.contains(&context))
     }
 
     pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
-        let found = self.valid_in(context).find(|one| one.keys.iter().any(|key| key.matches(event)))?;
-        Some(Command { row: found.row, key: Some(*event) })
+        let found = self
+            .valid_in(context)
+            .find(|one| one.keys.iter().any(|key| key.matches(event)))?;
+        Some(Command {
+            row: found.row,
+            key: Some(*event),
+        })
     }
 
     pub fn listed(&self) -> impl Iterator<Item = &Binding> {
@@ -125,9 +158,16 @@ impl Bindings {
 
     /// The command with a name in a context, with a key if the row takes one: `start-value 3`.
     pub fn named(&self, name: &str, context: Context) -> Option<Command> {
-        let (name, key) = name.split_once(' ').map_or((name, None), |(name, key)| (name, Key::named(key)));
-        let found = self.valid_in(context).find(|binding| binding.row.name == name)?;
-        Some(Command { row: found.row, key: key.map(|key| key.event()) })
+        let (name, key) = name
+            .split_once(' ')
+            .map_or((name, None), |(name, key)| (name, Key::named(key)));
+        let found = self
+            .valid_in(context)
+            .find(|binding| binding.row.name == name)?;
+        Some(Command {
+            row: found.row,
+            key: key.map(|key| key.event()),
+        })
     }
 
     /// Keys and rows for the footer in a context, the most important first; neighbouring rows with the same label are one
@@ -138,37 +178,63 @@ impl Bindings {
         is_manual: bool,
         is_hidden: impl Fn(&'static Row) -> bool,
     ) -> Vec<(String, &'static Row)> {
-        let is_shown = |binding: &&Binding| !binding.row.label.is_empty() && !is_hidden(binding.row);
+        let is_shown =
+            |binding: &&Binding| !binding.row.label.is_empty() && !is_hidden(binding.row);
         let mut rows: Vec<&Binding> = self.valid_in(context).filter(is_shown).collect();
         rows.sort_by_key(|binding| binding.row.place(is_manual));
         let items = rows.chunk_by(|one, next| one.row.label == next.row.label);
         // Of keys that differ in what they do the first two.
         let first = |binding: &&Binding| {
-            let keys = binding.keys.iter().take(1 + usize::from(binding.row.takes_key));
-            keys.map(|key| key.name.as_str()).collect::<Vec<_>>().join(" ")
+            let keys = binding
+                .keys
+                .iter()
+                .take(1 + usize::from(binding.row.takes_key));
+            keys.map(|key| key.name.as_str())
+                .collect::<Vec<_>>()
+                .join(" ")
         };
-        items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row)).collect()
+        items
+            .map(|rows| {
+                (
+                    rows.iter().map(first).collect::<Vec<_>>().join(" "),
+                    rows[0].row,
+                )
+            })
+            .collect()
     }
 
     /// Replaces the keys of the function with this name. Ctrl+C always quits.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
         let parsed = keys.iter().map(|name| {
             let allowed = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
-            Key::named(name)
-                .ok_or_else(|| ("keys", format!("{name}: there is no such key; allowed: {allowed}")))
+            Key::named(name).ok_or_else(|| {
+                (
+                    "keys",
+                    format!("{name}: there is no such key; allowed: {allowed}"),
+                )
+            })
         });
         let mut parsed = parsed.collect::<Result<Vec<Key>, _>>()?;
-        let rebindable = self.rows().map(|one| one.row).filter(|row| row.is_rebindable());
+        let rebindable = self
+            .rows()
+            .map(|one| one.row)
+            .filter(|row| row.is_rebindable());
         let names: Vec<&str> = rebindable.map(|row| row.name).collect();
-        let Some(binding) = self.0.iter_mut().find(|one| one.row.is_rebindable() && one.row.name == action)
+        let Some(binding) = self
+            .0
+            .iter_mut()
+            .find(|one| one.row.is_rebindable() && one.row.name == action)
         else {
             let near = nearest(action, names);
             let near = near.map_or_else(String::new, |near| format!(" did you mean {near}?"));
-            let message = format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
+            let message =
+                format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
             return Err(("action", message));
         };
         if action == "quit" {
-            parsed.extend(Key::named("Ctrl+c").filter(|quit| !parsed.iter().any(|key| key.overlaps(quit))));
+            parsed.extend(
+                Key::named("Ctrl+c").filter(|quit| !parsed.iter().any(|key| key.overlaps(quit))),
+            );
         }
         binding.keys = parsed;
         Ok(())
@@ -183,7 +249,11 @@ impl Bindings {
                 section = row.section;
                 text += &format!("\n**{section}**\n\n");
             }
-            let keys: Vec<String> = row.keys.split(' ').map(|name| format!("`{name}`")).collect();
+            let keys: Vec<String> = row
+                .keys
+                .split(' ')
+                .map(|name| format!("`{name}`"))
+                .collect();
             text += &format!("* {}: {} (`{}`)\n", keys.join(" "), row.help, row.name);
         }
         text
@@ -219,7 +289,12 @@ mod tests {
     fn every_key_has_a_name_and_one_meaning_in_each_context() {
         assert_eq!(bindings().conflict(), None);
         for binding in bindings().rows() {
-            assert_eq!(binding.keys.len(), binding.row.keys.split(' ').count(), "{}", binding.row.keys);
+            assert_eq!(
+                binding.keys.len(),
+                binding.row.keys.split(' ').count(),
+                "{}",
+                binding.row.keys
+            );
         }
         for name in ["", "ab", "Shift+a", "F0", "F13", "Ctrl+", "\u{1b}", "Alt+x"] {
             assert!(Key::named(name).is_none(), "{name}");
@@ -231,7 +306,9 @@ mod tests {
             .map(|row| row.name)
             .collect();
         assert!(
-            names.iter().all(|name| name.chars().all(|c| c.is_ascii_lowercase() || c == '-')),
+            names
+                .iter()
+                .all(|name| name.chars().all(|c| c.is_ascii_lowercase() || c == '-')),
             "{names:?}"
         );
         names.sort_unstable();
@@ -241,7 +318,10 @@ mod tests {
     #[test]
     fn the_table_is_short() {
         let rows = bindings().rows().count();
-        assert!(rows <= MOST_ROWS, "{rows} rows; allowed: at most {MOST_ROWS}");
+        assert!(
+            rows <= MOST_ROWS,
+            "{rows} rows; allowed: at most {MOST_ROWS}"
+        );
     }
 
     #[test]
@@ -250,12 +330,21 @@ mod tests {
         let name = |command: Option<Command>| {
             command.map(|command| (command.row.name, command.key.map(|key| key.code)))
         };
-        assert_eq!(name(bindings.named("pull-coarse", Context::Explore)), Some(("pull-coarse", None)));
+        assert_eq!(
+            name(bindings.named("pull-coarse", Context::Explore)),
+            Some(("pull-coarse", None))
+        );
         assert_eq!(name(bindings.named("accept", Context::Explore)), None);
-        assert_eq!(name(bindings.named("no such command", Context::Explore)), None);
+        assert_eq!(
+            name(bindings.named("no such command", Context::Explore)),
+            None
+        );
         let three = KeyEvent::new(KeyCode::Char('3'), KeyModifiers::NONE);
         let typed = Some(("start-value", Some(KeyCode::Char('3'))));
-        assert_eq!(name(bindings.named("start-value 3", Context::Explore)), typed);
+        assert_eq!(
+            name(bindings.named("start-value 3", Context::Explore)),
+            typed
+        );
         assert_eq!(name(bindings.command(&three, Context::Explore)), typed);
         assert_eq!(name(bindings.command(&three, Context::Parameters)), typed);
         assert_eq!(name(bindings.command(&three, Context::Map)), None);
@@ -267,9 +356,17 @@ mod tests {
             let bindings = bindings();
             let items = bindings.footer(*context, false, |_| false);
             assert!(!items.is_empty(), "{context:?}");
-            assert!(items.iter().all(|(keys, row)| row.contexts.contains(context) && !keys.is_empty()));
+            assert!(
+                items
+                    .iter()
+                    .all(|(keys, row)| row.contexts.contains(context) && !keys.is_empty())
+            );
             if EXPLORE.contains(context) {
-                assert_eq!([items[0].1.label, items[1].1.label], ["help", "quit"], "{context:?}");
+                assert_eq!(
+                    [items[0].1.label, items[1].1.label],
+                    ["help", "quit"],
+                    "{context:?}"
+                );
             }
         }
     }

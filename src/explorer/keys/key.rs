@@ -43,12 +43,17 @@ impl Key {
         let (control, rest) = without(name, "Ctrl+");
         let (shift, rest) = without(rest, "Shift+");
         let characters: Vec<char> = rest.chars().collect();
-        let known = NAMES.iter().find(|(known, _)| *known == rest).map(|(_, code)| *code);
+        let known = NAMES
+            .iter()
+            .find(|(known, _)| *known == rest)
+            .map(|(_, code)| *code);
         let (first, last) = match (known, &characters[..]) {
             (Some(KeyCode::Tab), _) if shift => (KeyCode::BackTab, KeyCode::BackTab),
             (Some(code), _) => (code, code),
             // Shift is part of a character.
-            (None, &[one]) if !shift && !is_control(one) => (KeyCode::Char(one), KeyCode::Char(one)),
+            (None, &[one]) if !shift && !is_control(one) => {
+                (KeyCode::Char(one), KeyCode::Char(one))
+            }
             (None, &[first, '–', last]) if !shift => (KeyCode::Char(first), KeyCode::Char(last)),
             _ => {
                 let number = rest.strip_prefix('F')?.parse().ok();
@@ -59,7 +64,12 @@ impl Key {
         let mut modifiers = KeyModifiers::NONE;
         modifiers.set(KeyModifiers::CONTROL, control);
         modifiers.set(KeyModifiers::SHIFT, shift && first != KeyCode::BackTab);
-        Some(Key { name: name.to_owned(), first, last, modifiers })
+        Some(Key {
+            name: name.to_owned(),
+            first,
+            last,
+            modifiers,
+        })
     }
 }
 

@@ -35,20 +35,37 @@ fn panel(app: &App, size: Size) -> Panel {
     };
     let section = &snapshot.close_up.section;
     let title = match snapshot.close_up.patch {
-        Some(patch) => format!("Patch {} of {} ·", patch.number + 1, snapshot.point.fragments),
+        Some(patch) => format!(
+            "Patch {} of {} ·",
+            patch.number + 1,
+            snapshot.point.fragments
+        ),
         None => "Nothing in contact ·".to_owned(),
     };
-    let mut panel =
-        section::panel(&title, snapshot, section, heights(section), (app.view.appearance, size.width));
+    let mut panel = section::panel(
+        &title,
+        snapshot,
+        section,
+        heights(section),
+        (app.view.appearance, size.width),
+    );
     if let (Some(patch), None) = (snapshot.close_up.patch, snapshot.probe) {
-        panel.edge.extend(describe(app, patch).map(|text| vec![Text::raw(text)]));
+        panel
+            .edge
+            .extend(describe(app, patch).map(|text| vec![Text::raw(text)]));
     }
     if let Body::Chart(plot) = &mut panel.body {
         if size.width < WITH_NAMES {
             // The profile beside it has the same colours.
-            plot.chart.layers.iter_mut().for_each(|layer| layer.name = Label::default());
+            plot.chart
+                .layers
+                .iter_mut()
+                .for_each(|layer| layer.name = Label::default());
         }
-        plot.chart.layers.push(Layer { name: Label::default(), ..ends(snapshot) });
+        plot.chart.layers.push(Layer {
+            name: Label::default(),
+            ..ends(snapshot)
+        });
     }
     panel
 }
@@ -56,8 +73,14 @@ fn panel(app: &App, size: Size) -> Panel {
 /// The signs at the ends of the contact patches.
 fn ends(snapshot: &ContactSnapshot) -> Layer {
     let ends = snapshot.close_up.boundaries.iter();
-    let ends = ends.map(|&(spring, height)| (section::position(snapshot.line, spring), height)).collect();
-    Layer::new("patch end".into(), Ink::Contact, Shape::signs(ends, Sign::Ring))
+    let ends = ends
+        .map(|&(spring, height)| (section::position(snapshot.line, spring), height))
+        .collect();
+    Layer::new(
+        "patch end".into(),
+        Ink::Contact,
+        Shape::signs(ends, Sign::Ring),
+    )
 }
 
 /// Chart of the springs in the pane, for a file.
@@ -73,7 +96,10 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
 fn heights(section: &Section) -> Span {
     let (low, high) = section.heights;
     let room = 0.4 * (high - low);
-    Span::around([low, high, section.level.clamp(low - room, high + room)].into_iter(), 0.05)
+    Span::around(
+        [low, high, section.level.clamp(low - room, high + room)].into_iter(),
+        0.05,
+    )
 }
 
 /// Share of a stretch below which a difference counts as rounding.

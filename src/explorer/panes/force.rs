@@ -11,7 +11,9 @@ use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, Mark};
 use asperity_data::{AxisScale, format_rounded, grouped, quantile};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
-use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
+use asperity_report::{
+    FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart,
+};
 use asperity_scene::Governing;
 use asperity_scene::text::quoted;
 use asperity_study::half_space::SquareLoops;
@@ -39,7 +41,11 @@ pub static ROW: PaneRow = PaneRow {
 /// The measured curve with the model and the residuals; `None` without a measured curve.
 fn fit_report(app: &App) -> Option<FitReport<'_>> {
     let Measured { name, curve, .. } = app.edit.measured.as_ref()?;
-    Some(FitReport { title: name, curve, fit: fitted(&app.studies).filter(|_| app.is_current())? })
+    Some(FitReport {
+        title: name,
+        curve,
+        fit: fitted(&app.studies).filter(|_| app.is_current())?,
+    })
 }
 
 /// The curves of the kept scenes and of the present one, by their titles, or by what differs where it is the same scene
@@ -50,18 +56,42 @@ fn compared(app: &App) -> Option<Figure> {
     for ghost in &app.ghosts {
         let kept = &ghost.document;
         let is_same = kept.name() == present.name() || kept.title() == present.title();
-        names.push(if is_same { differences(app, ghost) } else { kept.title().to_owned() });
+        names.push(if is_same {
+            differences(app, ghost)
+        } else {
+            kept.title().to_owned()
+        });
     }
     names.push(present.title().to_owned());
-    let outcomes = app.ghosts.iter().map(|ghost| &*ghost.outcome).chain([&app.current()?.outcome]);
-    Some(force_figure(&names.iter().map(String::as_str).zip(outcomes).collect::<Vec<_>>(), units(app)))
+    let outcomes = app
+        .ghosts
+        .iter()
+        .map(|ghost| &*ghost.outcome)
+        .chain([&app.current()?.outcome]);
+    Some(force_figure(
+        &names
+            .iter()
+            .map(String::as_str)
+            .zip(outcomes)
+            .collect::<Vec<_>>(),
+        units(app),
+    ))
 }
 
 /// The report of the measured curve, with the command that computes the fit.
 fn fit(app: &App) -> Exported<'_> {
     let (report, options) = (fit_report(app)?, &app.edit.measured.as_ref()?.options);
-    let names: Vec<_> = report.fit.parameters.iter().map(|one| one.parameter.name()).collect();
-    let command = format!("asperity fit {}{options} --free={}", quoted(report.title), names.join(","));
+    let names: Vec<_> = report
+        .fit
+        .parameters
+        .iter()
+        .map(|one| one.parameter.name())
+        .collect();
+    let command = format!(
+        "asperity fit {}{options} --free={}",
+        quoted(report.title),
+        names.join(",")
+    );
     Some((command.into(), Box::new(report)))
 }
 
@@ -70,7 +100,11 @@ const WITH_GHOSTS: u16 = 12;
 
 fn panel(app: &App, size: Size) -> Panel {
     let Some(chart) = shown_chart(app) else {
-        let reason = if app.is_computing() { "computing…" } else { "no curve" };
+        let reason = if app.is_computing() {
+            "computing…"
+        } else {
+            "no curve"
+        };
         return Panel::of_text(title(app, None), reason);
     };
     let (theme, units) = (app.view.appearance.theme, units(app));
@@ -80,12 +114,22 @@ fn panel(app: &App, size: Size) -> Panel {
         marks.retain(|(mark, _)| units.shows(*mark));
         // The most important first.
         marks.sort_by_key(|(mark, _)| {
-            [Mark::PullOff, Mark::Preload, Mark::JumpIn].iter().position(|one| one == mark).unwrap_or(3)
+            [Mark::PullOff, Mark::Preload, Mark::JumpIn]
+                .iter()
+                .position(|one| one == mark)
+                .unwrap_or(3)
         });
         for (mark, point) in marks {
-            let (name, force) = (mark.name(), units.force_in_words(app.without_rounding(point.force)));
+            let (name, force) = (
+                mark.name(),
+                units.force_in_words(app.without_rounding(point.force)),
+            );
             let texts = vec![format!("{name} {force}"), force, name.to_owned()];
-            names.push(Name { at: vec![units.place(&point)], texts, ink: Ink::Text });
+            names.push(Name {
+                at: vec![units.place(&point)],
+                texts,
+                ink: Ink::Text,
+            });
         }
     }
     for (number, ghost) in app.ghosts.iter().enumerate().rev() {
@@ -97,11 +141,17 @@ fn panel(app: &App, size: Size) -> Panel {
             head.push(Line::styled(line, theme.style(meaning(ink))));
         }
         let at = marked(ghost).iter().map(|at| units.place(at)).collect();
-        names.push(Name { at, texts: vec![letter(number).to_owned()], ink });
+        names.push(Name {
+            at,
+            texts: vec![letter(number).to_owned()],
+            ink,
+        });
     }
     let below = residuals(app, &chart.x);
     let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
-    let share = app.adhesion_share_in_words().map(|share| vec![Text::raw(share)]);
+    let share = app
+        .adhesion_share_in_words()
+        .map(|share| vec![Text::raw(share)]);
     let edge = state(app).into_iter().enumerate().map(|(number, text)| {
         let sign = (number == 0).then(|| sign.clone());
         sign.into_iter().chain([Text::raw(text)]).collect()
@@ -121,7 +171,9 @@ fn panel(app: &App, size: Size) -> Panel {
 /// last move changed. E* l is the stiffness with fixed edges (Popov and Filippov 2012, eq. (1)), p_m the mean pressure on a
 /// circle with the radius of the contact.
 fn state(app: &App) -> Vec<String> {
-    let (Some(snapshot), Some(computed)) = (app.present(), app.solved.as_ref()) else { return Vec::new() };
+    let (Some(snapshot), Some(computed)) = (app.present(), app.solved.as_ref()) else {
+        return Vec::new();
+    };
     let (outcome, point, units) = (&computed.outcome, snapshot.point, units(app));
     let force = app.without_rounding(point.force);
     let mut parts = vec![
@@ -131,20 +183,30 @@ fn state(app: &App) -> Vec<String> {
     match &app.manual {
         Some(state) => {
             parts.push(format!("{} changed", counted(state.changed, "spring")));
-            parts.push(format!("released {}", format_rounded(state.released_energy, 2, "J")));
+            parts.push(format!(
+                "released {}",
+                format_rounded(state.released_energy, 2, "J")
+            ));
         }
         None => {
             let percent = 100.0 * point.contact_length / outcome.line.length;
             parts.push(format!("contact {} %", format_rounded(percent, 2, "1")));
         }
     }
-    let patches = if point.fragments == 1 { "patch" } else { "patches" };
+    let patches = if point.fragments == 1 {
+        "patch"
+    } else {
+        "patches"
+    };
     parts.push(format!("{} {patches}", grouped(point.fragments)));
     let stiffness = outcome.governing.effective_modulus * point.contact_length;
     parts.push(format!("E*l {}", format_rounded(stiffness, 2, "N/m")));
     let radius = snapshot.contact_radius;
     if radius > 0.0 {
-        parts.push(format!("p_m {}", format_rounded(force / (PI * radius * radius), 2, "Pa")));
+        parts.push(format!(
+            "p_m {}",
+            format_rounded(force / (PI * radius * radius), 2, "Pa")
+        ));
     }
     parts
 }
@@ -156,24 +218,38 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
         LoopQuantities::LengthForce => "Contact length",
         LoopQuantities::FragmentsIndentation => "Contact patches",
     };
-    let name = y.map_or_else(|| name.to_owned(), |y| format!("{name} {}", y.symbol_with_unit()));
-    let loss = if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
-        match app.solved.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
-            Some(energy) => {
-                let number = app.solved.as_ref().and_then(|computed| computed.outcome.tabor_number);
-                let number = number.map_or_else(String::new, |number| {
-                    let is_low = number < Governing::LEAST_TABOR_NUMBER;
-                    let low =
-                        if is_low { format!(" < {}", Governing::LEAST_TABOR_NUMBER) } else { String::new() };
-                    format!(", Tabor μ {}{low}", format_rounded(number, 3, "1"))
-                });
-                format!(" · ΔW {}{number}", format_rounded(energy, 3, "J"))
+    let name = y.map_or_else(
+        || name.to_owned(),
+        |y| format!("{name} {}", y.symbol_with_unit()),
+    );
+    let loss =
+        if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
+            match app
+                .solved
+                .as_ref()
+                .and_then(|computed| computed.outcome.figures.dissipated_energy)
+            {
+                Some(energy) => {
+                    let number = app
+                        .solved
+                        .as_ref()
+                        .and_then(|computed| computed.outcome.tabor_number);
+                    let number = number.map_or_else(String::new, |number| {
+                        let is_low = number < Governing::LEAST_TABOR_NUMBER;
+                        let low = if is_low {
+                            format!(" < {}", Governing::LEAST_TABOR_NUMBER)
+                        } else {
+                            String::new()
+                        };
+                        format!(", Tabor μ {}{low}", format_rounded(number, 3, "1"))
+                    });
+                    format!(" · ΔW {}{number}", format_rounded(energy, 3, "J"))
+                }
+                None => " · ΔW open".to_owned(),
             }
-            None => " · ΔW open".to_owned(),
-        }
-    } else {
-        String::new()
-    };
+        } else {
+            String::new()
+        };
     let event = match caption(app) {
         _ if app.is_computing() => " · computing".to_owned(),
         Some(event) => format!(" · {event}"),
@@ -185,7 +261,9 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
 fn units(app: &App) -> LoopUnits {
     let quantities = app.view.curve.quantities;
     match app.solved.as_ref() {
-        Some(computed) => LoopUnits::of_scene(quantities, &computed.outcome, app.view.curve.normalised),
+        Some(computed) => {
+            LoopUnits::of_scene(quantities, &computed.outcome, app.view.curve.normalised)
+        }
         None => LoopUnits::si(quantities),
     }
 }
@@ -206,13 +284,28 @@ fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     let fit = fitted(&app.studies).filter(|_| app.is_current());
     let residuals: Vec<f64> = fit.map_or_else(Vec::new, |fit| measured.residuals(&fit.model));
     let points = measured.points(stiffness(app)?);
-    let points: Vec<_> =
-        points.iter().zip(&residuals).map(|(point, residual)| (units.place(point).0, *residual)).collect();
+    let points: Vec<_> = points
+        .iter()
+        .zip(&residuals)
+        .map(|(point, residual)| (units.place(point).0, *residual))
+        .collect();
     let half = half_range(residuals);
-    let y =
-        ChartAxis::new(AxisScale::Linear, Span { low: -half, high: half }, "residual over noise", "", "1");
+    let y = ChartAxis::new(
+        AxisScale::Linear,
+        Span {
+            low: -half,
+            high: half,
+        },
+        "residual over noise",
+        "",
+        "1",
+    );
     let dots = Layer::unnamed(Ink::Kept, Shape::signs(points, Sign::Point));
-    Some(Chart::new(x.clone(), y, vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0)), dots]))
+    Some(Chart::new(
+        x.clone(),
+        y,
+        vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0)), dots],
+    ))
 }
 
 /// Share of the residuals in the range of their strip; the few others, as at a jump of the contact, are at its edge.
@@ -220,7 +313,9 @@ const IN_RANGE: f64 = 0.98;
 
 /// The smallest of 5, 10, 20, 50 and so on that is as large as nearly all residuals.
 fn half_range(mut residuals: Vec<f64>) -> f64 {
-    residuals.iter_mut().for_each(|residual| *residual = residual.abs());
+    residuals
+        .iter_mut()
+        .for_each(|residual| *residual = residual.abs());
     residuals.sort_by(f64::total_cmp);
     let most = quantile(&residuals, IN_RANGE).unwrap_or(0.0);
     let steps = (0..12).flat_map(|power| [5.0, 10.0, 20.0].map(|step| step * 10_f64.powi(power)));
@@ -230,7 +325,11 @@ fn half_range(mut residuals: Vec<f64>) -> f64 {
 /// Stiffness of the instrument of the shown scene, N/m; `None` before a scene is computed.
 fn stiffness(app: &App) -> Option<f64> {
     let outcome = &app.solved.as_ref()?.outcome;
-    Some(outcome.instrument.map_or(f64::INFINITY, |instrument| instrument.stiffness))
+    Some(
+        outcome
+            .instrument
+            .map_or(f64::INFINITY, |instrument| instrument.stiffness),
+    )
 }
 
 /// The chart without the names that the pane writes elsewhere: of marks, kept scenes and axes.
@@ -238,10 +337,20 @@ fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
     if let Some(snapshot) = app.present() {
         let (x, y) = units(app).place(&snapshot.point);
-        let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
-        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
+        let at = (
+            x.clamp(chart.x.span.low, chart.x.span.high),
+            y.clamp(chart.y.span.low, chart.y.span.high),
+        );
+        chart.layers.push(Layer::unnamed(
+            Ink::Cursor,
+            Shape::signs(vec![at], Sign::Diamond),
+        ));
     }
-    for layer in chart.layers.iter_mut().filter(|layer| matches!(layer.ink, Ink::Text | Ink::Compared(_))) {
+    for layer in chart
+        .layers
+        .iter_mut()
+        .filter(|layer| matches!(layer.ink, Ink::Text | Ink::Compared(_)))
+    {
         layer.name = Label::default();
     }
     Some(chart)
@@ -251,17 +360,33 @@ fn shown_chart(app: &App) -> Option<Chart> {
 fn chart(app: &App) -> Option<Chart> {
     app.indentations()?;
     let units = units(app);
-    let unmarked = |outcome| ForceLoop { marks: Vec::new(), ..ForceLoop::of_outcome(outcome) };
-    let ghosts = app.ghosts.iter().enumerate().map(|(number, ghost)| ForceLoop {
-        name: Some(Label::plain(&format!("{}: {}", letter(number), differences(app, ghost)))),
-        ink: Some(Ink::Compared(number)),
-        stroke: Some(Stroke::Sparse),
-        ..unmarked(&ghost.outcome)
-    });
-    let squares = app.studies.value::<SquareLoops>().filter(|_| app.view.squares && units.shows_force());
+    let unmarked = |outcome| ForceLoop {
+        marks: Vec::new(),
+        ..ForceLoop::of_outcome(outcome)
+    };
+    let ghosts = app
+        .ghosts
+        .iter()
+        .enumerate()
+        .map(|(number, ghost)| ForceLoop {
+            name: Some(Label::plain(&format!(
+                "{}: {}",
+                letter(number),
+                differences(app, ghost)
+            ))),
+            ink: Some(Ink::Compared(number)),
+            stroke: Some(Stroke::Sparse),
+            ..unmarked(&ghost.outcome)
+        });
+    let squares = app
+        .studies
+        .value::<SquareLoops>()
+        .filter(|_| app.view.squares && units.shows_force());
     let bands = squares.map_or_else(Vec::new, SquareLoops::bands);
-    let edges =
-        bands.iter().flat_map(|band| band.iter().zip([Stroke::Sparse, Stroke::Solid, Stroke::Sparse]));
+    let edges = bands.iter().flat_map(|band| {
+        band.iter()
+            .zip([Stroke::Sparse, Stroke::Solid, Stroke::Sparse])
+    });
     let squares = edges.map(|(curve, stroke)| ForceLoop {
         curves: vec![(Direction::Unloading, curve)],
         ink: Some(Ink::Kept),
@@ -276,13 +401,22 @@ fn chart(app: &App) -> Option<Chart> {
     });
     let outcome = &app.solved.as_ref()?.outcome;
     let points = app.edit.measured.as_ref().filter(|_| units.shows_force());
-    let points = points.zip(stiffness(app)).map(|(measured, stiffness)| measured.points(stiffness));
+    let points = points
+        .zip(stiffness(app))
+        .map(|(measured, stiffness)| measured.points(stiffness));
     // Over dots a line without gaps is legible.
     let stroke = points.is_some().then_some(Stroke::Solid);
     // A curve of a scene changed since stays in the background until the new one is there.
     let present = match app.is_current() {
-        true => ForceLoop { stroke, ..ForceLoop::of_outcome(outcome) },
-        false => ForceLoop { ink: Some(Ink::Quiet), stroke, ..unmarked(outcome) },
+        true => ForceLoop {
+            stroke,
+            ..ForceLoop::of_outcome(outcome)
+        },
+        false => ForceLoop {
+            ink: Some(Ink::Quiet),
+            stroke,
+            ..unmarked(outcome)
+        },
     };
     let manual = app.manual.as_ref().map(|manual| ForceLoop {
         curves: vec![(Direction::Unloading, &manual.path)],
@@ -297,27 +431,52 @@ fn chart(app: &App) -> Option<Chart> {
         ink: Some(Ink::Kept),
         ..ForceLoop::new(&[])
     });
-    let loops: Vec<ForceLoop<'_>> =
-        data.into_iter().chain(squares).chain(ghosts).chain(tried).chain([present]).chain(manual).collect();
+    let loops: Vec<ForceLoop<'_>> = data
+        .into_iter()
+        .chain(squares)
+        .chain(ghosts)
+        .chain(tried)
+        .chain([present])
+        .chain(manual)
+        .collect();
     let mut chart = loop_chart(&loops, units);
-    for layer in chart.layers.iter_mut().filter(|layer| layer.name.to_string() == MEASURED) {
+    for layer in chart
+        .layers
+        .iter_mut()
+        .filter(|layer| layer.name.to_string() == MEASURED)
+    {
         layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
     }
     // Below the curves, which stay whole.
     for [lower, _, upper] in &bands {
-        let border = lower.iter().chain(upper.iter().rev()).map(|point| units.place(point)).collect();
-        chart.layers.insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
+        let border = lower
+            .iter()
+            .chain(upper.iter().rev())
+            .map(|point| units.place(point))
+            .collect();
+        chart
+            .layers
+            .insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
     }
     if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
-        let border = app.legs().iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
-        chart.layers.insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
+        let border = app
+            .legs()
+            .iter()
+            .flat_map(|leg| &leg.curve)
+            .map(|point| units.place(point))
+            .collect();
+        chart
+            .layers
+            .insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
     }
     Some(chart)
 }
 
 /// Values of a kept scene that differ from the present scene, in words.
 fn differences(app: &App, ghost: &Ghost) -> String {
-    ghost.changes(&app.edit.document, |change| format!("{} {}", change.name, change.from))
+    ghost.changes(&app.edit.document, |change| {
+        format!("{} {}", change.name, change.from)
+    })
 }
 
 /// Number of points of each loading stage of a kept scene beside which its letter may stand.
@@ -329,18 +488,32 @@ fn marked(ghost: &Ghost) -> Vec<CurvePoint> {
     let mut marks = Mark::all(legs);
     marks.retain(|(mark, _)| *mark != Mark::JumpOut);
     let curves = legs.iter().rev().map(|leg| &leg.curve);
-    let some = curves.flat_map(|curve| curve.iter().step_by((curve.len() / PLACES).max(1)).copied());
-    marks.into_iter().rev().map(|(_, point)| point).chain(some).collect()
+    let some =
+        curves.flat_map(|curve| curve.iter().step_by((curve.len() / PLACES).max(1)).copied());
+    marks
+        .into_iter()
+        .rev()
+        .map(|(_, point)| point)
+        .chain(some)
+        .collect()
 }
 
 /// Adhesion force of a kept scene, and how much more or less the present scene has: `F_a 12 µN, now 3 µN more`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let units = units(app);
     let force = ghost.outcome.figures.adhesion_force?;
-    let present = app.current().and_then(|one| one.outcome.figures.adhesion_force);
-    let difference = present.filter(|present| *present != force).map_or_else(String::new, |present| {
-        let more = if present > force { "more" } else { "less" };
-        format!(", now {} {more}", units.force_in_words((present - force).abs()))
-    });
+    let present = app
+        .current()
+        .and_then(|one| one.outcome.figures.adhesion_force);
+    let difference =
+        present
+            .filter(|present| *present != force)
+            .map_or_else(String::new, |present| {
+                let more = if present > force { "more" } else { "less" };
+                format!(
+                    ", now {} {more}",
+                    units.force_in_words((present - force).abs())
+                )
+            });
     Some(format!("F_a {}{difference}", units.force_in_words(force)))
 }

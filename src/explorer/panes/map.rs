@@ -43,10 +43,15 @@ const MOST_SPRINGS: u64 = 1 << 12;
 /// Computes the missing cells of the live map; `None` for a scene without a map.
 fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
     let plan = app.map.plan(&computed.scene)?;
-    let (key, is_long) = (format!("{plan:?}"), plan.scene.numerics.points > MOST_SPRINGS);
+    let (key, is_long) = (
+        format!("{plan:?}"),
+        plan.scene.numerics.points > MOST_SPRINGS,
+    );
     let begun = app.studies.value::<Live>().map(|live| live.map.clone());
     Some(Study::new(key, is_long, move |_, stop, report| {
-        let mut map = begun.map_or_else(|| LiveMap::new(plan), Ok).map_err(|error| error.to_string())?;
+        let mut map = begun
+            .map_or_else(|| LiveMap::new(plan), Ok)
+            .map_err(|error| error.to_string())?;
         map.compute(stop, &mut |map| report(Live::of(map)));
         Ok(Live::of(&map))
     }))
@@ -58,20 +63,33 @@ fn cells(app: &App) -> Exported<'_> {
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = title(app);
-    let Some(grid) = app.grid() else { return Panel::of_text(title, &nothing_yet(app)) };
+    let Some(grid) = app.grid() else {
+        return Panel::of_text(title, &nothing_yet(app));
+    };
     let foot = below(app, grid, size.width);
     let Some(mut chart) = map(grid, app.mapped()) else {
         let Some(chart) = curves(app, grid).into_iter().next() else {
             return Panel::of_text(title, "the study has no quantity to draw over its axis");
         };
         let heading = chart.heading.to_string();
-        return Panel { head: vec![Line::raw(heading)], foot, ..Panel::of_chart(title, chart) };
+        return Panel {
+            head: vec![Line::raw(heading)],
+            foot,
+            ..Panel::of_chart(title, chart)
+        };
     };
     let head = legend(app, &chart, size.width.into());
     if let Some((across, Some(up))) = app.place() {
-        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![(across, up)], Sign::Diamond)));
+        chart.layers.push(Layer::unnamed(
+            Ink::Cursor,
+            Shape::signs(vec![(across, up)], Sign::Diamond),
+        ));
     }
-    Panel { head, foot, ..Panel::of_chart(title, chart) }
+    Panel {
+        head,
+        foot,
+        ..Panel::of_chart(title, chart)
+    }
 }
 
 /// Map of the regimes or of a quantity over two axes; `None` for a grid along one axis.
@@ -80,7 +98,9 @@ fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     if let Some(map) = chart.map_mut() {
         // The shades show the regimes; in a map of another quantity letters would hide the boundary.
         map.contour = map.contour.take().filter(|_| !mapped.is_regime());
-        map.class_names.iter_mut().for_each(|class| class.letter = None);
+        map.class_names
+            .iter_mut()
+            .for_each(|class| class.letter = None);
     }
     Some(chart)
 }
@@ -88,14 +108,21 @@ fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
 /// Curves over the only axis of a map, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     let quantities = shown_quantities(app.mapped(), grid);
-    let curves = quantities.into_iter().filter(|quantity| !quantity.is_regime());
+    let curves = quantities
+        .into_iter()
+        .filter(|quantity| !quantity.is_regime());
     let mark = app.place().map(|(across, _)| across);
     let chart = |quantity| {
         let mut chart = study_curves(grid, quantity).into_iter().next()?;
         if let Some(mark) = mark {
             let top = chart.y.scale.number(chart.y.span.high);
-            chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(mark)));
-            chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![(mark, top)], Sign::Diamond)));
+            chart
+                .layers
+                .push(Layer::unnamed(Ink::Cursor, Shape::Upright(mark)));
+            chart.layers.push(Layer::unnamed(
+                Ink::Cursor,
+                Shape::signs(vec![(mark, top)], Sign::Diamond),
+            ));
         }
         Some(chart)
     };
@@ -109,31 +136,49 @@ fn figure(app: &App, grid: &Grid) -> Figure {
         None => curves(app, grid),
         Some(_) => {
             let shown = shown_quantities(app.mapped(), grid).into_iter();
-            shown.filter_map(|quantity| study_map(grid, quantity, false)).collect()
+            shown
+                .filter_map(|quantity| study_map(grid, quantity, false))
+                .collect()
         }
     };
     let study = app.map.shown_study();
-    let title = study.map_or(&app.edit.document.scene().title, |study| &study.study_map.plan().title);
+    let title = study.map_or(&app.edit.document.scene().title, |study| {
+        &study.study_map.plan().title
+    });
     study_figure(title, grid, charts)
 }
 
 /// Title of the pane: the quantity, the axes, and the number of profiles of the mean.
 fn title(app: &App) -> String {
-    let Some((across, up)) = app.map_axes() else { return "Map".to_owned() };
-    let over = [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name);
+    let Some((across, up)) = app.map_axes() else {
+        return "Map".to_owned();
+    };
+    let over = [Some(&across), up.as_ref()]
+        .into_iter()
+        .flatten()
+        .map(Axis::symbol_or_name);
     let over = over.collect::<Vec<_>>().join(", ");
-    let mapped = app.grid().map_or_else(|| "regime".to_owned(), |grid| name_of(grid, app.mapped()));
+    let mapped = app
+        .grid()
+        .map_or_else(|| "regime".to_owned(), |grid| name_of(grid, app.mapped()));
     let (name, lines) = match app.map.shown_study() {
-        Some(OpenStudy { study_map, .. }) => {
-            (format!("Study {}: {mapped}", study_map.name()), study_map.plan().lines)
-        }
+        Some(OpenStudy { study_map, .. }) => (
+            format!("Study {}: {mapped}", study_map.name()),
+            study_map.plan().lines,
+        ),
         None => {
-            let lines =
-                app.studies.value::<Live>().map_or(Plan::PROFILES_OF_MAP, |live| live.map.plan().lines);
+            let lines = app
+                .studies
+                .value::<Live>()
+                .map_or(Plan::PROFILES_OF_MAP, |live| live.map.plan().lines);
             (format!("Map of {mapped}"), lines)
         }
     };
-    let profiles = if lines == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(lines)) };
+    let profiles = if lines == 1 {
+        "1 profile".to_owned()
+    } else {
+        format!("{} profiles", grouped(lines))
+    };
     format!("{name} over {over}, {profiles}")
 }
 
@@ -144,7 +189,9 @@ fn nothing_yet(app: &App) -> String {
     match app.studies.failure::<Live>() {
         Some(why) => format!("no map: {why}"),
         None if app.is_computing() => "the scene is still being computed…".to_owned(),
-        None if !app.is_current() => "the scene cannot be computed, so there is no map around it".to_owned(),
+        None if !app.is_current() => {
+            "the scene cannot be computed, so there is no map around it".to_owned()
+        }
         None if !app.view.shows_times => {
             "a demo computes no map of a scene with this many springs".to_owned()
         }
@@ -158,13 +205,24 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
         return format!("regime ({})", quantity.short_protocol());
     }
     let symbol = quantity.symbol();
-    let is_only = grid.layers.iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
-    if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
+    let is_only = grid
+        .layers
+        .iter()
+        .filter(|layer| layer.quantity.symbol() == symbol)
+        .count()
+        == 1;
+    if is_only && !symbol.is_empty() {
+        symbol.to_owned()
+    } else {
+        quantity.name().replace('_', " ")
+    }
 }
 
 /// Legend: label of the vertical axis, shades with their meaning, classes, and which map of the study is shown.
 fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
-    let (Some(grid), Some(map)) = (app.grid(), chart.map()) else { return Vec::new() };
+    let (Some(grid), Some(map)) = (app.grid(), chart.map()) else {
+        return Vec::new();
+    };
     let look = app.view.appearance;
     let title = |text: String| Text::styled(text, look.theme.style(Meaning::Title));
     let mut parts = shades(chart, look, width);
@@ -176,17 +234,30 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
             parts.push(vec![shade, Text::raw(format!(" {}", class.name))]);
         }
         if grid.is_split(app.mapped()) {
-            parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
+            parts.push(vec![Text::raw(format!(
+                "{} {} profiles disagree",
+                SHADES[3], SHADES[1]
+            ))]);
         }
     } else {
         // The last name belongs to the boundary.
         parts.extend(entries(chart, look).pop().filter(|_| map.contour.is_some()));
     }
-    let Some(study) = app.map.shown_study() else { return filled(parts, "  ", width) };
+    let Some(study) = app.map.shown_study() else {
+        return filled(parts, "  ", width);
+    };
     let slices = study.study_map.slices();
-    let mut slice: Vec<Part> = grid.fixed.iter().map(|at| vec![title(at.clone())]).collect();
+    let mut slice: Vec<Part> = grid
+        .fixed
+        .iter()
+        .map(|at| vec![title(at.clone())])
+        .collect();
     if slices > 1 {
-        let which = format!("{} of {}, P: the next", grouped(study.slice + 1), grouped(slices));
+        let which = format!(
+            "{} of {}, P: the next",
+            grouped(study.slice + 1),
+            grouped(slices)
+        );
         slice.push(vec![Text::styled(which, look.theme.style(Meaning::Key))]);
     }
     let mut lines = filled(slice, "  ", width);
@@ -195,10 +266,22 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
 }
 
 fn on_axes(grid: &Grid, (across, up): GridPlace) -> String {
-    let on_axis =
-        |axis: &Axis, value| format!("{} {}", axis.symbol_or_name(), format_rounded(value, 3, axis.unit));
-    let up = grid.up.as_ref().zip(up).map(|(axis, value)| on_axis(axis, value));
-    let parts: Vec<String> = [on_axis(&grid.across, across)].into_iter().chain(up).collect();
+    let on_axis = |axis: &Axis, value| {
+        format!(
+            "{} {}",
+            axis.symbol_or_name(),
+            format_rounded(value, 3, axis.unit)
+        )
+    };
+    let up = grid
+        .up
+        .as_ref()
+        .zip(up)
+        .map(|(axis, value)| on_axis(axis, value));
+    let parts: Vec<String> = [on_axis(&grid.across, across)]
+        .into_iter()
+        .chain(up)
+        .collect();
     parts.join(", ")
 }
 
@@ -206,13 +289,22 @@ fn on_axes(grid: &Grid, (across, up): GridPlace) -> String {
 /// that of the scene.
 fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
     let study = app.map.shown_study();
-    let is_of_scene = study.is_none_or(|study| study.study_map.is_of(study.slice, app.edit.document.scene()));
+    let is_of_scene = study.is_none_or(|study| {
+        study
+            .study_map
+            .is_of(study.slice, app.edit.document.scene())
+    });
     let mark = match app.place() {
         Some(place) => {
-            let outside = if grid.contains(place) { "" } else { ", outside the map" };
-            let cell = grid
-                .nearest(place)
-                .map_or_else(|| "not computed".to_owned(), |near| cell_values(app, grid, place, near));
+            let outside = if grid.contains(place) {
+                ""
+            } else {
+                ", outside the map"
+            };
+            let cell = grid.nearest(place).map_or_else(
+                || "not computed".to_owned(),
+                |near| cell_values(app, grid, place, near),
+            );
             format!("◆ {}{outside}: {cell}", on_axes(grid, place))
         }
         None => "no mark: the scene lacks a quantity of the axes".to_owned(),
@@ -229,13 +321,23 @@ fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
         _ => None,
     };
     let key = app.view.appearance.theme.style(Meaning::Key);
-    let lines = [Some(Line::raw(mark)), missing.map(|missing| Line::styled(missing, key))];
-    lines.into_iter().flatten().flat_map(|line| wrapped(&line, width)).collect()
+    let lines = [
+        Some(Line::raw(mark)),
+        missing.map(|missing| Line::styled(missing, key)),
+    ];
+    lines
+        .into_iter()
+        .flatten()
+        .flat_map(|line| wrapped(&line, width))
+        .collect()
 }
 
 fn deciding(regime: Quantity) -> [Quantity; 2] {
     let after_zero_force = usize::from(regime == Quantity::RegimeAfterZeroForce);
-    [Quantity::ADHESION_SHARES[after_zero_force], Quantity::AdhesionCoefficient]
+    [
+        Quantity::ADHESION_SHARES[after_zero_force],
+        Quantity::AdhesionCoefficient,
+    ]
 }
 
 /// Quantities that are shown together: with a regime the quantities that decide it, if there are any.
@@ -243,9 +345,16 @@ fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if !mapped.is_regime() {
         return vec![mapped];
     }
-    let both: Vec<_> = deciding(mapped).into_iter().filter(|one| grid.layer(*one).is_some()).collect();
+    let both: Vec<_> = deciding(mapped)
+        .into_iter()
+        .filter(|one| grid.layer(*one).is_some())
+        .collect();
     let first = || grid.quantities().into_iter().find(|one| !one.is_regime());
-    if both.is_empty() { vec![first().unwrap_or(mapped)] } else { both }
+    if both.is_empty() {
+        vec![first().unwrap_or(mapped)]
+    } else {
+        both
+    }
 }
 
 /// Values of the cell nearest to the mark, and its position unless the mark is there.
@@ -255,16 +364,25 @@ fn cell_values(
     mark: GridPlace,
     (cell, column, row): (&Result<GridCell, String>, usize, usize),
 ) -> String {
-    let place = (grid.across.values[column], grid.up.as_ref().map(|up| up.values[row]));
+    let place = (
+        grid.across.values[column],
+        grid.up.as_ref().map(|up| up.values[row]),
+    );
     let at = on_axes(grid, place);
-    let at = if at == on_axes(grid, mark) { String::new() } else { format!("at {at} ") };
+    let at = if at == on_axes(grid, mark) {
+        String::new()
+    } else {
+        format!("at {at} ")
+    };
     let cell = match cell {
         Ok(cell) => cell,
         Err(why) => return format!("{at}{why}"),
     };
     // Quantities of a regime are shown together, so that the map keeps its place.
     let mapped = app.mapped();
-    let regime = Quantity::REGIMES.into_iter().find(|regime| deciding(*regime).contains(&mapped));
+    let regime = Quantity::REGIMES
+        .into_iter()
+        .find(|regime| deciding(*regime).contains(&mapped));
     let mapped = regime.unwrap_or(mapped);
     let regimes = cell.regimes_of(mapped);
     let regime = regimes.most().map(|(regime, count)| {
@@ -272,17 +390,36 @@ fn cell_values(
         let share = if lines == 1 {
             String::new()
         } else {
-            format!(" ({} of {} profiles)", grouped(count as u64), grouped(lines))
+            format!(
+                " ({} of {} profiles)",
+                grouped(count as u64),
+                grouped(lines)
+            )
         };
         format!("{} {}{share}", regime.name(), mapped.protocol())
     });
     let shown = shown_quantities(mapped, grid);
-    let known = grid.layers.iter().zip(&cell.statistics).filter(|(layer, _)| shown.contains(&layer.quantity));
+    let known = grid
+        .layers
+        .iter()
+        .zip(&cell.statistics)
+        .filter(|(layer, _)| shown.contains(&layer.quantity));
     let values = known.filter_map(|(layer, all)| {
         let quantity = layer.quantity;
-        Some(format!("{} {}", name_of(grid, quantity), value((*all)?, quantity.unit())))
+        Some(format!(
+            "{} {}",
+            name_of(grid, quantity),
+            value((*all)?, quantity.unit())
+        ))
     });
-    format!("{at}{}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
+    format!(
+        "{at}{}",
+        regime
+            .into_iter()
+            .chain(values)
+            .collect::<Vec<_>>()
+            .join(", ")
+    )
 }
 
 /// A mean in words, with median and range if the profiles differ.

@@ -23,7 +23,10 @@ use asperity_plot::Figure;
 use ratatui::layout::{Position, Size};
 
 /// Size inside the frame of a pane that is exported, columns and rows.
-const EXPORTED: Size = Size { width: 120, height: 40 };
+const EXPORTED: Size = Size {
+    width: 120,
+    height: 40,
+};
 
 pub fn row(pane: Pane) -> &'static PaneRow {
     match pane {
@@ -43,7 +46,8 @@ pub fn row(pane: Pane) -> &'static PaneRow {
 pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     let mut panel = (row(pane).panel)(app, size);
     // The crosshair of profile and close-up is at a spring.
-    let is_chart = pane == app.view.pane && pane.keys() == Context::Crosshair && app.section().is_none();
+    let is_chart =
+        pane == app.view.pane && pane.keys() == Context::Crosshair && app.section().is_none();
     if let Some(position) = app.view.crosshair.filter(|_| is_chart) {
         panel.read_at(position, app.view.appearance, size.width);
     }
@@ -58,6 +62,17 @@ pub fn figure(app: &App, pane: Pane) -> Option<Figure> {
 /// Returns the pane at a cell of the screen and what it shows there.
 pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
     let layout = Layout::of(app);
-    let (pane, area) = layout.panes.into_iter().find(|(_, area)| area.contains(cell))?;
-    Some((pane, panel::under(&panel(app, pane, inside(area).as_size()), area, app.view.appearance, cell)))
+    let (pane, area) = layout
+        .panes
+        .into_iter()
+        .find(|(_, area)| area.contains(cell))?;
+    Some((
+        pane,
+        panel::under(
+            &panel(app, pane, inside(area).as_size()),
+            area,
+            app.view.appearance,
+            cell,
+        ),
+    ))
 }

@@ -21,7 +21,10 @@ use ratatui::text::{Line, Span};
 pub static ROW: PaneRow = PaneRow {
     panel,
     report: outcome,
-    help: &[("Parameters", "fields of the scene in groups; ● effect on, ○ effect off, = computed value")],
+    help: &[(
+        "Parameters",
+        "fields of the scene in groups; ● effect on, ○ effect off, = computed value",
+    )],
     ..PaneRow::EMPTY
 };
 
@@ -40,33 +43,65 @@ fn panel(app: &App, size: Size) -> Panel {
         Some(index) => explanation(app, *index),
         None => Line::styled(not_listed(app), quiet),
     };
-    let mut foot = if size.height >= 12 { derived(app, size.width) } else { Vec::new() };
-    let help_rows = if size.height >= 9 { 3 } else { u16::from(size.height >= 3) };
+    let mut foot = if size.height >= 12 {
+        derived(app, size.width)
+    } else {
+        Vec::new()
+    };
+    let help_rows = if size.height >= 9 {
+        3
+    } else {
+        u16::from(size.height >= 3)
+    };
     // Rows that the list does not need are for the explanation.
     let free = usize::from(size.height).saturating_sub(rows.len() + foot.len()) as u16;
     let help_rows = help_rows.max(free.min(MOST_EXPLAINED));
     // The list makes room for the whole reason of a refusal, and for all that was done to a measured curve.
     let is_refused = refusal(app).is_some();
-    let is_of_curve =
-        rows.get(selected).is_some_and(|index| app.edit.parameters[*index].path == reading::GROUP);
-    let help_rows = if is_refused || is_of_curve { help_rows.max(size.height / 2) } else { help_rows };
+    let is_of_curve = rows
+        .get(selected)
+        .is_some_and(|index| app.edit.parameters[*index].path == reading::GROUP);
+    let help_rows = if is_refused || is_of_curve {
+        help_rows.max(size.height / 2)
+    } else {
+        help_rows
+    };
     let mut explained = wrapped_within(&explained, size.width, help_rows);
     // The list keeps its place whatever the explanation.
     if !is_refused {
-        let kept = if is_of_curve { explained.len().max(3) } else { help_rows.into() };
+        let kept = if is_of_curve {
+            explained.len().max(3)
+        } else {
+            help_rows.into()
+        };
         explained.resize(kept, Line::default());
     }
     foot.extend(explained);
     let width = usize::from(size.width);
     let lines = rows.iter().enumerate();
-    let lines = lines.map(|(place, index)| parameter_line(app, *index, place == selected, width)).collect();
-    let body = Body::Rows { rows: lines, selected };
-    Panel { body, foot, ..Panel::of_text("Parameters".to_owned(), "") }
+    let lines = lines
+        .map(|(place, index)| parameter_line(app, *index, place == selected, width))
+        .collect();
+    let body = Body::Rows {
+        rows: lines,
+        selected,
+    };
+    Panel {
+        body,
+        foot,
+        ..Panel::of_text("Parameters".to_owned(), "")
+    }
 }
 
 /// Indices of the parameters in the list, and the row of the selected one.
 fn shown(app: &App) -> (Vec<usize>, usize) {
-    if let Some(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) = &app.prompt {
+    if let Some(Prompt {
+        purpose: Purpose::Parameter { .. },
+        found,
+        selected,
+        ..
+    }) = &app.prompt
+    {
         return (found.clone(), *selected);
     }
     ((0..app.edit.parameters.len()).collect(), app.edit.selected)
@@ -77,19 +112,32 @@ fn not_listed(app: &App) -> String {
     let none = "no parameter of this scene fits".to_owned();
     let typed = app.prompt.as_ref().map_or("", |prompt| prompt.line.text());
     let texts = |field: &Field| {
-        vec![field.symbol.to_owned(), field.path.replace(['.', '_'], " "), field.name.to_owned()]
+        vec![
+            field.symbol.to_owned(),
+            field.path.replace(['.', '_'], " "),
+            field.name.to_owned(),
+        ]
     };
-    let found = find(FIELDS.iter().map(texts), typed).first().map(|index| &FIELDS[*index]);
+    let found = find(FIELDS.iter().map(texts), typed)
+        .first()
+        .map(|index| &FIELDS[*index]);
     found.map_or(none.clone(), |field| {
-        format!("{none}; the scene file may have {}: {}", field.path, field.meaning)
+        format!(
+            "{none}; the scene file may have {}: {}",
+            field.path, field.meaning
+        )
     })
 }
 
 fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line<'static> {
     let theme = app.view.appearance.theme;
     let parameter = &app.edit.parameters[index];
-    let typed = app.prompt.as_ref().filter(|_| selected && app.is_typing_value());
-    let refused = selected && app.is_refused() || typed.is_some_and(|prompt| prompt.refused.is_some());
+    let typed = app
+        .prompt
+        .as_ref()
+        .filter(|_| selected && app.is_typing_value());
+    let refused =
+        selected && app.is_refused() || typed.is_some_and(|prompt| prompt.refused.is_some());
     let mark = match (refused, selected) {
         (true, _) => "!",
         (false, true) => "›",
@@ -110,7 +158,8 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
     };
     let least = columns(&lead) + letters + 1;
     let value = cut(&value, width.saturating_sub(least).max(width / 3));
-    let room = width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
+    let room =
+        width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
     let name = name_within(parameter, room);
     let gap = width.saturating_sub(columns(&lead) + columns(&name) + columns(&value));
     let style = match (refused, selected) {
@@ -140,26 +189,51 @@ fn lead(app: &App, parameter: &Parameter) -> String {
 
 /// The row of a value being typed: name, symbol and unit of a number as far as there is room, the typed text, and how it
 /// will be read.
-fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: usize) -> Line<'static> {
+fn editor(
+    app: &App,
+    parameter: &Parameter,
+    line: &TextLine,
+    lead: &str,
+    width: usize,
+) -> Line<'static> {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     let unit = match (parameter.field.unit, unit_of(&typed::shown(app, parameter))) {
         ("" | "1", _) => String::new(),
         (unit, "") | (_, unit) => format!(" ({unit})"),
     };
-    let named = if symbol.is_empty() { name } else { format!("{name} {symbol}") };
+    let named = if symbol.is_empty() {
+        name
+    } else {
+        format!("{name} {symbol}")
+    };
     let mark = lead.chars().next().unwrap_or(' ');
-    let labels = [format!("{lead}{named}{unit}: "), format!("{mark} {symbol}{unit}: "), format!("{mark} ")];
+    let labels = [
+        format!("{lead}{named}{unit}: "),
+        format!("{mark} {symbol}{unit}: "),
+        format!("{mark} "),
+    ];
     let theme = app.view.appearance.theme;
     let reading = typed::reading(app).map_or_else(String::new, |reading| format!("→ {reading}"));
     let mut reading = Span::styled(reading, theme.style(Meaning::Title));
     let taken = columns(line.text()) + 1 + reading.width();
     let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(taken) <= width;
-    let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
+    let label = Span::raw(
+        labels
+            .iter()
+            .find(fits)
+            .unwrap_or(&labels[labels.len() - 1])
+            .clone(),
+    );
     if label.width() + taken > width {
         reading.content = "".into();
     }
     let room = width.saturating_sub(label.width() + reading.width());
-    Line::from_iter([label].into_iter().chain(line.spans(room, theme)).chain([reading]))
+    Line::from_iter(
+        [label]
+            .into_iter()
+            .chain(line.spans(room, theme))
+            .chain([reading]),
+    )
 }
 
 /// Name and symbol within a number of columns: the name is shortened, or left out if little of it would remain.
@@ -188,17 +262,27 @@ fn cut(text: &str, room: usize) -> String {
 /// Derived values of the scene, in as many lines as needed.
 fn derived(app: &App, width: u16) -> Vec<Line<'static>> {
     let style = app.view.appearance.theme.style(Meaning::Quiet);
-    let part = |(name, value): (&str, String)| vec![Span::styled(format!("{name} = {value}"), style)];
-    filled(derived_values(app).into_iter().map(part).collect(), "  ", usize::from(width))
+    let part =
+        |(name, value): (&str, String)| vec![Span::styled(format!("{name} = {value}"), style)];
+    filled(
+        derived_values(app).into_iter().map(part).collect(),
+        "  ",
+        usize::from(width),
+    )
 }
 
 fn derived_values(app: &App) -> Vec<(&'static str, String)> {
-    let Some(computed) = &app.solved else { return Vec::new() };
+    let Some(computed) = &app.solved else {
+        return Vec::new();
+    };
     let outcome = &computed.outcome;
     let governing = app.governing().unwrap_or(outcome.governing);
     let mut values = vec![("E*", format_quantity(governing.effective_modulus, "Pa"))];
     // The amplitude of random roughness has rows of its own.
-    let is_measured = matches!(app.edit.document.scene().roughness, Some(Roughness::Measured(_)));
+    let is_measured = matches!(
+        app.edit.document.scene().roughness,
+        Some(Roughness::Measured(_))
+    );
     if let Some(amplitude) = governing.amplitude.filter(|_| is_measured) {
         values.push(("h", format_quantity(amplitude.rms_height, "m")));
         values.push(("⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1")));
@@ -217,16 +301,26 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
 fn refusal(app: &App) -> Option<&String> {
     match &app.message {
         Some(Message::Refused(why)) => Some(why),
-        _ => app.prompt.as_ref().filter(|_| app.is_typing_value())?.refused.as_ref(),
+        _ => app
+            .prompt
+            .as_ref()
+            .filter(|_| app.is_typing_value())?
+            .refused
+            .as_ref(),
     }
 }
 
 /// Explanation of the selected parameter: why its value is refused, or its meaning and allowed range.
 fn explanation(app: &App, index: usize) -> Line<'static> {
     if let Some(error) = refusal(app) {
-        return Line::styled(format!("! {error}"), app.view.appearance.theme.style(Meaning::Error));
+        return Line::styled(
+            format!("! {error}"),
+            app.view.appearance.theme.style(Meaning::Error),
+        );
     }
-    let Some(parameter) = app.edit.parameters.get(index) else { return Line::default() };
+    let Some(parameter) = app.edit.parameters.get(index) else {
+        return Line::default();
+    };
     let text = match parameter.setting {
         _ if parameter.path == "loading" => format!(
             "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number without a unit is a force in N",
@@ -235,12 +329,19 @@ fn explanation(app: &App, index: usize) -> Line<'static> {
         Setting::Heading if parameter.path == reading::GROUP => statements(app),
         Setting::Heading => parameter.field.meaning.to_owned(),
         Setting::Reading(index) => reading::OPTIONS[index].explanation(),
-        _ => format!("{}. Allowed: {}", parameter.field.meaning, parameter.field.allowed()),
+        _ => format!(
+            "{}. Allowed: {}",
+            parameter.field.meaning,
+            parameter.field.allowed()
+        ),
     };
     Line::styled(text, app.view.appearance.theme.style(Meaning::Quiet))
 }
 
 /// What was done to the measured curve when it was read.
 fn statements(app: &App) -> String {
-    app.edit.measured.as_ref().map_or_else(String::new, |measured| measured.curve.statements.join(" "))
+    app.edit
+        .measured
+        .as_ref()
+        .map_or_else(String::new, |measured| measured.curve.statements.join(" "))
 }

@@ -23,7 +23,10 @@ pub static ROW: PaneRow = PaneRow {
     },
     report,
     studies: |app, computed| {
-        let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
+        let (begun, computed) = (
+            app.studies.value::<PreloadCurve>().cloned(),
+            Arc::clone(computed),
+        );
         let scale = app.view.preloads;
         let key = format!("{} {scale:?}", computed.generation);
         vec![Study::new(key, false, move |simulation, stop, report| {
@@ -52,12 +55,28 @@ fn report(app: &App) -> Exported<'_> {
     let curve = app.studies.value::<PreloadCurve>()?;
     let (axis, lines) = (&curve.axis, curve.results.plan().lines);
     let (from, to) = (axis.values.first()?, axis.values.last()?);
-    let scale = if axis.scale() == AxisScale::Logarithmic { ":log" } else { "" };
-    let lines = if lines > 1 { format!(" --profiles {lines}") } else { String::new() };
-    let command = format!("asperity run --preloads={from:?}..{to:?}:{}{scale}{lines} --curves", axis.count());
+    let scale = if axis.scale() == AxisScale::Logarithmic {
+        ":log"
+    } else {
+        ""
+    };
+    let lines = if lines > 1 {
+        format!(" --profiles {lines}")
+    } else {
+        String::new()
+    };
+    let command = format!(
+        "asperity run --preloads={from:?}..{to:?}:{}{scale}{lines} --curves",
+        axis.count()
+    );
     let (title, results) = (app.edit.document.title(), &curve.results);
-    let report =
-        PreloadReport { title, choice: None, results, staircase: Some(&curve.staircase), curves: true };
+    let report = PreloadReport {
+        title,
+        choice: None,
+        results,
+        staircase: Some(&curve.staircase),
+        curves: true,
+    };
     Some((command.into(), Box::new(report)))
 }
 
@@ -66,7 +85,9 @@ fn panel(app: &App, size: Size) -> Panel {
     let Some(curve) = app.studies.value::<PreloadCurve>() else {
         return Panel::of_text(
             name.to_owned(),
-            app.studies.failure::<PreloadCurve>().unwrap_or("computing …"),
+            app.studies
+                .failure::<PreloadCurve>()
+                .unwrap_or("computing …"),
         );
     };
     let look = app.view.appearance;
@@ -74,12 +95,24 @@ fn panel(app: &App, size: Size) -> Panel {
     let chart = chart.with_symbols();
     let title = format!("{name} {}", chart.y.symbol_with_unit());
     let is_begun = !curve.is_whole() && curve.profiles() >= 1;
-    let progress = is_begun
-        .then(|| vec![Text::raw(format!("{} of {} profiles", curve.profiles(), PreloadCurve::PROFILES))]);
+    let progress = is_begun.then(|| {
+        vec![Text::raw(format!(
+            "{} of {} profiles",
+            curve.profiles(),
+            PreloadCurve::PROFILES
+        ))]
+    });
     let warning = warning(&curve.results.spread_of_adhesion()).unwrap_or_default();
-    let foot = wrapped(&Line::styled(warning, look.theme.style(Meaning::Key)), size.width);
+    let foot = wrapped(
+        &Line::styled(warning, look.theme.style(Meaning::Key)),
+        size.width,
+    );
     let edge = progress.into_iter().collect();
-    let mut panel = Panel { edge, foot, ..Panel::of_chart(title, chart) };
+    let mut panel = Panel {
+        edge,
+        foot,
+        ..Panel::of_chart(title, chart)
+    };
     if let Body::Chart(plot) = &mut panel.body {
         plot.beside = beside.map(Chart::with_symbols);
     }
@@ -90,18 +123,30 @@ fn panel(app: &App, size: Size) -> Panel {
 /// the scene.
 fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
     let ideal = app.ideal_adhesion_force().filter(|_| app.is_normalised());
-    let mut chart = preload_chart(&curve.staircase, &curve.results.spread_of_adhesion(), ideal.is_none());
+    let mut chart = preload_chart(
+        &curve.staircase,
+        &curve.results.spread_of_adhesion(),
+        ideal.is_none(),
+    );
     let figures = app.current().map(|one| one.outcome.figures);
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
         let shape = Shape::signs(vec![(preload, force)], Sign::Diamond);
-        chart.layers.push(Layer::new("present preload".into(), Ink::Cursor, shape));
+        chart
+            .layers
+            .push(Layer::new("present preload".into(), Ink::Cursor, shape));
     }
     let x = &chart.x;
     // At the same place whatever the unit.
-    let crosshair = app.view.crosshair.map(|share| x.scale.number(x.span.low + share * x.span.width()));
+    let crosshair = app
+        .view
+        .crosshair
+        .map(|share| x.scale.number(x.span.low + share * x.span.width()));
     let read = crosshair.or(present.map(|(preload, _)| preload));
     let beside = read.and_then(|preload| distribution(&curve.results, preload, Some(&chart.y)));
     let unit = ideal.map(|ideal| (ideal, "F_a,max"));
-    (chart.over(unit, unit), beside.map(|beside| beside.over(None, unit)))
+    (
+        chart.over(unit, unit),
+        beside.map(|beside| beside.over(None, unit)),
+    )
 }

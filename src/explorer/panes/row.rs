@@ -32,7 +32,12 @@ impl PaneRow {
     /// Properties of a pane without content, as defaults.
     pub const EMPTY: PaneRow = PaneRow {
         panel: |_, _| Panel::of_text(String::new(), ""),
-        figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
+        figure: |app, panel| {
+            Some(Figure::of_chart(
+                app.edit.document.title(),
+                panel.chart()?.clone(),
+            ))
+        },
         report: |_| None,
         studies: |_, _| Vec::new(),
         help: &[],
@@ -46,8 +51,22 @@ pub const OPEN_COMMAND: &str = "asperity";
 /// Report of the pane's result: the path of manual loading, or else the outcome of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
-    if let Some(ManualState { loading, path, stages, .. }) = &app.manual {
-        return Some((OPEN_COMMAND.into(), Box::new(PathReport { scene, loading, path, stages })));
+    if let Some(ManualState {
+        loading,
+        path,
+        stages,
+        ..
+    }) = &app.manual
+    {
+        return Some((
+            OPEN_COMMAND.into(),
+            Box::new(PathReport {
+                scene,
+                loading,
+                path,
+                stages,
+            }),
+        ));
     }
     let outcome = &app.current()?.outcome;
     let report = RunReport {
@@ -57,7 +76,10 @@ pub fn outcome(app: &App) -> Exported<'_> {
         choice: None,
         estimate: app.studies.value(),
         ensemble: app.studies.value(),
-        deviation: app.studies.value::<MeasuredAdhesion>().and_then(MeasuredAdhesion::fit_deviation),
+        deviation: app
+            .studies
+            .value::<MeasuredAdhesion>()
+            .and_then(MeasuredAdhesion::fit_deviation),
     };
     Some(("asperity run".into(), Box::new(report)))
 }

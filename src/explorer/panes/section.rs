@@ -27,9 +27,14 @@ pub fn panel(
         surface.shape = Shape::line(surface.shape.points(), Stroke::Dotted);
     }
     if let Some(probe) = snapshot.probe {
-        let lines = [Shape::Upright(position(snapshot.line, probe.spring)), Shape::Level(probe.height)];
+        let lines = [
+            Shape::Upright(position(snapshot.line, probe.spring)),
+            Shape::Level(probe.height),
+        ];
         // Below the curves, which remain complete.
-        chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+        chart
+            .layers
+            .splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
     }
     let title = format!("{title} {}", chart.y.symbol_with_unit());
     let mut panel = Panel::of_chart(title, chart);
@@ -47,7 +52,11 @@ pub fn of_springs(
     z: Span,
     part: fn(usize, usize) -> LinePart,
 ) -> Option<Chart> {
-    Some(snapshot.section(part(section.first, section.springs))?.chart(snapshot.line, z))
+    Some(
+        snapshot
+            .section(part(section.first, section.springs))?
+            .chart(snapshot.line, z),
+    )
 }
 
 /// Figure of a chart of springs, with indentation and force.
@@ -55,12 +64,21 @@ pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     let point = &snapshot.point;
     let force = value_label("", "F", "N", app.without_rounding(point.force)).then(", ");
     let notes = vec![force.join(&value_label("", "d", "m", point.indentation))];
-    Figure { notes, size: Figure::LOW, ..Figure::of_chart(app.edit.document.title(), chart) }
+    Figure {
+        notes,
+        size: Figure::LOW,
+        ..Figure::of_chart(app.edit.document.title(), chart)
+    }
 }
 
 /// Table of the curves in a chart of springs; `None` while the scene is not computed.
 pub fn table(app: &App, chart: Chart) -> Exported<'static> {
-    app.is_current().then(|| (OPEN_COMMAND.into(), Box::new(Figure::of_chart("", chart)) as Box<dyn Report>))
+    app.is_current().then(|| {
+        (
+            OPEN_COMMAND.into(),
+            Box::new(Figure::of_chart("", chart)) as Box<dyn Report>,
+        )
+    })
 }
 
 /// Range of heights, m: the profile, and over the whole loop the surface, unless it is far above.
@@ -68,9 +86,17 @@ pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     let (low, high) = snapshot.profile.heights;
     let far = high + 0.5 * (high - low);
     let now = snapshot.point.indentation;
-    let indentations = app.indentations().map_or([now; 2], |(low, high)| [low, high]);
+    let indentations = app
+        .indentations()
+        .map_or([now; 2], |(low, high)| [low, high]);
     let level = |indentation: f64| (snapshot.profile.level + now - indentation).min(far);
-    let ends = [low, high, level(now), level(indentations[0]), level(indentations[1])];
+    let ends = [
+        low,
+        high,
+        level(now),
+        level(indentations[0]),
+        level(indentations[1]),
+    ];
     Span::around(ends.into_iter(), 0.05)
 }
 
@@ -81,7 +107,9 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
 
 /// Readings of the crosshair: position, height, and gap or stretch of the spring.
 fn reading(snapshot: &ContactSnapshot, look: Appearance) -> Vec<Part> {
-    let Some(probe) = snapshot.probe else { return Vec::new() };
+    let Some(probe) = snapshot.probe else {
+        return Vec::new();
+    };
     let length = |value: f64| format_quantity(value, "m");
     let part = |text: String| vec![Text::styled(text, look.theme.style(Meaning::Cursor))];
     let distance = probe.level - probe.height;
@@ -90,10 +118,16 @@ fn reading(snapshot: &ContactSnapshot, look: Appearance) -> Vec<Part> {
         Some(_) if distance > 0.0 => format!("stretched {}", length(distance)),
         Some(_) => format!("compressed {}", length(-distance)),
     };
-    let patch = probe.patch.map(|number| format!("patch {} of {}", number + 1, snapshot.point.fragments));
+    let patch = probe
+        .patch
+        .map(|number| format!("patch {} of {}", number + 1, snapshot.point.fragments));
     let at = [
         format!("x {}", length(position(snapshot.line, probe.spring))),
         format!("z {}", length(probe.height)),
     ];
-    at.into_iter().chain([state]).chain(patch).map(part).collect()
+    at.into_iter()
+        .chain([state])
+        .chain(patch)
+        .map(part)
+        .collect()
 }

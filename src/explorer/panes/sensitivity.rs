@@ -19,18 +19,26 @@ const BESIDE: u16 = 5;
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| {
-        let found = app.studies.value::<Sensitivity>().filter(|found| found.missing().is_none())?;
+        let found = app
+            .studies
+            .value::<Sensitivity>()
+            .filter(|found| found.missing().is_none())?;
         let chart = sensitivity_chart(found, 0, found.influences.len());
         Some(Figure::of_chart(app.edit.document.title(), chart))
     },
     report,
     studies: |_, computed| {
         let scene = Arc::clone(&computed.scene);
-        vec![Study::new(computed.generation, false, move |simulation, stop, report| {
-            let simulation = (std::mem::take(simulation), threads());
-            let found = Sensitivity::of(&scene, simulation, stop, &mut |part| report(part.clone()));
-            found.map_err(|error| error.to_string())
-        })]
+        vec![Study::new(
+            computed.generation,
+            false,
+            move |simulation, stop, report| {
+                let simulation = (std::mem::take(simulation), threads());
+                let found =
+                    Sensitivity::of(&scene, simulation, stop, &mut |part| report(part.clone()));
+                found.map_err(|error| error.to_string())
+            },
+        )]
     },
     help: &[(
         "Sensitivity",
@@ -41,16 +49,31 @@ pub static ROW: PaneRow = PaneRow {
 
 fn report(app: &App) -> Exported<'_> {
     let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
-    let sensitivity = app.studies.value().filter(|_| app.studies.is_done::<Sensitivity>())?;
-    let warnings = app.current().map_or(&[][..], |computed| &computed.outcome.warnings);
-    let report = SensitivityReport { title, scene, sensitivity, warnings };
+    let sensitivity = app
+        .studies
+        .value()
+        .filter(|_| app.studies.is_done::<Sensitivity>())?;
+    let warnings = app
+        .current()
+        .map_or(&[][..], |computed| &computed.outcome.warnings);
+    let report = SensitivityReport {
+        title,
+        scene,
+        sensitivity,
+        warnings,
+    };
     Some(("asperity sensitivity".into(), Box::new(report)))
 }
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Sensitivity: each number ±10 %".to_owned();
     let Some(found) = app.studies.value::<Sensitivity>() else {
-        return Panel::of_text(title, app.studies.failure::<Sensitivity>().unwrap_or("computing …"));
+        return Panel::of_text(
+            title,
+            app.studies
+                .failure::<Sensitivity>()
+                .unwrap_or("computing …"),
+        );
     };
     if let Some(missing) = found.missing() {
         return Panel::of_text(title, missing);
@@ -59,20 +82,38 @@ fn panel(app: &App, size: Size) -> Panel {
     let most = (bars / 2).saturating_sub(found.range.iter().len()).max(1);
     let mut rows = sensitivity_table(found, most);
     let present = rows.remove(1);
-    let fits = |labels: &Vec<String>| labels[0].chars().count() + 2 <= usize::from(3 * size.width / 4);
-    let labels = (1..=3).rev().map(|results| labels(&rows, results)).find(fits);
+    let fits =
+        |labels: &Vec<String>| labels[0].chars().count() + 2 <= usize::from(3 * size.width / 4);
+    let labels = (1..=3)
+        .rev()
+        .map(|results| labels(&rows, results))
+        .find(fits);
     let mut chart = sensitivity_chart(found, 0, most);
-    let present = [3, 5, 6].map(|result| vec![Span::raw(format!("{} {}", rows[0][result], present[result]))]);
+    let present = [3, 5, 6].map(|result| {
+        vec![Span::raw(format!(
+            "{} {}",
+            rows[0][result], present[result]
+        ))]
+    });
     let mut head = filled(present.to_vec(), "  ", size.width.into());
     if let Some(labels) = labels {
         head.push(Line::raw(labels[0].clone()));
-        chart.y.names = labels[1..].iter().rev().map(|label| Label::plain(label)).collect();
+        chart.y.names = labels[1..]
+            .iter()
+            .rev()
+            .map(|label| Label::plain(label))
+            .collect();
     }
     // A row of the screen for each bar.
     chart.y.span.low -= bars.saturating_sub(chart.y.names.len()) as f64;
     let hidden = found.influences.len().saturating_sub(most);
-    let edge = (hidden > 0).then(|| vec![Span::raw(format!("and {hidden} numbers of less influence"))]);
-    Panel { head, edge: edge.into_iter().collect(), ..Panel::of_chart(title, chart) }
+    let edge =
+        (hidden > 0).then(|| vec![Span::raw(format!("and {hidden} numbers of less influence"))]);
+    Panel {
+        head,
+        edge: edge.into_iter().collect(),
+        ..Panel::of_chart(title, chart)
+    }
 }
 
 /// Rows of the table, padded to one width: name, change of the number, and changes of the first `results` results.

@@ -42,19 +42,40 @@ fn panel(app: &App, size: Size) -> Panel {
     let shown = app.studies.value::<SceneSpectra>();
     let quiet = app.view.appearance.theme.style(Meaning::Quiet);
     let words = words(app, shown).into_iter();
-    let words = words.flat_map(|text| wrapped(&Line::styled(text, quiet), size.width)).collect();
-    let chart = shown.map(|shown| shown.spectra.chart()).filter(|chart| !chart.layers.is_empty());
-    let Some(mut chart) = chart else { return Panel { head: words, ..Panel::of_text(title, "") } };
+    let words = words
+        .flat_map(|text| wrapped(&Line::styled(text, quiet), size.width))
+        .collect();
+    let chart = shown
+        .map(|shown| shown.spectra.chart())
+        .filter(|chart| !chart.layers.is_empty());
+    let Some(mut chart) = chart else {
+        return Panel {
+            head: words,
+            ..Panel::of_text(title, "")
+        };
+    };
     chart.y.name.clear();
     let title = format!("{title} {}, log–log", chart.y.symbol_with_unit());
-    Panel { foot: words, ..Panel::of_chart(title, chart) }
+    Panel {
+        foot: words,
+        ..Panel::of_chart(title, chart)
+    }
 }
 
 /// Text below the chart: moments with their errors, or the reason why there is no chart.
 fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     let Some(shown) = shown else {
-        let text = if app.is_current() { "the spectrum is being computed" } else { "no spectrum yet" };
-        return vec![app.studies.failure::<SceneSpectra>().unwrap_or(text).to_owned()];
+        let text = if app.is_current() {
+            "the spectrum is being computed"
+        } else {
+            "no spectrum yet"
+        };
+        return vec![
+            app.studies
+                .failure::<SceneSpectra>()
+                .unwrap_or(text)
+                .to_owned(),
+        ];
     };
     let mut words: Vec<String> = shown.missing.clone().into_iter().collect();
     let governing = app.governing();
@@ -66,12 +87,16 @@ fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
         ];
         if let Some(kappa) = governing.kappa {
             // κ² is proportional to h⟨∇z⟩.
-            let error = per_cent(0.5 * moments.height_gradient.error / moments.height_gradient.value);
+            let error =
+                per_cent(0.5 * moments.height_gradient.error / moments.height_gradient.value);
             parts.push(format!("κ = {} ± {error}", format_quantity(kappa, "1")));
         }
         if let Some(ratio) = governing.elastic_energy_ratio {
             let error = percent(moments.energy_per_modulus);
-            parts.push(format!("e_el/γ = {} ± {error}", format_quantity(ratio, "1")));
+            parts.push(format!(
+                "e_el/γ = {} ± {error}",
+                format_quantity(ratio, "1")
+            ));
         }
         words.push(parts.join(" · "));
     }
@@ -97,7 +122,9 @@ fn adhesion(app: &App) -> Option<String> {
         PROFILES => String::new(),
         count => format!(" · {count} of {PROFILES} profiles"),
     };
-    let force = found.and_then(measured_adhesion_text).unwrap_or_else(|| "profiles: …".to_owned());
+    let force = found
+        .and_then(measured_adhesion_text)
+        .unwrap_or_else(|| "profiles: …".to_owned());
     Some(format!("F_a of {force}{goes_on}"))
 }
 
@@ -112,7 +139,11 @@ fn is_sampled(scene: &Scene) -> bool {
 
 /// Computes the adhesion force of the random profiles that are not computed yet.
 fn profiles(app: &App, computed: &SolvedScene) -> Study {
-    let mut found = app.studies.value::<MeasuredAdhesion>().cloned().unwrap_or_default();
+    let mut found = app
+        .studies
+        .value::<MeasuredAdhesion>()
+        .cloned()
+        .unwrap_or_default();
     let scene = Arc::clone(&computed.scene);
     Study::new(computed.generation, false, move |_, stop, report| {
         let mut solve = || -> Result<(), RunError> {
@@ -121,7 +152,9 @@ fn profiles(app: &App, computed: &SolvedScene) -> Study {
             let first = scene.seed().unwrap_or(0);
             while found.profiles.len() < PROFILES {
                 let seed = first.wrapping_add(found.profiles.len() as u64);
-                found.profiles.push(ProfileAdhesion::solve(&scene, &line, seed, stop)?);
+                found
+                    .profiles
+                    .push(ProfileAdhesion::solve(&scene, &line, seed, stop)?);
                 report(found.clone());
             }
             Ok(())

@@ -50,20 +50,33 @@ fn study(computed: &SolvedScene) -> Study {
         let mut costs = Costs::default();
         let measured = measure(&scene, Path::new(""), BUDGET, stop, &mut |progress| {
             match progress {
-                Progress::Trying(knob, setting) => costs.trying = Some(format!("{}: {setting}", knob.name())),
+                Progress::Trying(knob, setting) => {
+                    costs.trying = Some(format!("{}: {setting}", knob.name()))
+                }
                 Progress::Rows(table) => costs.table = Some(table.clone()),
             }
             report(costs.clone());
         });
-        Ok(Costs { table: Some(measured?), trying: None })
+        Ok(Costs {
+            table: Some(measured?),
+            trying: None,
+        })
     })
 }
 
 fn report(app: &App) -> Exported<'_> {
-    let (document, table) = (&app.edit.document, app.studies.value::<Costs>()?.table.as_ref()?);
+    let (document, table) = (
+        &app.edit.document,
+        app.studies.value::<Costs>()?.table.as_ref()?,
+    );
     Some((
         "asperity cost".into(),
-        Box::new(CostReport::new(document.title(), document.scene(), table, reference(app))),
+        Box::new(CostReport::new(
+            document.title(),
+            document.scene(),
+            table,
+            reference(app),
+        )),
     ))
 }
 
@@ -85,11 +98,19 @@ fn panel(app: &App, size: Size) -> Panel {
     let theme = app.view.appearance.theme;
     let style = theme.style(Meaning::Error);
     let warnings = app.warnings().into_iter();
-    let head: Vec<_> = warnings.flat_map(|text| wrapped(&Line::styled(text, style), size.width)).collect();
+    let head: Vec<_> = warnings
+        .flat_map(|text| wrapped(&Line::styled(text, style), size.width))
+        .collect();
     let room = usize::from(size.height).saturating_sub(head.len());
-    let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
+    let table = app
+        .studies
+        .value::<Costs>()
+        .and_then(|costs| costs.table.as_ref());
     let cost = filled(sentence(app, table), "  ", size.width.into());
-    let words = Words { cost, ..words(app, size.width) };
+    let words = Words {
+        cost,
+        ..words(app, size.width)
+    };
     let chart = table.and_then(|table| {
         let chart = work_precision("", table, reference(app)).charts.pop()?;
         (!chart.layers.is_empty()).then(|| with_scene(chart, app, table))
@@ -99,17 +120,33 @@ fn panel(app: &App, size: Size) -> Panel {
         let nothing = nothing_yet(app);
         let body = wrapped(&Line::raw(nothing.clone()), size.width).len();
         let foot = words.within(room.saturating_sub(body), app);
-        return Panel { head, foot, ..Panel::of_text(title, &nothing) };
+        return Panel {
+            head,
+            foot,
+            ..Panel::of_text(title, &nothing)
+        };
     };
-    let legend = filled(entries(&chart, app.view.appearance), "  ", size.width.into());
+    let legend = filled(
+        entries(&chart, app.view.appearance),
+        "  ",
+        size.width.into(),
+    );
     let beside_chart = room.saturating_sub(LEAST_CHART + legend.len());
     // In a small window other theories are left out before the chart, and the chart before the errors.
     if beside_chart < words.cost.len() + words.errors.len() + 1 && beside_chart < words.count() {
         let title = "Trust: errors of F_a; the chart needs more rows".to_owned();
-        return Panel { head, foot: words.within(room, app), ..Panel::of_text(title, "") };
+        return Panel {
+            head,
+            foot: words.within(room, app),
+            ..Panel::of_text(title, "")
+        };
     }
     let title = "Trust: relative error over time, log–log".to_owned();
-    Panel { head, foot: words.within(beside_chart, app), ..Panel::of_chart(title, chart) }
+    Panel {
+        head,
+        foot: words.within(beside_chart, app),
+        ..Panel::of_chart(title, chart)
+    }
 }
 
 /// The words beside the chart, the most important first.
@@ -137,7 +174,10 @@ impl Words {
             lines.truncate(shown);
             let way = if app.view.zoomed { "" } else { "z or " };
             let note = format!("… {left_out} more rows: {way}a larger window");
-            lines.push(Line::styled(note, app.view.appearance.theme.style(Meaning::Quiet)));
+            lines.push(Line::styled(
+                note,
+                app.view.appearance.theme.style(Meaning::Quiet),
+            ));
             lines.truncate(rows);
         }
         lines
@@ -146,25 +186,45 @@ impl Words {
 
 /// Errors of the adhesion force by their sources, and the criteria of other theories.
 fn words(app: &App, width: u16) -> Words {
-    let Some(computed) = app.current() else { return Words::default() };
+    let Some(computed) = app.current() else {
+        return Words::default();
+    };
     let (scene, outcome) = (&computed.scene, &computed.outcome);
-    let (estimate, ensemble) = (app.studies.value::<Estimate>(), app.studies.value::<Ensemble>());
-    let deviation = app.studies.value::<MeasuredAdhesion>().and_then(MeasuredAdhesion::fit_deviation);
-    let budget = Budget::of(outcome, estimate, ensemble, deviation).map(|budget| match reference(app) {
-        Some(reference) => budget.with_model(reference.budget.model),
-        None => budget,
-    });
+    let (estimate, ensemble) = (
+        app.studies.value::<Estimate>(),
+        app.studies.value::<Ensemble>(),
+    );
+    let deviation = app
+        .studies
+        .value::<MeasuredAdhesion>()
+        .and_then(MeasuredAdhesion::fit_deviation);
+    let budget =
+        Budget::of(outcome, estimate, ensemble, deviation).map(|budget| match reference(app) {
+            Some(reference) => budget.with_model(reference.budget.model),
+            None => budget,
+        });
     let mut errors = budget.map_or_else(Vec::new, |budget| {
         error_rows(scene, outcome, estimate, &budget, ensemble, reference(app))
     });
     let first = errors.len().min(1);
     errors.rotate_right(first);
     let theories = theory_rows(scene, outcome, ensemble);
-    let names = errors.iter().chain(&theories).map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let names = errors
+        .iter()
+        .chain(&theories)
+        .map(|(name, _)| name.chars().count())
+        .max()
+        .unwrap_or(0);
     let title = app.view.appearance.theme.style(Meaning::Title);
     let lines = |(name, words): (&str, String)| {
         let words = wrapped(&Line::raw(words), width.saturating_sub(names as u16 + 2));
-        let name = |number| if number == 0 { name.to_owned() } else { String::new() };
+        let name = |number| {
+            if number == 0 {
+                name.to_owned()
+            } else {
+                String::new()
+            }
+        };
         let line = move |(number, words): (usize, Line<'static>)| {
             let name = Text::styled(format!("{:names$}  ", name(number)), title);
             Line::from_iter([name].into_iter().chain(words.spans))
@@ -184,7 +244,8 @@ fn nothing_yet(app: &App) -> String {
         _ if !app.is_current() => "the scene has no curve to estimate an error of".to_owned(),
         Some(why) => format!("nothing is measured: {why}"),
         None if app.studies.is_done::<Costs>() => {
-            "nothing to show: no force in this scene whose error depends on springs or steps".to_owned()
+            "nothing to show: no force in this scene whose error depends on springs or steps"
+                .to_owned()
         }
         None if !app.view.shows_times => {
             "times are not measured here: they differ from run to run".to_owned()
@@ -196,11 +257,16 @@ fn nothing_yet(app: &App) -> String {
 /// The chart with the target errors and the scene itself, and errors down to the smallest one of interest.
 fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     let Span { low, high } = chart.y.span;
-    chart.y.span = Span { low: low.max(LOWEST.log10()).min(high - 1.0), high };
+    chart.y.span = Span {
+        low: low.max(LOWEST.log10()).min(high - 1.0),
+        high,
+    };
     let lowest = 10_f64.powf(chart.y.span.low);
     for layer in &mut chart.layers {
         if let Shape::Curve { points, .. } = &mut layer.shape {
-            points.iter_mut().for_each(|point| point.1 = point.1.max(lowest));
+            points
+                .iter_mut()
+                .for_each(|point| point.1 = point.1.max(lowest));
         }
     }
     let targets = TARGETS.map(|target| Layer::unnamed(Ink::Quiet, Shape::Level(target)));
@@ -208,7 +274,9 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     if let Some((seconds, error)) = table.between_rows(&app.edit.document.scene().numerics) {
         let points = vec![(seconds, error.max(lowest))];
         let shape = Shape::signs(points, Sign::Diamond);
-        chart.layers.push(Layer::new("this scene".into(), Ink::Cursor, shape));
+        chart
+            .layers
+            .push(Layer::new("this scene".into(), Ink::Cursor, shape));
     }
     chart
 }
@@ -221,17 +289,25 @@ fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
         let error = match app.studies.value::<Estimate>() {
             None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
             None => "error …".to_owned(),
-            Some(Estimate { near_step: true, .. }) => "near a step of F_a(F_n)".to_owned(),
+            Some(Estimate {
+                near_step: true, ..
+            }) => "near a step of F_a(F_n)".to_owned(),
             Some(estimate) => format!("error {}", per_cent(estimate.error)),
         };
-        let present = table.and_then(|table| table.between_rows(&app.edit.document.scene().numerics));
-        let time = present.map_or_else(String::new, |(seconds, _)| format!(" in {}", time_of(seconds)));
+        let present =
+            table.and_then(|table| table.between_rows(&app.edit.document.scene().numerics));
+        let time = present.map_or_else(String::new, |(seconds, _)| {
+            format!(" in {}", time_of(seconds))
+        });
         let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
         let over_loads = table.filter(|table| table.is_over_loads(app.edit.document.scene()));
         match present.filter(|_| over_loads.is_some()) {
             Some((_, largest)) => {
                 let largest = per_cent(largest);
-                parts.push(vec![sign, Text::raw(format!("{largest}{time}, at half to twice the load"))]);
+                parts.push(vec![
+                    sign,
+                    Text::raw(format!("{largest}{time}, at half to twice the load")),
+                ]);
                 let own = error.strip_prefix("error ").unwrap_or(&error);
                 parts.push(vec![Text::raw(format!("at this load: {own}"))]);
             }
@@ -239,14 +315,29 @@ fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
         }
     }
     let answers = table.into_iter().flat_map(|table| {
-        TARGETS.map(|target| Some((target, answer(table, target, app.studies.is_done::<Costs>())?)))
+        TARGETS.map(|target| {
+            Some((
+                target,
+                answer(table, target, app.studies.is_done::<Costs>())?,
+            ))
+        })
     });
     parts.extend(answers.flatten().map(|(target, answer)| {
-        let target = Text::styled(format!("{} %: ", 100.0 * target), theme.style(Meaning::Title));
+        let target = Text::styled(
+            format!("{} %: ", 100.0 * target),
+            theme.style(Meaning::Title),
+        );
         vec![target, Text::raw(answer)]
     }));
-    if let Some(Costs { trying: Some(trying), .. }) = app.studies.value() {
-        parts.push(vec![Text::styled(format!("trying {trying}…"), theme.style(Meaning::Key))]);
+    if let Some(Costs {
+        trying: Some(trying),
+        ..
+    }) = app.studies.value()
+    {
+        parts.push(vec![Text::styled(
+            format!("trying {trying}…"),
+            theme.style(Meaning::Key),
+        )]);
     }
     parts
 }
@@ -257,12 +348,24 @@ fn time_of(seconds: f64) -> String {
 
 /// Springs and time of the fastest setting with an error within a bound; `None` while there is none yet.
 fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
-    let rows = [Knob::SubCellSprings, Knob::GridSprings].map(|knob| table.first_row_within(knob, bound));
-    let timed = rows.into_iter().flatten().filter_map(|row| Some((row.seconds?.minimum, row)));
+    let rows =
+        [Knob::SubCellSprings, Knob::GridSprings].map(|knob| table.first_row_within(knob, bound));
+    let timed = rows
+        .into_iter()
+        .flatten()
+        .filter_map(|row| Some((row.seconds?.minimum, row)));
     match timed.min_by(|one, other| one.0.total_cmp(&other.0)) {
         Some((seconds, row)) => {
-            let whole = if row.knob == Knob::GridSprings { "whole " } else { "" };
-            Some(format!("{} {whole}springs, {}", grouped(row.springs), time_of(seconds)))
+            let whole = if row.knob == Knob::GridSprings {
+                "whole "
+            } else {
+                ""
+            };
+            Some(format!(
+                "{} {whole}springs, {}",
+                grouped(row.springs),
+                time_of(seconds)
+            ))
         }
         None => is_finished.then(|| "not reached".to_owned()),
     }

@@ -20,13 +20,23 @@ const INDENT: usize = 4;
 const WITH_SCENE: u16 = 62;
 
 /// Panel of a list of this name and length with these rows; `none` is its text without rows.
-fn list(prompt: &Prompt, (name, length, none): (&str, usize, &str), (rows, selected): Rows) -> Panel {
-    let corrected = prompt.corrected.as_ref().map_or_else(String::new, |other| format!(", for {other}"));
+fn list(
+    prompt: &Prompt,
+    (name, length, none): (&str, usize, &str),
+    (rows, selected): Rows,
+) -> Panel {
+    let corrected = prompt
+        .corrected
+        .as_ref()
+        .map_or_else(String::new, |other| format!(", for {other}"));
     let title = format!("{name}, {} of {length}{corrected}", prompt.found.len());
     if rows.is_empty() {
         return Panel::of_text(title, none);
     }
-    Panel { body: Body::Rows { rows, selected }, ..Panel::of_text(title, "") }
+    Panel {
+        body: Body::Rows { rows, selected },
+        ..Panel::of_text(title, "")
+    }
 }
 
 /// Lines of a list, and the index of the selected line.
@@ -43,7 +53,12 @@ pub fn draw_topics(
 ) {
     let (theme, width) = (look.theme, inside(area).width);
     let (mut rows, mut selected, mut section) = (Vec::new(), 0, "");
-    for (place, topic) in prompt.found.iter().filter_map(|index| topics.get(*index)).enumerate() {
+    for (place, topic) in prompt
+        .found
+        .iter()
+        .filter_map(|index| topics.get(*index))
+        .enumerate()
+    {
         if topic.section != section && prompt.line.text().is_empty() {
             section = topic.section;
             rows.push(Line::styled(section, theme.style(Meaning::Title)));
@@ -55,7 +70,11 @@ pub fn draw_topics(
         entry(&mut rows, topic, is_selected, width, theme);
     }
     panel::draw(
-        &list(prompt, (name, topics.len(), "nothing fits"), (rows, selected)),
+        &list(
+            prompt,
+            (name, topics.len(), "nothing fits"),
+            (rows, selected),
+        ),
         area,
         false,
         look,
@@ -64,7 +83,13 @@ pub fn draw_topics(
 }
 
 /// Adds the name and the text of a topic, in as many lines as needed.
-fn entry(rows: &mut Vec<Line<'static>>, topic: &Topic, is_selected: bool, width: u16, theme: Theme) {
+fn entry(
+    rows: &mut Vec<Line<'static>>,
+    topic: &Topic,
+    is_selected: bool,
+    width: u16,
+    theme: Theme,
+) {
     let is_beside = width >= BESIDE_FROM && topic.name.chars().count() + 2 < NAMES;
     let indent = if width >= BESIDE_FROM { NAMES } else { INDENT };
     let name = Line::styled(
@@ -75,8 +100,15 @@ fn entry(rows: &mut Vec<Line<'static>>, topic: &Topic, is_selected: bool, width:
     if !is_beside {
         rows.extend(name.take());
     }
-    let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
-    for text in wrapped(&Line::styled(topic.text.clone(), style), width.saturating_sub(indent as u16)) {
+    let style = theme.style(if is_selected {
+        Meaning::Selected
+    } else {
+        Meaning::Text
+    });
+    for text in wrapped(
+        &Line::styled(topic.text.clone(), style),
+        width.saturating_sub(indent as u16),
+    ) {
         let mut line = name.take().unwrap_or_default();
         line.push_span(" ".repeat(indent.saturating_sub(line.width())));
         line.spans.extend(text.spans);
@@ -84,20 +116,45 @@ fn entry(rows: &mut Vec<Line<'static>>, topic: &Topic, is_selected: bool, width:
     }
 }
 
-pub fn draw_scenes(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
+pub fn draw_scenes(
+    area: Rect,
+    look: Appearance,
+    prompt: &Prompt,
+    entries: &[Entry],
+    buffer: &mut Buffer,
+) {
     let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or ./study";
     let row = |(place, index): (usize, &usize)| {
-        Some(scene((*index, entries.get(*index)?), place == prompt.selected, look.theme))
+        Some(scene(
+            (*index, entries.get(*index)?),
+            place == prompt.selected,
+            look.theme,
+        ))
     };
     let rows = prompt.found.iter().enumerate().filter_map(row).collect();
-    let list = list(prompt, ("Scenes", entries.len(), none), (rows, prompt.selected));
+    let list = list(
+        prompt,
+        ("Scenes", entries.len(), none),
+        (rows, prompt.selected),
+    );
     let beside = prompt.scene().filter(|_| area.width >= WITH_SCENE);
-    let width = if beside.is_some() { area.width * 2 / 5 } else { area.width };
+    let width = if beside.is_some() {
+        area.width * 2 / 5
+    } else {
+        area.width
+    };
     panel::draw(&list, Rect { width, ..area }, false, look, buffer);
     if let Some(entry) = beside {
-        let right = Rect { x: area.x + width, width: area.width - width, ..area };
+        let right = Rect {
+            x: area.x + width,
+            width: area.width - width,
+            ..area
+        };
         let head = text(entry, right.width - 2, look.theme);
-        let scene = Panel { head, ..Panel::of_text(entry.name.clone(), "") };
+        let scene = Panel {
+            head,
+            ..Panel::of_text(entry.name.clone(), "")
+        };
         panel::draw(&scene, right, false, look, buffer);
     }
 }
@@ -113,21 +170,49 @@ fn scene((place, entry): (usize, &Entry), is_selected: bool, theme: Theme) -> Li
         Source::Own => "own",
         Source::Working => "here",
     };
-    let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
+    let style = theme.style(if is_selected {
+        Meaning::Selected
+    } else {
+        Meaning::Text
+    });
     // The number finds a built-in scene.
-    let number = if entry.origin == Source::BuiltIn { (place + 1).to_string() } else { String::new() };
+    let number = if entry.origin == Source::BuiltIn {
+        (place + 1).to_string()
+    } else {
+        String::new()
+    };
     let number = Span::styled(format!("{number:>2} "), theme.style(Meaning::Quiet));
     let name = Span::styled(format!("{mark}{}", entry.name), style);
-    Line::from_iter([number, name, Span::styled(format!("  {origin}"), theme.style(Meaning::Quiet))])
+    Line::from_iter([
+        number,
+        name,
+        Span::styled(format!("  {origin}"), theme.style(Meaning::Quiet)),
+    ])
 }
 
 fn text(entry: &Entry, width: u16, theme: Theme) -> Vec<Line<'static>> {
-    let notice = entry.notice().split_whitespace().collect::<Vec<_>>().join(" ");
-    let error = entry.error().map(|error| (format!("! {error}"), Meaning::Error));
-    let words =
-        [(entry.title().to_owned(), Meaning::Title), (notice, Meaning::Text)].into_iter().chain(error);
-    let mut lines: Vec<_> =
-        words.flat_map(|(text, meaning)| wrapped(&Line::styled(text, theme.style(meaning)), width)).collect();
-    lines.extend(entry.text.lines().map(|line| Line::styled(line.to_owned(), theme.style(Meaning::Quiet))));
+    let notice = entry
+        .notice()
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    let error = entry
+        .error()
+        .map(|error| (format!("! {error}"), Meaning::Error));
+    let words = [
+        (entry.title().to_owned(), Meaning::Title),
+        (notice, Meaning::Text),
+    ]
+    .into_iter()
+    .chain(error);
+    let mut lines: Vec<_> = words
+        .flat_map(|(text, meaning)| wrapped(&Line::styled(text, theme.style(meaning)), width))
+        .collect();
+    lines.extend(
+        entry
+            .text
+            .lines()
+            .map(|line| Line::styled(line.to_owned(), theme.style(Meaning::Quiet))),
+    );
     lines
 }

@@ -26,7 +26,9 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
         Some((prompt, Purpose::Topics { name, topics, .. })) => {
             lists::draw_topics(panes, look, prompt, name, topics, buffer);
         }
-        Some((prompt, Purpose::Scene(entries))) => lists::draw_scenes(panes, look, prompt, entries, buffer),
+        Some((prompt, Purpose::Scene(entries))) => {
+            lists::draw_scenes(panes, look, prompt, entries, buffer)
+        }
         _ => {
             for &(pane, area) in &layout.panes {
                 let panel = panes::panel(app, pane, inside(area).as_size());
@@ -37,7 +39,15 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     // A long text also takes the place of the keys.
     let rows = 1 + u16::from(layout.footer.is_some());
     let status = chrome::status(app, area.width, rows);
-    panel::draw_lines(&status, Rect { height: rows, ..layout.status }.intersection(area), buffer);
+    panel::draw_lines(
+        &status,
+        Rect {
+            height: rows,
+            ..layout.status
+        }
+        .intersection(area),
+        buffer,
+    );
     if let Some(area) = layout.footer.filter(|_| status.len() == 1) {
         panel::draw_lines(&[chrome::footer(app, area.width)], area, buffer);
     }

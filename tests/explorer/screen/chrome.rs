@@ -11,10 +11,16 @@ fn the_headline_is_that_of_the_computed_curve() {
         let force = format_rounded(outcome.figures.adhesion_force.unwrap(), 3, "N");
         for size in &SIZES[..4] {
             driver.resize(*size);
-            assert!(driver.text().contains(&format!("F_a {force}")), "{size:?}: {}", driver.text());
+            assert!(
+                driver.text().contains(&format!("F_a {force}")),
+                "{size:?}: {}",
+                driver.text()
+            );
         }
         let point = driver.point();
-        let present = ["d", "F"].into_iter().zip([(point.indentation, "m"), (point.force, "N")]);
+        let present = ["d", "F"]
+            .into_iter()
+            .zip([(point.indentation, "m"), (point.force, "N")]);
         for (symbol, (value, unit)) in present {
             let present = format!("{symbol} {}", format_rounded(value, 3, unit));
             driver.resize(SIZES[0]);
@@ -28,11 +34,18 @@ fn the_headline_is_that_of_the_computed_curve() {
 /// A stage to zero force ends there but for rounding.
 #[test]
 fn a_rounding_error_is_a_force_of_zero() {
-    let mut driver = Driver::start(changed(&rough(), &[("loading", "[ToForce(1e-5), ToForce(0), ToTouch]")]));
+    let mut driver = Driver::start(changed(
+        &rough(),
+        &[("loading", "[ToForce(1e-5), ToForce(0), ToTouch]")],
+    ));
     driver.press("> >");
     let force = driver.point().force;
     driver.resize((240, 40));
-    assert!(force != 0.0 && driver.text().contains(" F 0 N"), "{force:e}: {}", driver.text());
+    assert!(
+        force != 0.0 && driver.text().contains(" F 0 N"),
+        "{force:e}: {}",
+        driver.text()
+    );
     driver.shows("p_m 0 Pa");
 }
 
@@ -44,7 +57,12 @@ fn notices_at_the_start_stand_beside_each_other() {
     for (notice, warning, offer, shown) in [
         (None, &None, &None, ""),
         (None, &None, &offer, "unsaved changes are kept"),
-        (Some("loaded"), &warning, &offer, "! config.ron:3:1: speed · loaded · unsaved changes are kept"),
+        (
+            Some("loaded"),
+            &warning,
+            &offer,
+            "! config.ron:3:1: speed · loaded · unsaved changes are kept",
+        ),
         (None, &warning, &None, "! config.ron:3:1: speed"),
     ] {
         let mut driver = mid_retraction(rough());
@@ -63,9 +81,15 @@ fn the_help_lists_every_binding() {
     for binding in bindings().rows() {
         let (row, keys) = (binding.row, binding.names());
         // Many keys have a row of their own above their help.
-        let listed = lines.windows(2).any(|pair| pair[1].contains(row.help) && pair.concat().contains(&keys));
+        let listed = lines
+            .windows(2)
+            .any(|pair| pair[1].contains(row.help) && pair.concat().contains(&keys));
         assert!(listed, "{keys:?}: {}\n{}", row.help, lines.join("\n"));
-        assert!(lines.iter().any(|line| line.contains(row.section)), "{}", row.section);
+        assert!(
+            lines.iter().any(|line| line.contains(row.section)),
+            "{}",
+            row.section
+        );
     }
 }
 
@@ -86,12 +110,18 @@ fn the_help_pages_to_its_ends_and_is_searched() {
     assert_eq!(driver.text(), top);
     driver.press("/ `dissipated energy`");
     let text = driver.text();
-    assert!(text.contains("Find: dissipated energy") && text.contains("shade the area"), "{text}");
+    assert!(
+        text.contains("Find: dissipated energy") && text.contains("shade the area"),
+        "{text}"
+    );
     assert!(!text.contains("quit without saving"), "{text}");
     // The search is over, its results stay, and a letter is a key again.
     driver.press("Enter j");
     let text = driver.text();
-    assert!(text.contains("shade the area") && !text.contains("dissipated energyj"), "{text}");
+    assert!(
+        text.contains("shade the area") && !text.contains("dissipated energyj"),
+        "{text}"
+    );
     driver.press("End Home PageDown Esc");
     assert!(driver.app.prompt.is_none());
 }

@@ -5,7 +5,12 @@ use asperity::explorer::ghost::Ghost;
 
 /// The scenes of the ghosts, the newest last.
 fn kept(driver: &Driver) -> Vec<Document> {
-    driver.app.ghosts.iter().map(|ghost| ghost.document.clone()).collect()
+    driver
+        .app
+        .ghosts
+        .iter()
+        .map(|ghost| ghost.document.clone())
+        .collect()
 }
 
 fn message(driver: &Driver) -> String {
@@ -39,7 +44,12 @@ fn ghosts_have_letters_and_say_where_they_differ() {
     driver.press("z");
     let plot = driver.rows()[5..36].join("\n");
     for letter in ['A', 'B'] {
-        assert_eq!(plot.matches(letter).count(), 1, "{letter}\n{}", driver.text());
+        assert_eq!(
+            plot.matches(letter).count(),
+            1,
+            "{letter}\n{}",
+            driver.text()
+        );
     }
     driver.press("C");
     assert!(driver.app.ghosts.is_empty());
@@ -50,7 +60,11 @@ fn ghosts_have_letters_and_say_where_they_differ() {
 fn one_loop_is_kept_once_and_four_at_most() {
     let mut driver = pressed("c c");
     assert_eq!(driver.app.ghosts.len(), 1);
-    assert!(message(&driver).contains("kept already"), "{}", message(&driver));
+    assert!(
+        message(&driver).contains("kept already"),
+        "{}",
+        message(&driver)
+    );
     // Also after another scene in between.
     driver.press("l c h c");
     assert_eq!(driver.app.ghosts.len(), 2);
@@ -68,7 +82,11 @@ fn two_exchanges_are_none() {
     let mut driver = pressed("c L");
     driver.select("adhesion.kappa");
     driver.press("c L L");
-    let (document, ghosts, computed) = (driver.document().clone(), kept(&driver), driver.outcome().clone());
+    let (document, ghosts, computed) = (
+        driver.document().clone(),
+        kept(&driver),
+        driver.outcome().clone(),
+    );
     driver.press("x");
     assert_eq!(*driver.document(), ghosts[1]);
     assert_eq!(kept(&driver), [ghosts[0].clone(), document.clone()]);
@@ -95,17 +113,29 @@ fn a_scene_without_a_loop_is_not_kept() {
     let mut driver = pressed("");
     driver.set("loading", "[ToForce(2.0e-5), ToForce(-1.0)]");
     driver.press("c");
-    assert!(driver.app.ghosts.is_empty(), "a scene that failed has no loop");
+    assert!(
+        driver.app.ghosts.is_empty(),
+        "a scene that failed has no loop"
+    );
 }
 
 #[test]
 fn a_scene_is_opened_with_the_loop_of_another_one() {
     let other = rough().set("adhesion.kappa", "4").unwrap();
     let outcome = Driver::start(other.clone()).outcome().clone().into();
-    let ghost = Some(Ghost { document: other.clone(), outcome });
-    let mut driver = Driver::start(Opening { ghost, ..Opening::from(rough()) });
+    let ghost = Some(Ghost {
+        document: other.clone(),
+        outcome,
+    });
+    let mut driver = Driver::start(Opening {
+        ghost,
+        ..Opening::from(rough())
+    });
     assert!(!driver.app.edit.is_unsaved() && driver.app.edit.past.is_empty());
     driver.shows_all(["A: F_a ", "· κ 4"]);
     driver.press("x");
-    assert_eq!((driver.document().text(), kept(&driver)), (other.text(), vec![rough()]));
+    assert_eq!(
+        (driver.document().text(), kept(&driver)),
+        (other.text(), vec![rough()])
+    );
 }

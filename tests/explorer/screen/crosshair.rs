@@ -12,8 +12,15 @@ fn probe(driver: &Driver) -> Probe {
 fn edge(driver: &Driver, pane: Pane) -> String {
     let rows = driver.pane(pane);
     let title = rows[0].replace('▸', "");
-    let below = rows.iter().rev().take_while(|row| !row.contains(['┤', '│', '└']));
-    [title].into_iter().chain(below.cloned()).collect::<Vec<_>>().join(" ")
+    let below = rows
+        .iter()
+        .rev()
+        .take_while(|row| !row.contains(['┤', '│', '└']));
+    [title]
+        .into_iter()
+        .chain(below.cloned())
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// A value with this number of digits behind the first, as in the panes.
@@ -34,12 +41,20 @@ fn on_the_force_curve_the_crosshair_reads_both_branches() {
         driver.press(keys);
         let edge = edge(&driver, Pane::Force);
         let number = |name: &str, unit: &str| {
-            let words: Vec<&str> = edge.split(&format!(" {name} ")).nth(1).unwrap().split(' ').collect();
+            let words: Vec<&str> = edge
+                .split(&format!(" {name} "))
+                .nth(1)
+                .unwrap()
+                .split(' ')
+                .collect();
             parse_quantity(&words[..2].join(" "), unit).unwrap()
         };
         let expected = end.force / end.indentation * number("d", "m");
         for branch in ["loading", "unloading"] {
-            assert!((number(branch, "N") / expected - 1.0).abs() < 0.01, "{expected}: {edge}");
+            assert!(
+                (number(branch, "N") / expected - 1.0).abs() < 0.01,
+                "{expected}: {edge}"
+            );
         }
     }
     assert_eq!(driver.point(), shown, "the body stays");
@@ -52,11 +67,19 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
     for document in [rough(), punch()] {
         let mut driver = mid_retraction(document);
         driver.press("* Tab Home");
-        assert_eq!((driver.app.view.pane, probe(&driver).spring), (Pane::Profile, 0));
+        assert_eq!(
+            (driver.app.view.pane, probe(&driver).spring),
+            (Pane::Profile, 0)
+        );
         let mut states = Vec::new();
         for _ in 0..10 {
             let shown = driver.snapshot();
-            let Probe { spring, height, level, patch } = probe(&driver);
+            let Probe {
+                spring,
+                height,
+                level,
+                patch,
+            } = probe(&driver);
             let x = (shown.line.first + spring) as f64 + 0.5;
             let state = match patch {
                 None => format!("gap {}", read(level - height, 3, "m")),
@@ -64,7 +87,11 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
                 Some(_) => format!("compressed {}", read(height - level, 3, "m")),
             };
             let text = edge(&driver, Pane::Profile);
-            for expected in [read(x * shown.line.spacing, 3, "m"), read(height, 3, "m"), state] {
+            for expected in [
+                read(x * shown.line.spacing, 3, "m"),
+                read(height, 3, "m"),
+                state,
+            ] {
                 assert!(text.contains(&expected), "{expected}\n{text}");
             }
             states.push(patch.is_some());
@@ -83,12 +110,22 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
     for pane in [Pane::Profile, Pane::CloseUp, Pane::Force] {
         let area = driver.area(pane);
         let mut places = Vec::new();
-        for (column, gesture) in [(8, Gesture::Press), (14, Gesture::Drag), (20, Gesture::Press)] {
+        for (column, gesture) in [
+            (8, Gesture::Press),
+            (14, Gesture::Drag),
+            (20, Gesture::Press),
+        ] {
             driver.mouse(area.x + column, area.y + 4, gesture);
             places.push(driver.app.view.crosshair.unwrap());
         }
-        assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{pane:?} {places:?}");
-        assert_eq!((driver.app.view.pane, driver.app.manual.is_none()), (pane, true));
+        assert!(
+            places.windows(2).all(|pair| pair[0] < pair[1]),
+            "{pane:?} {places:?}"
+        );
+        assert_eq!(
+            (driver.app.view.pane, driver.app.manual.is_none()),
+            (pane, true)
+        );
     }
     // With the parameters selected the arrows act on these.
     let before = driver.app.edit.selected;

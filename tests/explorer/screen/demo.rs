@@ -22,14 +22,22 @@ fn the_tour_shows_what_it_is_to_show() {
             scenes.push(name);
         }
         let shown = [
-            app.manual.as_ref().is_some_and(|manual| manual.path.len() > 100),
+            app.manual
+                .as_ref()
+                .is_some_and(|manual| manual.path.len() > 100),
             !app.ghosts.is_empty(),
             app.view.curve.loss,
             app.is_typing_value(),
             app.edit.is_unsaved() && app.edit.document.scene().roughness.is_none(),
         ];
-        seen.iter_mut().zip(shown).for_each(|(seen, shown)| *seen |= shown);
-        assert!(!app.is_refused() && !app.is_computing(), "{:?}", app.message);
+        seen.iter_mut()
+            .zip(shown)
+            .for_each(|(seen, shown)| *seen |= shown);
+        assert!(
+            !app.is_refused() && !app.is_computing(),
+            "{:?}",
+            app.message
+        );
     }
     assert_eq!(seen, [true; 5]);
     let expected = [0, 1, 2, 5, 8].map(|index| presets()[index].name);

@@ -22,7 +22,11 @@ fn edits_are_taken_back_and_done_again() {
     assert!(!driver.app.edit.is_unsaved());
     assert_eq!(driver.outcome().figures, first);
     driver.press("u");
-    assert_eq!(driver.document().text(), texts[0], "there is no more to take back");
+    assert_eq!(
+        driver.document().text(),
+        texts[0],
+        "there is no more to take back"
+    );
     for (text, key) in texts.iter().skip(1).zip(["U", "Ctrl+r", "U"]) {
         driver.press(key);
         assert_eq!(driver.document().text(), text);
@@ -70,7 +74,10 @@ fn an_amplitude_is_typed_as_a_height_or_as_a_gradient() {
     let amplitude = driver.outcome().governing.amplitude.unwrap();
     assert_eq!(amplitude.rms_gradient, 0.25);
     driver.shows(format!("= {}", format_quantity(amplitude.rms_height, "m")));
-    driver.set("roughness.rms_height", &format!("{:e} m", amplitude.rms_height));
+    driver.set(
+        "roughness.rms_height",
+        &format!("{:e} m", amplitude.rms_height),
+    );
     let again = driver.outcome().governing.amplitude.unwrap();
     assert!((again.rms_gradient / 0.25 - 1.0).abs() < 1e-12, "{again:?}");
     driver.press("u u");
@@ -82,11 +89,31 @@ fn an_amplitude_is_typed_as_a_height_or_as_a_gradient() {
 fn the_work_on_closing_never_exceeds_that_on_opening() {
     let works = "(work: 4.0e-3, closing_work: 3.0e-3)";
     for (path, typed, why) in [
-        ("adhesion.work", "2", "adhesion.closing_work = 0.003: allowed: 0 to 0.002 J/m²"),
-        ("adhesion.closing_work", "5", "adhesion.closing_work = 0.005: allowed: 0 to 0.004 J/m²"),
-        ("adhesion.kappa", "1e5", "adhesion.closing_work = 0.003: allowed: 0 to "),
-        ("adhesion.kappa", "-1", "adhesion.kappa = -1.0: allowed: from 1e-6 to 1e6"),
-        ("adhesion.elastic_energy_ratio", "-1", "adhesion.elastic_energy_ratio = -1.0: allowed: "),
+        (
+            "adhesion.work",
+            "2",
+            "adhesion.closing_work = 0.003: allowed: 0 to 0.002 J/m²",
+        ),
+        (
+            "adhesion.closing_work",
+            "5",
+            "adhesion.closing_work = 0.005: allowed: 0 to 0.004 J/m²",
+        ),
+        (
+            "adhesion.kappa",
+            "1e5",
+            "adhesion.closing_work = 0.003: allowed: 0 to ",
+        ),
+        (
+            "adhesion.kappa",
+            "-1",
+            "adhesion.kappa = -1.0: allowed: from 1e-6 to 1e6",
+        ),
+        (
+            "adhesion.elastic_energy_ratio",
+            "-1",
+            "adhesion.elastic_energy_ratio = -1.0: allowed: ",
+        ),
     ] {
         let mut driver = mid_retraction(changed(&rough(), &[("adhesion", works)]));
         driver.set(path, typed);
@@ -96,7 +123,10 @@ fn the_work_on_closing_never_exceeds_that_on_opening() {
         for key in ["H", "L"] {
             driver.press(&format!("{key} ").repeat(9));
             let adhesion = driver.document().scene().adhesion.unwrap();
-            assert!(adhesion.closing_work() <= adhesion.work(), "{path}: {adhesion:?}");
+            assert!(
+                adhesion.closing_work() <= adhesion.work(),
+                "{path}: {adhesion:?}"
+            );
         }
     }
 }
@@ -108,7 +138,11 @@ fn the_selection_stays_on_its_field_when_rows_come_and_go() {
     let path = |driver: &Driver| driver.app.edit.parameter().unwrap().field.path;
     let rows = |driver: &Driver| driver.app.edit.parameters.len();
     let before = rows(&driver);
-    for (field, value) in [("form", "Cone(angle: 0.1)"), ("adhesion", "None"), ("roughness", "None")] {
+    for (field, value) in [
+        ("form", "Cone(angle: 0.1)"),
+        ("adhesion", "None"),
+        ("roughness", "None"),
+    ] {
         let count = rows(&driver);
         driver.set(field, value);
         assert_ne!(rows(&driver), count, "{field}");

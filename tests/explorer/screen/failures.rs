@@ -5,7 +5,10 @@ use super::*;
 #[test]
 fn reports_of_another_scene_change_nothing() {
     let mut driver = pressed("");
-    let (computed, snapshot) = (driver.app.solved.clone().unwrap(), driver.snapshot().clone());
+    let (computed, snapshot) = (
+        driver.app.solved.clone().unwrap(),
+        driver.snapshot().clone(),
+    );
     driver.select("roughness.hurst");
     driver.press("l");
     let screen = driver.screen();
@@ -13,8 +16,14 @@ fn reports_of_another_scene_change_nothing() {
     for action in [
         Action::Reply(Reply::Solved(computed, None)),
         Action::Reply(Reply::Shown(snapshot.into())),
-        Action::Reply(Reply::Progress { generation, legs: 1 }),
-        Action::Reply(Reply::Failed { generation, error: "old".to_owned() }),
+        Action::Reply(Reply::Progress {
+            generation,
+            legs: 1,
+        }),
+        Action::Reply(Reply::Failed {
+            generation,
+            error: "old".to_owned(),
+        }),
     ] {
         assert!(driver.act(action).is_empty());
         assert_eq!(driver.screen(), screen);
@@ -34,7 +43,10 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
     detach(&mut driver);
     assert!(!driver.app.is_computing());
     let text = driver.text();
-    assert!(text.contains("stage 2: the contact detaches before -10 nN"), "{text}");
+    assert!(
+        text.contains("stage 2: the contact detaches before -10 nN"),
+        "{text}"
+    );
     // Figures of the former scene are no longer shown.
     assert!(!text.contains("F_a "), "{text}");
     for keys in ["j", "k", ". .", "Tab", "n", "+"] {
@@ -45,7 +57,10 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
     assert!(driver.status().starts_with("undo: "), "{}", driver.status());
     driver.press("j");
     let text = driver.text();
-    assert!(text.contains("F_max 20 µN") && !text.contains("detaches"), "{text}");
+    assert!(
+        text.contains("F_max 20 µN") && !text.contains("detaches"),
+        "{text}"
+    );
     assert!(is_up_to_date(&driver.app));
 }
 
@@ -58,7 +73,12 @@ fn a_key_that_cannot_do_anything_says_why() {
         (rough(), none, "P", "select a row of the loading"),
         (rough(), none, "W", "no manual loading; d begins it"),
         (rough(), none, "Y * *", "no curves for the crosshair"),
-        (rough(), none, "Ctrl+f", "! there is no measured curve; o opens one by its path"),
+        (
+            rough(),
+            none,
+            "Ctrl+f",
+            "! there is no measured curve; o opens one by its path",
+        ),
         (rough(), none, "m W", "! no study is open"),
         (rough(), none, "m P", "! no study is open"),
         (dry.clone(), none, "!", "there is no pull-off"),
@@ -68,18 +88,59 @@ fn a_key_that_cannot_do_anything_says_why() {
         (rough(), "material", "t", "no effect to switch"),
         (one_spring(), "roughness", "t", "! "),
         (rough(), "material.poisson_ratio", "l", "allowed"),
-        (rough(), "adhesion", "2", "adhesion is a choice: ← → change it"),
-        (rough(), "material", "2", "material is several numbers: Enter types them"),
+        (
+            rough(),
+            "adhesion",
+            "2",
+            "adhesion is a choice: ← → change it",
+        ),
+        (
+            rough(),
+            "material",
+            "2",
+            "material is several numbers: Enter types them",
+        ),
         (rough(), "loading", "L", "loading is a list: Enter types it"),
-        (rough(), "numerics", "3", "numerics is a group: its fields are in the rows below"),
-        (rough(), "roughness.modes", "Right", "follows from the wavelengths; Enter types a value"),
-        (rough(), "adhesion.work", "L", "follows from κ; Enter types a value of its own"),
-        (rough(), "adhesion.elastic_energy_ratio", "h", "follows from κ; Enter types a value of its own"),
-        (smooth(), "adhesion.kappa", "l", "κ is not defined without roughness"),
+        (
+            rough(),
+            "numerics",
+            "3",
+            "numerics is a group: its fields are in the rows below",
+        ),
+        (
+            rough(),
+            "roughness.modes",
+            "Right",
+            "follows from the wavelengths; Enter types a value",
+        ),
+        (
+            rough(),
+            "adhesion.work",
+            "L",
+            "follows from κ; Enter types a value of its own",
+        ),
+        (
+            rough(),
+            "adhesion.elastic_energy_ratio",
+            "h",
+            "follows from κ; Enter types a value of its own",
+        ),
+        (
+            smooth(),
+            "adhesion.kappa",
+            "l",
+            "κ is not defined without roughness",
+        ),
         (rough(), "loading.1", "K", "cannot pull before contact"),
     ] {
         let document = if path == "roughness.modes" {
-            changed(&document, &[("roughness.modes", "None"), ("roughness.wavelengths", "50 µm, 1 µm")])
+            changed(
+                &document,
+                &[
+                    ("roughness.modes", "None"),
+                    ("roughness.wavelengths", "50 µm, 1 µm"),
+                ],
+            )
         } else {
             document
         };
@@ -89,7 +150,15 @@ fn a_key_that_cannot_do_anything_says_why() {
             driver.select(path);
         }
         driver.press(keys);
-        assert!(driver.text().contains(why), "{path} {keys}: {why}\n{}", driver.text());
-        assert_eq!((driver.document(), driver.app.prompt.is_none()), (&document, true), "{path} {keys}");
+        assert!(
+            driver.text().contains(why),
+            "{path} {keys}: {why}\n{}",
+            driver.text()
+        );
+        assert_eq!(
+            (driver.document(), driver.app.prompt.is_none()),
+            (&document, true),
+            "{path} {keys}"
+        );
     }
 }

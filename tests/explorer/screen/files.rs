@@ -19,28 +19,44 @@ fn exported(driver: &mut Driver, name: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     export(driver, &path);
-    assert!(driver.status().starts_with("exported to "), "{}", driver.status());
+    assert!(
+        driver.status().starts_with("exported to "),
+        "{}",
+        driver.status()
+    );
     fs::read_to_string(path).unwrap()
 }
 
 #[test]
 fn the_ending_of_a_name_shows_what_is_exported() {
-    for (name, format) in [("a.csv", Format::Csv), ("folder/b.JSON", Format::Json), ("c.d.svg", Format::Svg)]
-    {
+    for (name, format) in [
+        ("a.csv", Format::Csv),
+        ("folder/b.JSON", Format::Json),
+        ("c.d.svg", Format::Svg),
+    ] {
         let mut driver = pressed("");
         let (path, content) = (PathBuf::from(name), Content::Pane(format));
-        let file = OutputFile { path, content, overwrite: false, then_quit: false };
+        let file = OutputFile {
+            path,
+            content,
+            overwrite: false,
+            then_quit: false,
+        };
         assert_eq!(export(&mut driver, Path::new(name)), [Task::Write(file)]);
         driver.states(format!("exported to {name}"));
     }
     let mut driver = pressed("");
     assert!(export(&mut driver, Path::new("a.gif")).is_empty() && driver.files().is_empty());
-    driver.states("unsupported file extension .gif; use .csv, .npy, .json, .svg, .png, .pdf or .txt");
+    driver
+        .states("unsupported file extension .gif; use .csv, .npy, .json, .svg, .png, .pdf or .txt");
     // The proposed name is that of the scene with the pane.
     let mut driver = pressed("");
     driver.press("E Enter");
     assert_eq!(driver.files(), ["rough-line-force.csv"]);
-    assert!(pressed("E Ctrl+u Enter").files().is_empty(), "no name is no file");
+    assert!(
+        pressed("E Ctrl+u Enter").files().is_empty(),
+        "no name is no file"
+    );
 }
 
 #[test]
@@ -55,11 +71,21 @@ fn a_file_that_is_there_is_asked_about() {
     assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
     export(&mut driver, &path);
     driver.press("y");
-    assert!(fs::read_to_string(&path).unwrap().contains("\nleg,indentation"));
+    assert!(
+        fs::read_to_string(&path)
+            .unwrap()
+            .contains("\nleg,indentation")
+    );
     assert!(driver.app.prompt.is_none());
     // An error of the system is shown.
     export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
-    assert!(driver.refusal().is_some_and(|why| why.contains("there is no folder")), "{}", driver.status());
+    assert!(
+        driver
+            .refusal()
+            .is_some_and(|why| why.contains("there is no folder")),
+        "{}",
+        driver.status()
+    );
 }
 
 #[test]
@@ -107,19 +133,38 @@ fn profile_and_close_up_come_from_the_springs_at_any_size_of_the_window() {
         };
         let [table, figure] = of_size((200, 60));
         for size in [(120, 36), (80, 24), (40, 12)] {
-            assert!(of_size(size) == [table.clone(), figure.clone()], "{pane:?} {size:?}");
+            assert!(
+                of_size(size) == [table.clone(), figure.clone()],
+                "{pane:?} {size:?}"
+            );
         }
         let mut curves = std::collections::BTreeMap::<&str, Vec<(&str, &str)>>::new();
         for row in table.lines().filter(|line| !line.starts_with('#')).skip(1) {
-            let [curve, x, z] = row.split(',').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            let [curve, x, z] = row.split(',').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
             curves.entry(curve).or_default().push((x, z));
         }
         // A row for each spring, and in contact the surface is the profile.
-        let springs = if pane == Pane::Profile { 1024 } else { curves["profile"].len() };
-        assert_eq!((curves["profile"].len(), curves["surface"].len()), (springs, springs));
+        let springs = if pane == Pane::Profile {
+            1024
+        } else {
+            curves["profile"].len()
+        };
+        assert_eq!(
+            (curves["profile"].len(), curves["surface"].len()),
+            (springs, springs)
+        );
         let (profile, surface) = (&curves["profile"], &curves["surface"]);
-        assert!(profile.windows(2).all(|pair| pair[0].0 != pair[1].0), "{pane:?}");
-        assert!(curves["contact"].iter().all(|spring| profile.contains(spring) && surface.contains(spring)));
+        assert!(
+            profile.windows(2).all(|pair| pair[0].0 != pair[1].0),
+            "{pane:?}"
+        );
+        assert!(
+            curves["contact"]
+                .iter()
+                .all(|spring| profile.contains(spring) && surface.contains(spring))
+        );
         assert!(!curves["contact"].is_empty() && springs > 60);
     }
 }
@@ -143,7 +188,11 @@ fn the_text_is_the_screen_without_the_prompt() {
 fn is_exported_as_json(driver: &mut Driver) {
     let json: serde_json::Value = serde_json::from_str(&exported(driver, "a.json")).unwrap();
     for entry in ["program", "command", "scene"] {
-        assert!(json.get(entry).is_some(), "{:?}: {entry}: {json}", driver.app.view.pane);
+        assert!(
+            json.get(entry).is_some(),
+            "{:?}: {entry}: {json}",
+            driver.app.view.pane
+        );
     }
     assert_eq!(json["scene"]["version"], 1, "{:?}", driver.app.view.pane);
 }
@@ -151,8 +200,16 @@ fn is_exported_as_json(driver: &mut Driver) {
 #[test]
 fn every_pane_is_exported_as_a_figure() {
     for (keys, pane, expected) in [
-        ("", Pane::Parameters, ["loading", "unloading", "preload", "pull-off"].as_slice()),
-        ("", Pane::Profile, &["surface", "profile", "contact", "(nm)"]),
+        (
+            "",
+            Pane::Parameters,
+            ["loading", "unloading", "preload", "pull-off"].as_slice(),
+        ),
+        (
+            "",
+            Pane::Profile,
+            &["surface", "profile", "contact", "(nm)"],
+        ),
         ("", Pane::CloseUp, &["surface", "patch end"]),
         ("Q", Pane::Spectrum, &["wave number"]),
         ("c L", Pane::Force, &["H 0.7", "loading"]),
@@ -161,8 +218,15 @@ fn every_pane_is_exported_as_a_figure() {
         driver.app.view.pane = pane;
         let figure = exported(&mut driver, "a.svg");
         let document = roxmltree::Document::parse(&figure).unwrap();
-        assert!(document.root_element().has_tag_name(("http://www.w3.org/2000/svg", "svg")));
-        let text: String = document.descendants().filter_map(|node| node.text()).collect();
+        assert!(
+            document
+                .root_element()
+                .has_tag_name(("http://www.w3.org/2000/svg", "svg"))
+        );
+        let text: String = document
+            .descendants()
+            .filter_map(|node| node.text())
+            .collect();
         for expected in expected.iter().chain(&["Rough line"]) {
             assert!(text.contains(*expected), "{pane:?}: {expected}: {text}");
         }
@@ -173,18 +237,47 @@ fn every_pane_is_exported_as_a_figure() {
     assert!(exported(&mut driver, "a.svg").contains("present preload"));
     // A table is that of the pane.
     let tables = [
-        (computed_preloads(rough()), Pane::Preloads, "asperity run --preloads=-", "preload,adhesion_force,"),
-        (trust::measured(rough()), Pane::Trust, "asperity cost", "error,"),
-        (computed_sensitivity(rough()), Pane::Sensitivity, "asperity sensitivity", "path,value,"),
-        (map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,adhesion.kappa,lines,regime,"),
+        (
+            computed_preloads(rough()),
+            Pane::Preloads,
+            "asperity run --preloads=-",
+            "preload,adhesion_force,",
+        ),
+        (
+            trust::measured(rough()),
+            Pane::Trust,
+            "asperity cost",
+            "error,",
+        ),
+        (
+            computed_sensitivity(rough()),
+            Pane::Sensitivity,
+            "asperity sensitivity",
+            "path,value,",
+        ),
+        (
+            map::mapped(rough()),
+            Pane::Map,
+            "asperity",
+            "roughness.hurst,adhesion.kappa,lines,regime,",
+        ),
     ];
     for (mut driver, pane, command, column) in tables {
         driver.app.view.pane = pane;
         let table = exported(&mut driver, "a.csv");
-        assert!(table.contains(command) && table.contains(column), "{pane:?}: {table}");
+        assert!(
+            table.contains(command) && table.contains(column),
+            "{pane:?}: {table}"
+        );
         is_exported_as_json(&mut driver);
     }
-    for pane in [Pane::Force, Pane::Parameters, Pane::Profile, Pane::CloseUp, Pane::Spectrum] {
+    for pane in [
+        Pane::Force,
+        Pane::Parameters,
+        Pane::Profile,
+        Pane::CloseUp,
+        Pane::Spectrum,
+    ] {
         let mut driver = pressed(if pane == Pane::Spectrum { "Q" } else { "" });
         driver.app.view.pane = pane;
         is_exported_as_json(&mut driver);
@@ -198,7 +291,11 @@ fn every_pane_is_exported_as_a_figure() {
     let folder = tempfile::tempdir().unwrap();
     driver.app.view.pane = Pane::Force;
     export(&mut driver, &folder.path().join("a.png"));
-    assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(
+        fs::read(folder.path().join("a.png"))
+            .unwrap()
+            .starts_with(b"\x89PNG")
+    );
 }
 
 #[test]
@@ -207,7 +304,13 @@ fn a_name_with_control_characters_is_not_copied() {
     let document = Document::parse(text, "a\u{1b}]0;b\u{7}\nc.ron").unwrap();
     let mut driver = Driver::start(document);
     assert_eq!(driver.press("y"), []);
-    assert!(driver.status().starts_with("! not copied: control characters"), "{}", driver.status());
+    assert!(
+        driver
+            .status()
+            .starts_with("! not copied: control characters"),
+        "{}",
+        driver.status()
+    );
 }
 
 #[test]
@@ -219,9 +322,16 @@ fn a_saved_scene_goes_on_under_its_new_name() {
     assert!(!driver.app.edit.is_unsaved());
     // The command opens the file, without options for the saved changes.
     driver.press("y");
-    assert_eq!(driver.copied, [command_line("asperity", &path.display().to_string(), &[])]);
+    assert_eq!(
+        driver.copied,
+        [command_line("asperity", &path.display().to_string(), &[])]
+    );
     driver.press("l y");
-    assert!(driver.copied[1].ends_with(" --set roughness.hurst=0.72"), "{}", driver.copied[1]);
+    assert!(
+        driver.copied[1].ends_with(" --set roughness.hurst=0.72"),
+        "{}",
+        driver.copied[1]
+    );
     // At the next save the name is proposed, with a question.
     driver.answers("s Enter", "Overwrite it?");
     driver.press("y");

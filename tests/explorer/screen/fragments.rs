@@ -20,7 +20,11 @@ fn the_close_up_goes_round_all_fragments() {
                 driver.press(key);
                 seen.push(number(&driver));
                 let expected = format!("Patch {} of {count} ·", number(&driver) + 1);
-                assert!(driver.text().contains(&expected), "{expected}: {}", driver.text());
+                assert!(
+                    driver.text().contains(&expected),
+                    "{expected}: {}",
+                    driver.text()
+                );
             }
             assert_eq!(number(&driver), start, "{key}: {seen:?}");
             seen.sort_unstable();
@@ -74,14 +78,26 @@ fn the_close_up_holds_the_whole_patch_and_both_its_ends() {
             let PatchFacts { patch, state, .. } = driver.snapshot().close_up.patch.unwrap();
             let shown = &driver.snapshot().close_up.section;
             let part = shown.first..shown.first + shown.springs;
-            assert!(part.contains(&patch.first) && part.contains(&patch.last), "{patch:?} in {part:?}");
+            assert!(
+                part.contains(&patch.first) && part.contains(&patch.last),
+                "{patch:?} in {part:?}"
+            );
             // It fills a good part of the pane, unless it has few springs.
             assert!(
                 5 * patch.springs().len() >= shown.springs || shown.springs <= 32,
                 "{patch:?} in {part:?}"
             );
-            let ends: Vec<usize> = driver.snapshot().close_up.boundaries.iter().map(|end| end.0).collect();
-            assert!(ends.contains(&patch.first) && ends.contains(&patch.last), "{ends:?}");
+            let ends: Vec<usize> = driver
+                .snapshot()
+                .close_up
+                .boundaries
+                .iter()
+                .map(|end| end.0)
+                .collect();
+            assert!(
+                ends.contains(&patch.first) && ends.contains(&patch.last),
+                "{ends:?}"
+            );
             driver.shows(format!("of {}", all.len()));
             seen.push(patch);
             forces.push(state.force);
@@ -89,6 +105,9 @@ fn the_close_up_holds_the_whole_patch_and_both_its_ends() {
         seen.sort_by_key(|patch| patch.first);
         assert_eq!(seen, all);
         let (total, force): (f64, f64) = (forces.iter().sum(), driver.point().force);
-        assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
+        assert!(
+            (total / force - 1.0).abs() < 1e-9,
+            "together they carry all: {total} {force}"
+        );
     }
 }

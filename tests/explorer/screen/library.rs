@@ -24,14 +24,27 @@ fn library(driver: &Driver) -> &Prompt {
 
 /// Names of the found scenes, in order.
 fn found(driver: &Driver) -> Vec<String> {
-    let Prompt { purpose: Purpose::Scene(entries), found, .. } = library(driver) else { panic!("no scenes") };
-    found.iter().map(|index| entries[*index].name.clone()).collect()
+    let Prompt {
+        purpose: Purpose::Scene(entries),
+        found,
+        ..
+    } = library(driver)
+    else {
+        panic!("no scenes")
+    };
+    found
+        .iter()
+        .map(|index| entries[*index].name.clone())
+        .collect()
 }
 
 #[test]
 fn all_scenes_are_listed_and_found_as_one_types() {
     let (_folder, mut driver) = opened();
-    let names: Vec<String> = presets().iter().map(|preset| preset.name.to_owned()).collect();
+    let names: Vec<String> = presets()
+        .iter()
+        .map(|preset| preset.name.to_owned())
+        .collect();
     let own = ["broken.ron".to_owned(), "mine.ron".to_owned()];
     assert_eq!(found(&driver), [names, own.to_vec()].concat());
     for name in found(&driver) {
@@ -39,11 +52,17 @@ fn all_scenes_are_listed_and_found_as_one_types() {
     }
     driver.type_text("sph");
     let is_match = |name: &String| {
-        let text = presets().iter().find(|preset| preset.name == *name).map(|preset| preset.text);
+        let text = presets()
+            .iter()
+            .find(|preset| preset.name == *name)
+            .map(|preset| preset.text);
         name == "mine.ron" || text.is_some_and(|text| text.to_lowercase().contains("sph"))
     };
     assert!(found(&driver).iter().all(is_match), "{:?}", found(&driver));
-    assert!(found(&driver).contains(&"mine.ron".to_owned()), "its title has it");
+    assert!(
+        found(&driver).contains(&"mine.ron".to_owned()),
+        "its title has it"
+    );
     driver.type_text("ere-no-such");
     assert!(found(&driver).is_empty());
     driver.shows("no scene fits");
@@ -72,7 +91,10 @@ fn enter_opens_and_escape_leaves() {
     assert!(driver.app.prompt.is_none());
     assert!(is_up_to_date(&driver.app));
     assert_eq!(driver.document().text(), smooth().text());
-    assert_eq!(driver.document().name(), folder.path().join("mine.ron").display().to_string());
+    assert_eq!(
+        driver.document().name(),
+        folder.path().join("mine.ron").display().to_string()
+    );
     assert!(!driver.app.edit.is_unsaved() && driver.app.play.playing);
     driver.press("u");
     assert_eq!(*driver.document(), before);
@@ -81,7 +103,13 @@ fn enter_opens_and_escape_leaves() {
     driver.press("o");
     for _ in 0..presets().len() + 1 {
         driver.press("Down");
-        let name: String = library(&driver).scene().unwrap().name.chars().take(12).collect();
+        let name: String = library(&driver)
+            .scene()
+            .unwrap()
+            .name
+            .chars()
+            .take(12)
+            .collect();
         assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
     }
 }
@@ -91,7 +119,11 @@ fn a_broken_file_is_listed_with_its_error_and_not_opened() {
     let (_folder, mut driver) = opened();
     let before = driver.document().clone();
     driver.sees("`broken`", "! broken.ron");
-    let error = library(&driver).scene().unwrap().error().expect("it is no scene");
+    let error = library(&driver)
+        .scene()
+        .unwrap()
+        .error()
+        .expect("it is no scene");
     driver.shows(error.chars().take(30).collect::<String>());
     driver.answers("Enter", "broken.ron");
     assert_eq!(

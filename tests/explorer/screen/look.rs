@@ -47,13 +47,19 @@ fn the_curve_has_three_views_in_two_units() {
         ["Contact patches n", "d/h", "n"],
     ] {
         let text = curve(&mut driver);
-        assert!([title, x, y].iter().all(|words| text.contains(words)), "{title}, {x}, {y}\n{text}");
+        assert!(
+            [title, x, y].iter().all(|words| text.contains(words)),
+            "{title}, {x}, {y}\n{text}"
+        );
         driver.press("N");
         if !driver.app.view.curve.normalised {
             driver.press("v");
         }
     }
-    assert!(curve(&mut driver).contains("Force F (µN)"), "they come round");
+    assert!(
+        curve(&mut driver).contains("Force F (µN)"),
+        "they come round"
+    );
     // Without adhesion there is no F_a,max as a unit.
     let mut driver = mid_retraction(without_adhesion());
     driver.press("N");

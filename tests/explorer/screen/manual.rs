@@ -34,7 +34,12 @@ fn the_body_is_taken_at_its_place() {
 
 #[test]
 fn a_body_of_the_stepwise_solver_is_moved_by_the_exact_one() {
-    let stepwise = |step: &str| changed(&rough(), &[("numerics.edges", "Grid"), ("numerics.solver", step)]);
+    let stepwise = |step: &str| {
+        changed(
+            &rough(),
+            &[("numerics.edges", "Grid"), ("numerics.solver", step)],
+        )
+    };
     let mut ends = Vec::new();
     for document in [stepwise("Exact"), stepwise("Stepwise(step: 1.0e-9)")] {
         let mut driver = mid_retraction(document);
@@ -52,12 +57,21 @@ fn a_body_of_the_stepwise_solver_is_moved_by_the_exact_one() {
 fn small_and_large_steps_press_and_pull() {
     let mut driver = pressed("d");
     let (low, high) = driver.app.indentations().unwrap();
-    for (keys, share) in [("]", 1.0 / 400.0), ("[", -1.0 / 400.0), ("}", 1.0 / 40.0), ("{", -1.0 / 40.0)] {
+    for (keys, share) in [
+        ("]", 1.0 / 400.0),
+        ("[", -1.0 / 400.0),
+        ("}", 1.0 / 40.0),
+        ("{", -1.0 / 40.0),
+    ] {
         let before = driver.point().indentation;
         driver.press(keys);
         let way = (driver.point().indentation - before) / (high - low);
         assert!((way - share).abs() < 1e-9, "{keys}: {way}");
-        assert_eq!(manual(&driver).path.last(), Some(&driver.point()), "{keys}: the way ends there");
+        assert_eq!(
+            manual(&driver).path.last(),
+            Some(&driver.point()),
+            "{keys}: the way ends there"
+        );
     }
     // These keys begin manual loading.
     for keys in ["]", "[", "}", "{", "S"] {
@@ -74,13 +88,22 @@ fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
     driver.press("< d S");
     let leg = &driver.app.legs()[1];
     let (lost, expected) = (manual(&driver).released_energy, leg.released_energy);
-    assert!(expected > 0.0 && (lost / expected - 1.0).abs() < 1e-9, "{lost}, not {expected}");
+    assert!(
+        expected > 0.0 && (lost / expected - 1.0).abs() < 1e-9,
+        "{lost}, not {expected}"
+    );
     assert_eq!((driver.point().springs, driver.point().force), (0, 0.0));
     let smallest = leg.smallest.force;
     let path = &manual(&driver).path;
     assert!(path.len() > 20, "the way down is seen");
-    let pulled = path.iter().map(|point| point.force).fold(f64::INFINITY, f64::min);
-    assert!(pulled >= smallest && pulled < 0.5 * smallest, "{pulled} {smallest}");
+    let pulled = path
+        .iter()
+        .map(|point| point.force)
+        .fold(f64::INFINITY, f64::min);
+    assert!(
+        pulled >= smallest && pulled < 0.5 * smallest,
+        "{pulled} {smallest}"
+    );
     // From there the body does not touch before the foundation is reached again.
     while driver.point().springs == 0 {
         assert!(driver.point().indentation < 0.0);
@@ -95,23 +118,43 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     let before = driver.point();
     for (typed, force) in [("-1 N", "-1 N"), ("-1e6 µN", "-1 N"), ("-3 mN", "-3 mN")] {
         go(&mut driver, typed);
-        let expected = format!("the contact detaches before {force}; smallest force within reach: -");
-        assert!(driver.refusal().is_some_and(|why| why.contains(&expected)), "{typed}: {}", driver.status());
+        let expected =
+            format!("the contact detaches before {force}; smallest force within reach: -");
+        assert!(
+            driver.refusal().is_some_and(|why| why.contains(&expected)),
+            "{typed}: {}",
+            driver.status()
+        );
         assert_eq!(driver.point(), before, "a refused force moves nothing");
     }
     // The named force can be reached, and one smaller in its last digit cannot.
     let refusal = driver.refusal().unwrap().to_owned();
-    let (least, unit) = refusal.rsplit("reach: ").next().unwrap().split_once(' ').unwrap();
-    let (least, digits): (f64, usize) = (least.parse().unwrap(), least.split('.').nth(1).map_or(0, str::len));
+    let (least, unit) = refusal
+        .rsplit("reach: ")
+        .next()
+        .unwrap()
+        .split_once(' ')
+        .unwrap();
+    let (least, digits): (f64, usize) = (
+        least.parse().unwrap(),
+        least.split('.').nth(1).map_or(0, str::len),
+    );
     let beyond = least - 10.0_f64.powi(-(digits as i32)) * 2.0;
     go(&mut driver, &format!("{beyond:.digits$} {unit}"));
     driver.states("the contact detaches before");
     go(&mut driver, &format!("{least} {unit}"));
     assert!(driver.app.prompt.is_none(), "{:?}", driver.refusal());
     let after = driver.point();
-    assert!(driver.app.manual.is_some() && after.springs > 0, "{after:?}");
+    assert!(
+        driver.app.manual.is_some() && after.springs > 0,
+        "{after:?}"
+    );
     let newtons = asperity::data::parse_quantity(&format!("{least} {unit}"), "N").unwrap();
-    assert!(after.force <= newtons * (1.0 - 1e-9), "{} {newtons}", after.force);
+    assert!(
+        after.force <= newtons * (1.0 - 1e-9),
+        "{} {newtons}",
+        after.force
+    );
     driver.press("d d");
     // The body can be moved as before.
     let after = driver.point();
@@ -125,7 +168,12 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     for nonsense in ["", "strong", "1 kg", "NaN"] {
         let at_first = driver.point();
         go(&mut driver, nonsense);
-        assert!(driver.refusal().is_some_and(|why| why.contains("for example 10 µN")), "{nonsense}");
+        assert!(
+            driver
+                .refusal()
+                .is_some_and(|why| why.contains("for example 10 µN")),
+            "{nonsense}"
+        );
         assert_eq!(driver.point(), at_first);
         driver.press("Esc");
     }
@@ -139,12 +187,19 @@ fn a_force_far_beyond_full_contact_is_refused() {
         let before = driver.point();
         go(&mut driver, "1e30 N");
         let refusal = driver.refusal().unwrap_or_default().to_owned();
-        assert!(refusal.contains("N is far beyond full contact at "), "{refusal}");
+        assert!(
+            refusal.contains("N is far beyond full contact at "),
+            "{refusal}"
+        );
         assert_eq!(driver.point(), before);
         // The bound itself is allowed, and there all springs are in contact.
         let largest = refusal.rsplit("at most ").next().unwrap();
         go(&mut driver, largest);
-        assert!(driver.app.prompt.is_none(), "{largest}: {:?}", driver.refusal());
+        assert!(
+            driver.app.prompt.is_none(),
+            "{largest}: {:?}",
+            driver.refusal()
+        );
         let springs = driver.outcome().line.points as u64;
         assert_eq!(driver.point().springs, springs);
     }
@@ -158,7 +213,11 @@ fn an_edit_puts_the_body_back_and_says_so() {
         assert!(driver.app.manual.is_none(), "{keys}");
         assert!(is_up_to_date(&driver.app));
         assert_eq!(driver.app.drive(), Drive::Leg(1), "{keys}");
-        assert!(driver.status().contains("the body is back"), "{keys}: {}", driver.status());
+        assert!(
+            driver.status().contains("the body is back"),
+            "{keys}: {}",
+            driver.status()
+        );
     }
     // A change of the view alone does not.
     let mut driver = pressed("d {");

@@ -23,7 +23,18 @@ fn set(map: &mut LiveMap, cell: u64) {
         let after_zero_force = if regime == 1 { 0 } else { regime };
         let (regime, after_zero_force) = (f64::from(regime), f64::from(after_zero_force));
         let [touch, zero_force] = [1.0, 0.5].map(|slope: f64| (-slope * kappa).exp());
-        map.set(cell, line, &[touch, 2.0 * zero_force, regime, zero_force, after_zero_force, 1.5 * touch]);
+        map.set(
+            cell,
+            line,
+            &[
+                touch,
+                2.0 * zero_force,
+                regime,
+                zero_force,
+                after_zero_force,
+                1.5 * touch,
+            ],
+        );
     }
 }
 
@@ -65,7 +76,10 @@ fn moves_in_a_row_are_one_edit() {
     driver.shows("◆ H 0.65, κ 3.36");
     // Any other key ends the row.
     driver.press("V Up");
-    assert_eq!((place(&driver).0, driver.app.edit.past.len()), (4.0, edits + 2));
+    assert_eq!(
+        (place(&driver).0, driver.app.edit.past.len()),
+        (4.0, edits + 2)
+    );
     driver.press("u");
     assert_eq!(place(&driver), (3.36, 0.65));
     driver.press("Down u u");
@@ -95,7 +109,11 @@ fn the_mouse_moves_the_mark() {
 #[test]
 fn other_edits_begin_the_map_anew() {
     let mut driver = mapped(rough());
-    let begins = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
+    let begins = |driver: &mut Driver| {
+        studies(&mut driver.app)
+            .iter()
+            .any(|study| study.is::<Live>())
+    };
     assert!(!begins(&mut driver), "it is whole");
     driver.press("Tab Tab R");
     assert!(begins(&mut driver));

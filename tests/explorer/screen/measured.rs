@@ -11,22 +11,39 @@ use tempfile::TempDir;
 
 /// A sphere that is pressed by 50 µN and pulled off.
 fn sphere(work: &str) -> Document {
-    let fields = [("numerics.points", "256"), ("numerics.samples", "200"), ("adhesion.work", work)];
-    open("jkr-sphere").unwrap().set_all(&fields.map(|(path, value)| (path.into(), value.into()))).unwrap()
+    let fields = [
+        ("numerics.points", "256"),
+        ("numerics.samples", "200"),
+        ("adhesion.work", work),
+    ];
+    open("jkr-sphere")
+        .unwrap()
+        .set_all(&fields.map(|(path, value)| (path.into(), value.into())))
+        .unwrap()
 }
 
 /// Writes the curve of a sphere of 50 mJ/m² with a ripple of 0.3 µN, 400 nm from its first touch.
 fn write_curve(path: &Path) {
     let scene = sphere("0.05").scene().clone();
-    let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let outcome = Simulation::default()
+        .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+        .unwrap();
     let free = |from: f64| (0..100).map(move |index| (from - 1e-8 * f64::from(index), 0.0));
     let legs = &outcome.history.legs;
     let touching = |leg: usize| legs[leg].curve.iter().filter(|point| point.springs > 0);
     let points = |leg: usize| touching(leg).map(|point| (point.indentation, point.force));
     let last = legs[1].curve.last().unwrap().indentation;
-    let approach = free(-1e-8).collect::<Vec<_>>().into_iter().rev().chain(points(0));
+    let approach = free(-1e-8)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .rev()
+        .chain(points(0));
     let mut text = "displacement [nm],force [uN]\n".to_owned();
-    for (index, (at, force)) in approach.chain(points(1)).chain(free(last - 1e-8)).enumerate() {
+    for (index, (at, force)) in approach
+        .chain(points(1))
+        .chain(free(last - 1e-8))
+        .enumerate()
+    {
         let ripple = 0.3 * (1.7 * index as f64).sin();
         writeln!(text, "{},{}", 1e9 * at + 400.0, 1e6 * force + ripple).unwrap();
     }
@@ -34,12 +51,19 @@ fn write_curve(path: &Path) {
 }
 
 fn options() -> CurveOptions {
-    CurveOptions { drift: Drift::Remove, noise: Some(2e-7), ..CurveOptions::default() }
+    CurveOptions {
+        drift: Drift::Remove,
+        noise: Some(2e-7),
+        ..CurveOptions::default()
+    }
 }
 
 /// The explorer on a sphere of another work of adhesion, with these studies.
 fn explorer(measured: Option<Measured>, performs: fn(&Study) -> bool) -> Driver {
-    let opening = Opening { measured, ..Opening::from(sphere("0.03")) };
+    let opening = Opening {
+        measured,
+        ..Opening::from(sphere("0.03"))
+    };
     let mut driver = Driver::open_with(opening, Simulation::run, performs);
     driver.perform(vec![Task::Ask]);
     driver
@@ -59,22 +83,37 @@ fn shown(performs: fn(&Study) -> bool) -> (TempDir, Driver) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("curve.csv");
     write_curve(&path);
-    let measured = Measured { name: "curve.csv".to_owned(), ..Measured::read(&path, options()).unwrap() };
+    let measured = Measured {
+        name: "curve.csv".to_owned(),
+        ..Measured::read(&path, options()).unwrap()
+    };
     (folder, explorer(Some(measured), performs))
 }
 
 /// Number after `misfit` in the status line.
 fn misfit(driver: &Driver) -> f64 {
     let text = driver.text();
-    let after = text.split("misfit ").nth(1).unwrap_or_else(|| panic!("{text}"));
-    let number = after.split(|character: char| !(character.is_ascii_digit() || ".e".contains(character)));
-    number.into_iter().next().and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{text}"))
+    let after = text
+        .split("misfit ")
+        .nth(1)
+        .unwrap_or_else(|| panic!("{text}"));
+    let number =
+        after.split(|character: char| !(character.is_ascii_digit() || ".e".contains(character)));
+    number
+        .into_iter()
+        .next()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or_else(|| panic!("{text}"))
 }
 
 #[test]
 fn the_misfit_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() {
     let (_folder, mut driver) = shown(is_of_curve);
-    assert!(driver.pane(Pane::Force).concat().contains("measured"), "{}", driver.text());
+    assert!(
+        driver.pane(Pane::Force).concat().contains("measured"),
+        "{}",
+        driver.text()
+    );
     driver.shows("the loading of the measured curve");
     driver.press("Space");
     let far = misfit(&driver);
@@ -85,13 +124,18 @@ fn the_misfit_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() {
     assert!((measured.offset - 4e-7).abs() < 2e-8, "{}", measured.offset);
     // The measured points lie on the curve of the scene.
     let points = measured.points(f64::INFINITY).into_iter();
-    let least = points.min_by(|one, other| one.force.total_cmp(&other.force)).unwrap().indentation;
+    let least = points
+        .min_by(|one, other| one.force.total_cmp(&other.force))
+        .unwrap()
+        .indentation;
     let pull_off = driver.outcome().figures.pull_off_indentation.unwrap();
     assert!((least - pull_off).abs() < 5e-8, "{least} {pull_off}");
 
     driver.press("Ctrl+f Ctrl+u `work,ofset` Enter");
     assert!(
-        driver.refusal().is_some_and(|why| why.contains("did you mean offset?")),
+        driver
+            .refusal()
+            .is_some_and(|why| why.contains("did you mean offset?")),
         "{:?}",
         driver.refusal()
     );
@@ -100,11 +144,16 @@ fn the_misfit_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() {
     assert!((work - 0.05).abs() < 5e-4, "{work}");
     driver.shows_all(["fit: γ ", "u undoes"]);
     driver.press(".");
-    assert!(is_up_to_date(&driver.app) && misfit(&driver) < near, "{}", driver.text());
+    assert!(
+        is_up_to_date(&driver.app) && misfit(&driver) < near,
+        "{}",
+        driver.text()
+    );
 
-    for (name, expected) in
-        [("fit.csv", "displacement,force,model,residual"), ("fit.svg", "residual over noise")]
-    {
+    for (name, expected) in [
+        ("fit.csv", "displacement,force,model,residual"),
+        ("fit.svg", "residual over noise"),
+    ] {
         driver.press("E Ctrl+u");
         driver.type_text(name);
         driver.press("Enter");
@@ -114,7 +163,10 @@ fn the_misfit_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() {
         "# command: asperity fit curve.csv --drift=remove --noise=2e-7N --free=work,offset jkr-sphere"
     ));
     driver.press("u");
-    assert_eq!(driver.document().scene().adhesion.unwrap().work(), Some(0.049));
+    assert_eq!(
+        driver.document().scene().adhesion.unwrap().work(),
+        Some(0.049)
+    );
 }
 
 #[test]
@@ -133,7 +185,10 @@ fn a_curve_is_opened_by_its_path_and_closed_by_an_undo() {
     ]);
     let loading = driver.document().scene().loading.clone();
     assert!(matches!(loading[0], Move::ToDisplacement(_)), "{loading:?}");
-    assert_eq!(driver.app.edit.parameter().map(|row| &*row.path), Some("measured"));
+    assert_eq!(
+        driver.app.edit.parameter().map(|row| &*row.path),
+        Some("measured")
+    );
     driver.press("y");
     let copied = driver.copied.last().unwrap();
     assert!(
@@ -141,7 +196,10 @@ fn a_curve_is_opened_by_its_path_and_closed_by_an_undo() {
         "{copied}"
     );
     driver.press("u");
-    assert_eq!((driver.app.edit.measured.is_none(), driver.document().text()), (true, before.text()));
+    assert_eq!(
+        (driver.app.edit.measured.is_none(), driver.document().text()),
+        (true, before.text())
+    );
     driver.states("without the measured curve");
     driver.press("U");
     driver.states("measured curve ");
@@ -168,13 +226,23 @@ fn options_of_reading_are_rows_that_an_undo_restores() {
         "measured.negate|Right|none| --negate=none",
         "measured.free_points|6 0 Enter|60| --free-points=60",
     ] {
-        let [path, keys, value, argument] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+        let [path, keys, value, argument] = row.split('|').collect::<Vec<_>>()[..] else {
+            panic!("{row}")
+        };
         driver.select(path);
         driver.press(keys);
         let measured = driver.app.edit.measured.clone().unwrap();
         let shown = &driver.app.edit.parameter().unwrap().shown;
-        let is_as = if value.len() > 2 { shown == value } else { shown.starts_with(value) };
-        assert!(is_as && driver.app.prompt.is_none(), "{row}: {shown} {:?}", driver.refusal());
+        let is_as = if value.len() > 2 {
+            shown == value
+        } else {
+            shown.starts_with(value)
+        };
+        assert!(
+            is_as && driver.app.prompt.is_none(),
+            "{row}: {shown} {:?}",
+            driver.refusal()
+        );
         let read = measured.options.to_string();
         assert!(read.contains(argument), "{row}: {read}");
         let others = measured.options != options();
@@ -182,7 +250,13 @@ fn options_of_reading_are_rows_that_an_undo_restores() {
         driver.press("u");
         driver.states(" → ");
         let restored = driver.app.edit.measured.clone().unwrap();
-        assert_eq!((restored.options, driver.app.edit.parameter().unwrap().path.as_str()), (options(), path));
+        assert_eq!(
+            (
+                restored.options,
+                driver.app.edit.parameter().unwrap().path.as_str()
+            ),
+            (options(), path)
+        );
     }
 }
 
@@ -200,17 +274,29 @@ fn an_option_with_which_the_curve_is_not_read_is_refused_with_the_reason() {
         "measured.zero|Right|by the curve; Enter types a value",
         "measured|Right|a group: its fields are in the rows below",
     ] {
-        let [path, keys, why] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+        let [path, keys, why] = row.split('|').collect::<Vec<_>>()[..] else {
+            panic!("{row}")
+        };
         driver.app.view.pane = Pane::Parameters;
         driver.select(path);
         let before = driver.app.edit.measured.clone();
         driver.press(keys);
-        let text = driver.text().split_whitespace().collect::<Vec<_>>().join(" ");
-        let said = driver.refusal().map(str::to_owned).or_else(|| match &driver.app.message {
-            Some(Message::Refused(why)) => Some(why.clone()),
-            _ => None,
-        });
-        assert!(said.as_ref().is_some_and(|said| said.contains(why)), "{row}: {said:?}\n{text}");
+        let text = driver
+            .text()
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ");
+        let said = driver
+            .refusal()
+            .map(str::to_owned)
+            .or_else(|| match &driver.app.message {
+                Some(Message::Refused(why)) => Some(why.clone()),
+                _ => None,
+            });
+        assert!(
+            said.as_ref().is_some_and(|said| said.contains(why)),
+            "{row}: {said:?}\n{text}"
+        );
         driver.press("Esc");
         assert_eq!(driver.app.edit.measured, before, "{row}");
     }
@@ -220,14 +306,22 @@ fn an_option_with_which_the_curve_is_not_read_is_refused_with_the_reason() {
 #[test]
 fn residuals_are_a_strip_in_units_of_the_noise() {
     let (_folder, mut driver) = shown(is_of_curve);
-    for (size, keys, is_there) in
-        [((120, 36), "", true), ((80, 24), "", true), ((40, 12), "", false), ((80, 24), "z", true)]
-    {
+    for (size, keys, is_there) in [
+        ((120, 36), "", true),
+        ((80, 24), "", true),
+        ((40, 12), "", false),
+        ((80, 24), "z", true),
+    ] {
         driver.press(keys);
         driver.resize(size);
         let pane = driver.pane(Pane::Force);
         let has = |words: &str| pane.iter().any(|row| row.contains(words));
-        assert_eq!(has("residual over noise"), is_there, "{size:?} {keys}\n{}", driver.text());
+        assert_eq!(
+            has("residual over noise"),
+            is_there,
+            "{size:?} {keys}\n{}",
+            driver.text()
+        );
         // The residuals of another work of adhesion exceed 50 times the noise.
         assert_eq!(has("-100┤"), is_there, "{size:?} {keys}\n{}", driver.text());
     }
@@ -241,14 +335,22 @@ fn residuals_are_a_strip_in_units_of_the_noise() {
 fn surfaces_and_broken_curves_are_named_where_a_path_is_opened() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    let heights: String = (0..64).map(|index| format!("{index} {}\n", (index * index) % 7)).collect();
+    let heights: String = (0..64)
+        .map(|index| format!("{index} {}\n", (index * index) % 7))
+        .collect();
     write("surface.txt", &format!("# units: um nm\n{heights}"));
     write("flat.csv", "displacement [nm],force [nN]\n1,2\n");
     write("empty.csv", "displacement [nm],force [nN]\n");
     write("words.txt", "neither a scene nor numbers\n");
     for (name, said) in [
-        ("surface.txt", "a surface; its name, typed on the row of the roughness"),
-        ("flat.csv", "1 points with displacement and force; allowed: at least"),
+        (
+            "surface.txt",
+            "a surface; its name, typed on the row of the roughness",
+        ),
+        (
+            "flat.csv",
+            "1 points with displacement and force; allowed: at least",
+        ),
         ("empty.csv", "empty.csv:1:1: "),
         ("words.txt", "words.txt:1:1: "),
     ] {

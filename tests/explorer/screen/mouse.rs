@@ -29,7 +29,10 @@ fn a_press_chooses_the_pane_and_the_row() {
         for row in area.y..area.bottom() {
             driver.press(keys);
             let rows = driver.rows();
-            let text: String = rows[usize::from(row)].chars().skip(usize::from(area.x)).collect();
+            let text: String = rows[usize::from(row)]
+                .chars()
+                .skip(usize::from(area.x))
+                .collect();
             let before = driver.app.edit.selected;
             driver.mouse(area.x + 3, row, Gesture::Press);
             if driver.app.edit.selected != before || text.contains('›') {
@@ -40,7 +43,10 @@ fn a_press_chooses_the_pane_and_the_row() {
         }
         assert!(chosen > 5, "{chosen}");
     }
-    assert!(driver.mouse(500, 500, Gesture::Press).is_empty(), "nothing is there");
+    assert!(
+        driver.mouse(500, 500, Gesture::Press).is_empty(),
+        "nothing is there"
+    );
 }
 
 #[test]
@@ -58,13 +64,25 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
         assert!(driver.app.manual.is_none(), "a click alone moves nothing");
         for (number, column) in [21, 25, 18, 23].into_iter().enumerate() {
             let (column, row) = (area.x + column, area.y + 5);
-            driver.mouse(column, row, if number == 2 { Gesture::Press } else { Gesture::Drag });
-            let [wanted, next] = [column, column + 1]
-                .map(|column| indentation_at(&driver.app, axis_number(&driver, column, row)).unwrap());
+            driver.mouse(
+                column,
+                row,
+                if number == 2 {
+                    Gesture::Press
+                } else {
+                    Gesture::Drag
+                },
+            );
+            let [wanted, next] = [column, column + 1].map(|column| {
+                indentation_at(&driver.app, axis_number(&driver, column, row)).unwrap()
+            });
             let found = driver.point().indentation;
             assert!(driver.app.manual.is_some());
             // The view may change a little as the path of manual loading grows.
-            assert!((found - wanted).abs() <= next - wanted, "{found}, not {wanted}");
+            assert!(
+                (found - wanted).abs() <= next - wanted,
+                "{found}, not {wanted}"
+            );
         }
     }
     // Over the axis of forces there is no indentation.
@@ -97,9 +115,15 @@ fn the_wheel_looks_closer_and_scrolls() {
         );
     }
     assert_eq!(driver.app.view.profile.share, 0.25);
-    let (area, springs) = (driver.area(Pane::CloseUp), driver.snapshot().close_up.section.springs);
+    let (area, springs) = (
+        driver.area(Pane::CloseUp),
+        driver.snapshot().close_up.section.springs,
+    );
     driver.mouse(area.x, area.y, Gesture::Wheel(1));
-    assert_eq!((driver.app.view.close_up.springs, driver.app.view.pane), (Some(springs / 2), Pane::CloseUp));
+    assert_eq!(
+        (driver.app.view.close_up.springs, driver.app.view.pane),
+        (Some(springs / 2), Pane::CloseUp)
+    );
     driver.press("g");
     let area = driver.area(Pane::Parameters);
     driver.mouse(area.x, area.y, Gesture::Wheel(-1));
@@ -109,10 +133,23 @@ fn the_wheel_looks_closer_and_scrolls() {
     driver.resize((80, 24));
     driver.press("?");
     driver.mouse(3, 3, Gesture::Wheel(-1));
-    assert_eq!(driver.app.prompt.as_ref().map(|help| help.selected), Some(1));
+    assert_eq!(
+        driver.app.prompt.as_ref().map(|help| help.selected),
+        Some(1)
+    );
     driver.mouse(3, 3, Gesture::Press);
-    assert_eq!(driver.app.prompt.as_ref().map(|help| help.selected), Some(1), "a press does nothing there");
+    assert_eq!(
+        driver.app.prompt.as_ref().map(|help| help.selected),
+        Some(1),
+        "a press does nothing there"
+    );
     driver.press("Esc o");
     driver.mouse(3, 3, Gesture::Wheel(-1));
-    assert!(driver.app.prompt.as_ref().is_some_and(|prompt| prompt.selected == 1));
+    assert!(
+        driver
+            .app
+            .prompt
+            .as_ref()
+            .is_some_and(|prompt| prompt.selected == 1)
+    );
 }

@@ -104,7 +104,11 @@ fn a_path_is_completed() {
             if start == "zzz" {
                 driver.states("no file or folder");
             }
-            assert!(driver.footer().contains(footer), "{open}: {}", driver.footer());
+            assert!(
+                driver.footer().contains(footer),
+                "{open}: {}",
+                driver.footer()
+            );
         }
     }
 }

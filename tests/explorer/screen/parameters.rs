@@ -7,13 +7,24 @@ fn selected(app: &App) -> &str {
 }
 
 fn scenes() -> [Document; 5] {
-    [default_scene(), rough(), smooth(), punch(), without_adhesion()]
+    [
+        default_scene(),
+        rough(),
+        smooth(),
+        punch(),
+        without_adhesion(),
+    ]
 }
 
 #[test]
 fn values_are_whole_in_narrow_panes() {
-    let long =
-        changed(&rough(), &[("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]")]);
+    let long = changed(
+        &rough(),
+        &[(
+            "loading",
+            "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]",
+        )],
+    );
     for scene in scenes().into_iter().chain([long]) {
         for size in SIZES {
             let mut driver = mid_retraction(scene.clone());
@@ -30,13 +41,23 @@ fn values_are_whole_in_narrow_panes() {
                     continue;
                 }
                 let rows = driver.rows();
-                let row = rows.iter().find(|row| row.contains('›')).expect("the selected row");
-                let derived =
-                    row.contains("none") || row.split("= ").nth(1).is_some_and(|value| !value.contains('…'));
-                let is_whole =
-                    if parameter.shown.is_empty() { derived } else { row.contains(&parameter.shown) };
+                let row = rows
+                    .iter()
+                    .find(|row| row.contains('›'))
+                    .expect("the selected row");
+                let derived = row.contains("none")
+                    || row
+                        .split("= ")
+                        .nth(1)
+                        .is_some_and(|value| !value.contains('…'));
+                let is_whole = if parameter.shown.is_empty() {
+                    derived
+                } else {
+                    row.contains(&parameter.shown)
+                };
                 assert!(is_whole, "{size:?} {}: {row}", parameter.shown);
-                let named = row.contains(parameter.field.symbol) || row.contains(&parameter.name()[..3]);
+                let named =
+                    row.contains(parameter.field.symbol) || row.contains(&parameter.name()[..3]);
                 assert!(named, "{size:?}: {row}");
                 driver.press("j");
             }
@@ -64,7 +85,11 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
         driver.states(format!("Find: {typed}"));
         driver.press("Enter");
         assert_eq!(selected(&driver.app), path, "{typed}");
-        assert_eq!(driver.app.keys(), Context::Parameters, "a value can be typed at once");
+        assert_eq!(
+            driver.app.keys(),
+            Context::Parameters,
+            "a value can be typed at once"
+        );
     }
 }
 
@@ -80,7 +105,10 @@ fn a_search_is_moved_through_and_left() {
             assert_eq!(found, Context::List);
             assert!(driver.text().contains('›'), "{size:?}\n{}", driver.text());
             driver.press("Down Esc");
-            assert_eq!((driver.app.view.pane, selected(&driver.app)), (pane_before, "roughness.hurst"));
+            assert_eq!(
+                (driver.app.view.pane, selected(&driver.app)),
+                (pane_before, "roughness.hurst")
+            );
             assert_eq!(*driver.document(), document);
         }
     }

@@ -11,7 +11,10 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     let before = driver.app.play;
     assert_ne!(before.at, At::Start);
     driver.press("Space");
-    assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
+    assert!(
+        driver.elapse(1.0).is_empty(),
+        "nothing moves while it is paused"
+    );
     assert_eq!(driver.app.play.at, before.at);
     let here = driver.point().indentation;
     driver.press(".");
@@ -32,7 +35,11 @@ fn the_animation_is_paused_stepped_and_begun_again() {
         ("> . r", 0, At::Start),
     ] {
         driver.press(keys);
-        assert_eq!((driver.app.play.leg, driver.app.play.at), (leg, at), "{keys}");
+        assert_eq!(
+            (driver.app.play.leg, driver.app.play.at),
+            (leg, at),
+            "{keys}"
+        );
     }
     assert!(driver.app.play.playing);
 }
@@ -44,13 +51,19 @@ fn a_key_goes_to_the_pull_off_of_the_loading() {
     let again = "[ToForce(2.0e-5), ToSeparation, ToTouch, ToSeparation]";
     let [twice, again] = [twice, again].map(|loading| rough().set("loading", loading).unwrap());
     let scenes = [rough(), smooth(), twice, again];
-    for (document, size) in scenes.into_iter().flat_map(|one| [(one.clone(), (120, 40)), (one, (80, 24))]) {
+    for (document, size) in scenes
+        .into_iter()
+        .flat_map(|one| [(one.clone(), (120, 40)), (one, (80, 24))])
+    {
         let mut driver = Driver::start(document);
         driver.resize(size);
         driver.press("d ] !");
         let expected = -driver.outcome().figures.adhesion_force.unwrap();
         let point = driver.point();
-        assert!(expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9, "{point:?}, {expected} N");
+        assert!(
+            expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9,
+            "{point:?}, {expected} N"
+        );
         assert!(driver.app.manual.is_none() && !driver.app.play.playing);
     }
 }
@@ -84,11 +97,21 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
             assert_eq!(player.at, At::End);
         }
         let expected = (seconds / 6.0).min(3.0);
-        assert!((player.leg as f64 + share - expected).abs() < 1e-9, "{seconds}: {player:?}");
+        assert!(
+            (player.leg as f64 + share - expected).abs() < 1e-9,
+            "{seconds}: {player:?}"
+        );
         for steps in [3, 70, 211] {
             let (other, _, there) = place(steps, seconds);
-            assert_eq!((other.leg, other.playing), (player.leg, player.playing), "{seconds}, {steps}");
-            assert!((there.indentation - point.indentation).abs() < 5e-14, "{seconds}, {steps}");
+            assert_eq!(
+                (other.leg, other.playing),
+                (player.leg, player.playing),
+                "{seconds}, {steps}"
+            );
+            assert!(
+                (there.indentation - point.indentation).abs() < 5e-14,
+                "{seconds}, {steps}"
+            );
         }
     }
 }
@@ -102,10 +125,17 @@ fn the_configuration_sets_speed_and_end() {
         driver.press("r");
         (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
         let player = driver.app.play;
-        (player.leg, (10.0 * player.share(driver.app.legs())).round(), player.playing)
+        (
+            player.leg,
+            (10.0 * player.share(driver.app.legs())).round(),
+            player.playing,
+        )
     };
     assert_eq!(place(Config::new(bindings()), 3), (0, 5.0, true));
-    assert_eq!(place(config("(version: 1, speed: 2.0)"), 3), (0, 10.0, true));
+    assert_eq!(
+        place(config("(version: 1, speed: 2.0)"), 3),
+        (0, 10.0, true)
+    );
     // It ends at the pull-off, and the next play begins anew.
     let mut driver = Driver::start(rough());
     (0..200).for_each(|_| drop(driver.elapse(0.1)));
@@ -116,7 +146,11 @@ fn the_configuration_sets_speed_and_end() {
     driver.select("roughness.hurst");
     driver.press("l");
     let expected = -driver.outcome().figures.adhesion_force.unwrap();
-    assert!((driver.point().force / expected - 1.0).abs() < 1e-9, "{:?}", driver.point());
+    assert!(
+        (driver.point().force / expected - 1.0).abs() < 1e-9,
+        "{:?}",
+        driver.point()
+    );
     driver.press("Space");
     assert_eq!(driver.app.play, Player::START);
     let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);

@@ -8,17 +8,28 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 /// Computes the curve up to this number of profiles.
 fn compute(driver: &mut Driver, profiles: usize) {
     let known = AtomicUsize::new(0);
-    for study in studies(&mut driver.app).into_iter().filter(|study| study.is::<PreloadCurve>()) {
-        study.perform(&mut Simulation::default(), &|| known.load(Relaxed) == profiles, &mut |finding| {
-            driver.act(Action::Found(finding));
-            known.store(computed(driver) % PreloadCurve::PROFILES, Relaxed);
-        });
+    for study in studies(&mut driver.app)
+        .into_iter()
+        .filter(|study| study.is::<PreloadCurve>())
+    {
+        study.perform(
+            &mut Simulation::default(),
+            &|| known.load(Relaxed) == profiles,
+            &mut |finding| {
+                driver.act(Action::Found(finding));
+                known.store(computed(driver) % PreloadCurve::PROFILES, Relaxed);
+            },
+        );
     }
 }
 
 /// Number of profiles computed so far.
 fn computed(driver: &Driver) -> usize {
-    driver.app.studies.value::<PreloadCurve>().map_or(0, |curve| curve.profiles())
+    driver
+        .app
+        .studies
+        .value::<PreloadCurve>()
+        .map_or(0, |curve| curve.profiles())
 }
 
 /// The explorer with the curve of few profiles computed, and shown.
@@ -39,7 +50,12 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
         let mut driver = shown(rough(), profiles);
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
-            driver.shows_all(["Adhesion force F_a (", "present preload", "Parameters", "this profile"]);
+            driver.shows_all([
+                "Adhesion force F_a (",
+                "present preload",
+                "Parameters",
+                "this profile",
+            ]);
             assert_eq!(driver.text().contains("3 of 16 profiles"), profiles == 3);
             driver.shows(format!("range of {profiles} profiles"));
             // The status line and the crosshair.
@@ -55,19 +71,32 @@ fn forces_are_shown_in_units_of_the_ideal_adhesion_force() {
     let mut driver = shown(rough(), 3);
     driver.shows_all(["Adhesion force F_a (", "F_n (", "nN, turned at first touch"]);
     driver.press("N");
-    driver.shows_all(["Adhesion force F_a/F_a,max", "F_n/F_a,max", "Force F/F_a,max", "d/h"]);
+    driver.shows_all([
+        "Adhesion force F_a/F_a,max",
+        "F_n/F_a,max",
+        "Force F/F_a,max",
+        "d/h",
+    ]);
     driver.hides("nN, turned at first touch");
     // The crosshair reads the same place in the other unit.
     let read = |driver: &mut Driver, keys: &str| -> f64 {
         driver.press(keys);
         let text = driver.text();
-        let mut after = text.split("this profile ").skip(1).filter_map(|rest| rest.split_whitespace().next());
-        after.find_map(|number| number.parse().ok()).unwrap_or_else(|| panic!("{text}"))
+        let mut after = text
+            .split("this profile ")
+            .skip(1)
+            .filter_map(|rest| rest.split_whitespace().next());
+        after
+            .find_map(|number| number.parse().ok())
+            .unwrap_or_else(|| panic!("{text}"))
     };
     let share = read(&mut driver, "* End");
     let force = read(&mut driver, "N");
     let ideal = driver.outcome().ideal_adhesion_force.unwrap() * 1e6;
-    assert!((force / ideal / share - 1.0).abs() < 0.01, "{force} µN of {ideal} µN, {share}");
+    assert!(
+        (force / ideal / share - 1.0).abs() < 0.01,
+        "{force} µN of {ideal} µN, {share}"
+    );
 }
 
 #[test]
@@ -77,11 +106,17 @@ fn a_key_changes_the_scale_of_the_preloads() {
         driver.press(keys);
         compute(&mut driver, 1);
         let curve = driver.app.studies.value::<PreloadCurve>().unwrap();
-        (curve.axis.values[0], curve.axis.values[curve.axis.values.len() - 1])
+        (
+            curve.axis.values[0],
+            curve.axis.values[curve.axis.values.len() - 1],
+        )
     };
     let usual = range("");
     let (from, to) = range("X");
-    assert!(usual.0 < 0.0 && from > 0.0 && (to / from / 1e6 - 1.0).abs() < 1e-9, "{usual:?} {from} {to}");
+    assert!(
+        usual.0 < 0.0 && from > 0.0 && (to / from / 1e6 - 1.0).abs() < 1e-9,
+        "{usual:?} {from} {to}"
+    );
     assert_eq!(range("X"), usual);
 }
 

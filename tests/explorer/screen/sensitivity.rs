@@ -5,7 +5,10 @@ use asperity::study::Sensitivity;
 
 /// The explorer with the sensitivities computed, and shown.
 pub fn computed_sensitivity(document: Document) -> Driver {
-    let few = changed(&document, &[("numerics.points", "512"), ("roughness.modes", "(8, 128)")]);
+    let few = changed(
+        &document,
+        &[("numerics.points", "512"), ("roughness.modes", "(8, 128)")],
+    );
     let mut driver = Driver::open_with(few, Simulation::run, Study::is::<Sensitivity>);
     driver.perform(vec![Task::Ask]);
     driver.press("Space Y");
@@ -18,11 +21,20 @@ fn bars_show_the_changes_and_the_table_has_them_all() {
     assert!(driver.app.is_shown(Pane::Sensitivity));
     driver.press("z");
     let text = driver.text();
-    for words in ["Sensitivity: each number ±10 %", "k_min", "F_a(d=0)", "ΔW", "profiles"] {
+    for words in [
+        "Sensitivity: each number ±10 %",
+        "k_min",
+        "F_a(d=0)",
+        "ΔW",
+        "profiles",
+    ] {
         assert!(text.contains(words), "{words}\n{text}");
     }
     driver.press("z R");
-    assert!(driver.app.studies.value::<Sensitivity>().is_some(), "another profile has its own");
+    assert!(
+        driver.app.studies.value::<Sensitivity>().is_some(),
+        "another profile has its own"
+    );
     driver.press("Y");
     assert!(driver.app.is_shown(Pane::Profile));
 }

@@ -23,14 +23,20 @@ fn unreadable(theme: Theme) -> &'static [Color] {
 fn every_screen_is_readable_in_all_windows_themes_and_markers() {
     for mut driver in everywhere() {
         let before = driver.screen();
-        for size in SIZES.into_iter().chain([(300, 40), (20, 6), (1, 1), (0, 0)]) {
+        for size in SIZES
+            .into_iter()
+            .chain([(300, 40), (20, 6), (1, 1), (0, 0)])
+        {
             driver.resize(size);
             let text = driver.text();
             for theme in Theme::value_variants() {
                 driver.app.view.appearance.theme = *theme;
                 let screen = driver.screen();
                 assert_eq!(rows(&screen).join("\n"), text, "{theme:?}");
-                for colour in screen.content.iter().flat_map(|cell| [cell.fg, cell.bg, cell.underline_color])
+                for colour in screen
+                    .content
+                    .iter()
+                    .flat_map(|cell| [cell.fg, cell.bg, cell.underline_color])
                 {
                     let is_free = matches!(colour, Color::Rgb(..) | Color::Indexed(_));
                     let is_plain = *theme != Theme::Plain || colour == Color::Reset;
@@ -45,14 +51,21 @@ fn every_screen_is_readable_in_all_windows_themes_and_markers() {
                 |symbol: &str| symbol.len() == 1 && matches!(symbol.as_bytes()[0], b' '..=b'~');
             let screen = driver.screen();
             assert!(
-                screen.content.iter().all(|cell| is_printable(cell.symbol())),
+                screen
+                    .content
+                    .iter()
+                    .all(|cell| is_printable(cell.symbol())),
                 "{size:?}\n{}",
                 driver.text()
             );
             driver.app.view.appearance = APPEARANCE;
         }
         driver.resize((120, 40));
-        assert_eq!(driver.screen(), before, "a window that grows back shows what it showed");
+        assert_eq!(
+            driver.screen(),
+            before,
+            "a window that grows back shows what it showed"
+        );
     }
 }
 
@@ -75,10 +88,14 @@ fn no_number_of_the_status_is_cut() {
         driver.resize((columns, 40));
         let status = driver.status();
         // Each fact is shown in full.
-        let facts = |status: &str| -> Vec<String> { status.split(" · ").map(str::to_owned).collect() };
+        let facts =
+            |status: &str| -> Vec<String> { status.split(" · ").map(str::to_owned).collect() };
         let all = facts(&whole);
         let has_error = all[0].starts_with(&facts(&status)[0]);
-        assert!(has_error && facts(&status)[1..].iter().all(|fact| all.contains(fact)), "{status}|{whole}");
+        assert!(
+            has_error && facts(&status)[1..].iter().all(|fact| all.contains(fact)),
+            "{status}|{whole}"
+        );
     }
 }
 
@@ -89,14 +106,20 @@ const WIDE: (u16, u16) = (400, 40);
 fn messages_are_whole_or_end_in_an_ellipsis() {
     let scenes: [(&str, &str); 3] = [
         ("e Ctrl+u 1 2 k g Enter", "! "),
-        ("e Ctrl+u - 1 Enter", "! roughness.hurst = -1.0: allowed: above 0 and below 1"),
+        (
+            "e Ctrl+u - 1 Enter",
+            "! roughness.hurst = -1.0: allowed: above 0 and below 1",
+        ),
         ("L q", "The scene has unsaved changes. Leave?"),
     ];
     for (keys, begins) in scenes {
         let mut driver = pressed(keys);
         driver.resize(WIDE);
         let whole = driver.status();
-        assert!(whole.starts_with(begins) && !whole.ends_with('…'), "{keys}: {whole}");
+        assert!(
+            whole.starts_with(begins) && !whole.ends_with('…'),
+            "{keys}: {whole}"
+        );
         for size in SIZES {
             driver.resize(size);
             let status = driver.status();
@@ -106,8 +129,14 @@ fn messages_are_whole_or_end_in_an_ellipsis() {
             let footer = driver.rows().pop().unwrap_or_default();
             let rest = footer.trim_end().trim_end_matches('…');
             let is_whole = status == whole || !rest.is_empty() && whole.contains(rest);
-            assert!(is_whole || status.ends_with('…') && status.chars().count() >= 8, "{size:?}: {status}");
-            assert!(status != whole || whole.chars().count() <= usize::from(size.0), "{size:?}: {status}");
+            assert!(
+                is_whole || status.ends_with('…') && status.chars().count() >= 8,
+                "{size:?}: {status}"
+            );
+            assert!(
+                status != whole || whole.chars().count() <= usize::from(size.0),
+                "{size:?}: {status}"
+            );
         }
     }
 }
@@ -147,7 +176,10 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
                 continue;
             }
             let rows = driver.rows()[usize::from(area.y)..usize::from(area.bottom())].join("\n");
-            assert!(rows.contains(across) && rows.contains(up), "{size:?} {pane:?}\n{rows}");
+            assert!(
+                rows.contains(across) && rows.contains(up),
+                "{size:?} {pane:?}\n{rows}"
+            );
             let has_numbers = rows.lines().filter(|row| row.contains('┤')).count() >= 2;
             assert!(has_numbers || area.height < 12, "{size:?} {pane:?}\n{rows}");
         }

@@ -6,11 +6,23 @@ use asperity_report::SceneSpectra;
 
 /// A scene of a measured profile of 512 µm, with its file.
 fn measured(file: &Path) -> Document {
-    let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
-    let rows: String = (0..512).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
+    let height = |i: u32| {
+        (1..60)
+            .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k))
+            .sum::<f64>()
+    };
+    let rows: String = (0..512)
+        .map(|i| format!("{i} {}\n", 30.0 * height(i)))
+        .collect();
     fs::write(file, format!("x [um] z [nm]\n{rows}")).unwrap();
-    let roughness = format!("Measured(file: {:?}, as_line: false)", file.to_str().unwrap());
-    let scene = changed(&rough(), &[("roughness", &roughness), ("adhesion", "(work: 0.05)")]);
+    let roughness = format!(
+        "Measured(file: {:?}, as_line: false)",
+        file.to_str().unwrap()
+    );
+    let scene = changed(
+        &rough(),
+        &[("roughness", &roughness), ("adhesion", "(work: 0.05)")],
+    );
     Document::parse(scene.text(), "measured").unwrap()
 }
 
@@ -50,14 +62,39 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
     // The typed text replaces the value.
     driver.select("roughness");
     driver.press(&format!("Enter `{}/sty` Tab", folder.path().display()));
-    assert_eq!(driver.app.prompt.as_ref().map(|prompt| prompt.line.text()), file.to_str());
+    assert_eq!(
+        driver.app.prompt.as_ref().map(|prompt| prompt.line.text()),
+        file.to_str()
+    );
     driver.press("Enter");
     let scene = driver.document().scene();
-    assert_eq!((scene.measured_files(), scene.measured_as_line()), (vec![file.to_str().unwrap()], false));
-    assert!(driver.outcome().governing.kappa.is_some_and(|kappa| kappa > 0.0));
-    assert!(driver.outcome().figures.adhesion_force.is_some_and(|force| force > 0.0));
+    assert_eq!(
+        (scene.measured_files(), scene.measured_as_line()),
+        (vec![file.to_str().unwrap()], false)
+    );
+    assert!(
+        driver
+            .outcome()
+            .governing
+            .kappa
+            .is_some_and(|kappa| kappa > 0.0)
+    );
+    assert!(
+        driver
+            .outcome()
+            .figures
+            .adhesion_force
+            .is_some_and(|force| force > 0.0)
+    );
     driver.press("Q");
-    assert_eq!(driver.app.studies.value::<MeasuredAdhesion>().map(|found| found.profiles.len()), Some(16));
+    assert_eq!(
+        driver
+            .app
+            .studies
+            .value::<MeasuredAdhesion>()
+            .map(|found| found.profiles.len()),
+        Some(16)
+    );
     driver.sees("z", "F_a of 16 profiles: median ");
 }
 
@@ -70,7 +107,16 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
     let scene = rough();
     let name = folder.path().join("scene.ron");
     let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
-    let typed = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").line.text().to_owned();
+    let typed = |driver: &Driver| {
+        driver
+            .app
+            .prompt
+            .as_ref()
+            .expect("a prompt")
+            .line
+            .text()
+            .to_owned()
+    };
     let paths = |driver: &Driver| driver.app.prompt.as_ref().expect("a prompt").paths.len();
     driver.select("roughness");
     driver.press("Enter Ctrl+u `Measured(file: \"st` Tab");
@@ -82,13 +128,23 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
     driver.press("Ctrl+u");
     driver.type_text(&format!("Measured(file: \"{}/ot", folder.path().display()));
     driver.press("Tab");
-    assert_eq!(typed(&driver), format!("Measured(file: \"{}/other.txt", folder.path().display()));
-    for (field, text) in [("roughness", "SelfAffine(st"), ("material.youngs_modulus", "\"st")] {
+    assert_eq!(
+        typed(&driver),
+        format!("Measured(file: \"{}/other.txt", folder.path().display())
+    );
+    for (field, text) in [
+        ("roughness", "SelfAffine(st"),
+        ("material.youngs_modulus", "\"st"),
+    ] {
         driver.press("Esc");
         driver.select(field);
         driver.press("Enter Ctrl+u");
         driver.type_text(text);
         driver.press("Tab");
-        assert_eq!((typed(&driver).as_str(), paths(&driver)), (text, 0), "{field}");
+        assert_eq!(
+            (typed(&driver).as_str(), paths(&driver)),
+            (text, 0),
+            "{field}"
+        );
     }
 }

@@ -13,36 +13,81 @@ fn loaded(loading: &str, stage: usize) -> Driver {
 
 fn select(driver: &mut Driver, stage: usize) {
     let rows = &driver.app.edit.parameters;
-    let is_row = |leg: Option<usize>, path: &str| leg == stage.checked_sub(1) && path.starts_with("loading");
-    driver.app.edit.selected = rows.iter().position(|one| is_row(one.leg, &one.path)).expect("a row");
+    let is_row =
+        |leg: Option<usize>, path: &str| leg == stage.checked_sub(1) && path.starts_with("loading");
+    driver.app.edit.selected = rows
+        .iter()
+        .position(|one| is_row(one.leg, &one.path))
+        .expect("a row");
 }
 
 fn loading(app: &App) -> String {
     let text = to_ron(app.edit.document.scene());
-    let line = text.lines().find_map(|line| line.strip_prefix("    loading: ")).expect("the loading");
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("    loading: "))
+        .expect("the loading");
     line.trim_end_matches(',').to_owned()
 }
 
 /// Number of the selected stage, from 1.
 fn selected(app: &App) -> Option<usize> {
-    app.edit.parameter().and_then(|one| one.leg).map(|leg| leg + 1)
+    app.edit
+        .parameter()
+        .and_then(|one| one.leg)
+        .map(|leg| leg + 1)
 }
 
 #[test]
 fn keys_edit_the_stages() {
     let two = "[ToForce(2.0e-5), ToSeparation]";
     for (stage, keys, stages, next) in [
-        (1, "Insert Esc", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
-        (1, "P Esc P Esc", "[ToForce(2.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]", 3),
-        (0, "P Esc", "[ToForce(2.0e-5), ToSeparation, ToForce(2.0e-5)]", 3),
+        (
+            1,
+            "Insert Esc",
+            "[ToForce(2.0e-5), ToZeroForce, ToSeparation]",
+            2,
+        ),
+        (
+            1,
+            "P Esc P Esc",
+            "[ToForce(2.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]",
+            3,
+        ),
+        (
+            0,
+            "P Esc",
+            "[ToForce(2.0e-5), ToSeparation, ToForce(2.0e-5)]",
+            3,
+        ),
         (2, "Backspace", "[ToForce(2.0e-5)]", 1),
         (0, "Backspace", "[ToForce(2.0e-5)]", 1),
         (1, "P Esc Delete", two, 2),
-        (1, "P Esc Shift+Up", "[ToZeroForce, ToForce(2.0e-5), ToSeparation]", 1),
-        (1, "P Esc K J", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
-        (1, "P Esc J", "[ToForce(2.0e-5), ToSeparation, ToZeroForce]", 3),
+        (
+            1,
+            "P Esc Shift+Up",
+            "[ToZeroForce, ToForce(2.0e-5), ToSeparation]",
+            1,
+        ),
+        (
+            1,
+            "P Esc K J",
+            "[ToForce(2.0e-5), ToZeroForce, ToSeparation]",
+            2,
+        ),
+        (
+            1,
+            "P Esc J",
+            "[ToForce(2.0e-5), ToSeparation, ToZeroForce]",
+            3,
+        ),
         // Nothing is in contact after a separation: a second one is left out.
-        (1, "P Esc V", "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]", 2),
+        (
+            1,
+            "P Esc V",
+            "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]",
+            2,
+        ),
         (1, "V V V V V", "[ToForce(2.0e-5), ToSeparation]", 1),
         (1, "V V V", "[ToTouch, ToSeparation]", 1),
         (1, "l", "[ToForce(2.24e-5), ToSeparation]", 1),
@@ -86,7 +131,9 @@ fn a_stage_of_another_kind_has_the_state_at_its_end() {
     let end = driver.app.legs()[0].end();
     let preload = driver.outcome().figures.adhesion_force;
     driver.press("V");
-    let Move::ToIndentation(to) = driver.document().scene().loading[0] else { panic!("an indentation") };
+    let Move::ToIndentation(to) = driver.document().scene().loading[0] else {
+        panic!("an indentation")
+    };
     assert!((to / end - 1.0).abs() < 1e-3, "{to} {end}");
     assert_eq!(selected(&driver.app), Some(1));
     // The turning point is nearly the same.
@@ -99,7 +146,10 @@ fn a_stage_of_another_kind_has_the_state_at_its_end() {
     assert_eq!(loading(&driver.app), "[ToTouch, ToSeparation]");
     driver.app.view.pane = Pane::Parameters;
     driver.press("2 Space n m Enter");
-    assert_eq!(loading(&driver.app), "[ToIndentation(2.0e-9), ToSeparation]");
+    assert_eq!(
+        loading(&driver.app),
+        "[ToIndentation(2.0e-9), ToSeparation]"
+    );
 }
 
 #[test]
@@ -118,7 +168,11 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
         (0, "10 µN, pull", "\"pull\" is not a stage, such as"),
         (1, "separation", "cannot pull before contact"),
         (1, "1 kN", "is far beyond full contact at "),
-        (0, "2 loops 0 N to 1 kN, separation", "is far beyond full contact at "),
+        (
+            0,
+            "2 loops 0 N to 1 kN, separation",
+            "is far beyond full contact at ",
+        ),
     ] {
         select(&mut driver, stage);
         driver.press(&format!("Enter `{typed}` Enter"));
@@ -131,8 +185,13 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
     select(&mut driver, 0);
     driver.enter("20 µN, -1 N, separation");
     let refusal = driver.refusal().expect("a refusal").to_owned();
-    let (before, least) = refusal.split_once("smallest force within reach: ").expect("a reachable value");
-    assert!(before.contains("stage 2: the contact detaches before -1 N"), "{refusal}");
+    let (before, least) = refusal
+        .split_once("smallest force within reach: ")
+        .expect("a reachable value");
+    assert!(
+        before.contains("stage 2: the contact detaches before -1 N"),
+        "{refusal}"
+    );
     let least = least.split("N").next().unwrap().to_owned() + "N";
     driver.press("Esc");
     driver.enter(&format!("20 µN, {least}, separation"));
@@ -155,15 +214,25 @@ fn the_path_of_manual_loading_is_kept_as_the_loading() {
         let manual = driver.app.manual.clone().expect("manual loading");
         let point = driver.point();
         let effects = driver.press("W");
-        assert!(driver.status().contains("is the loading of the scene"), "{keys}: {}", driver.status());
+        assert!(
+            driver.status().contains("is the loading of the scene"),
+            "{keys}: {}",
+            driver.status()
+        );
         assert!(!effects.is_empty() && driver.app.manual.is_none());
         assert_eq!(driver.document().scene().loading, manual.loading, "{keys}");
         let is_near = |one: f64, other: f64, size: f64| (one - other).abs() <= 1e-9 * size;
-        let (deepest, largest) = manual.path.iter().fold((0.0_f64, 0.0_f64), |(d, force), point| {
-            (d.max(point.indentation.abs()), force.max(point.force.abs()))
-        });
+        let (deepest, largest) = manual
+            .path
+            .iter()
+            .fold((0.0_f64, 0.0_f64), |(d, force), point| {
+                (d.max(point.indentation.abs()), force.max(point.force.abs()))
+            });
         // The body stays where it is.
-        assert!(is_near(driver.point().indentation, point.indentation, deepest), "{keys}");
+        assert!(
+            is_near(driver.point().indentation, point.indentation, deepest),
+            "{keys}"
+        );
         // The curve of each stage is the path.
         let document = driver.document().clone();
         let mut legs = Vec::new();
@@ -176,12 +245,11 @@ fn the_path_of_manual_loading_is_kept_as_the_loading() {
         for (stage, at) in manual.stages.iter().zip(&manual.path) {
             let found = legs[*stage].point(at.indentation).unwrap();
             // Next to a jump the rounding of the indentation decides about its side.
-            let beside =
-                [1.0 - 1e-12, 1.0 + 1e-12].map(|by| legs[*stage].point(at.indentation * by).unwrap());
-            let is_same = [found]
-                .iter()
-                .chain(&beside)
-                .any(|found| is_near(found.force, at.force, largest) && found.fragments == at.fragments);
+            let beside = [1.0 - 1e-12, 1.0 + 1e-12]
+                .map(|by| legs[*stage].point(at.indentation * by).unwrap());
+            let is_same = [found].iter().chain(&beside).any(|found| {
+                is_near(found.force, at.force, largest) && found.fragments == at.fragments
+            });
             assert!(is_same, "{keys}: stage {stage} {at:?} {found:?}");
             compared += 1;
         }

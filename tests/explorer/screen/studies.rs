@@ -25,7 +25,10 @@ fn endless(key: u32, events: &Sender<String>) -> Study {
 
 fn thread() -> (StudyThread, Receiver<Finding>) {
     let (report, findings) = channel();
-    (StudyThread::start(move |finding| report.send(finding).unwrap()).unwrap(), findings)
+    (
+        StudyThread::start(move |finding| report.send(finding).unwrap()).unwrap(),
+        findings,
+    )
 }
 
 #[test]
@@ -47,7 +50,10 @@ fn a_study_ends_as_soon_as_another_one_is_ordered() {
         thread.stop();
         assert_eq!(next(), "3 stopped");
         drop(thread);
-        assert!(findings.recv_timeout(PATIENCE).is_err(), "the thread ends with the explorer");
+        assert!(
+            findings.recv_timeout(PATIENCE).is_err(),
+            "the thread ends with the explorer"
+        );
     });
 }
 
@@ -71,7 +77,9 @@ fn a_value_belongs_to_its_key_and_a_panic_is_a_reason() {
     let perform = |known: &mut Findings, study: Study| {
         for study in known.begin(vec![study]) {
             let mut found = Vec::new();
-            study.perform(&mut Simulation::default(), &|| false, &mut |finding| found.push(finding));
+            study.perform(&mut Simulation::default(), &|| false, &mut |finding| {
+                found.push(finding)
+            });
             found.into_iter().for_each(|finding| known.take_in(finding));
         }
     };
@@ -79,20 +87,33 @@ fn a_value_belongs_to_its_key_and_a_panic_is_a_reason() {
     let mut known = Findings::default();
     perform(&mut known, sum("a", 1));
     perform(&mut known, sum("a", 2));
-    assert_eq!((known.value::<u32>(), known.is_done::<u32>()), (Some(&1), true), "computed once");
+    assert_eq!(
+        (known.value::<u32>(), known.is_done::<u32>()),
+        (Some(&1), true),
+        "computed once"
+    );
     perform(&mut known, sum("b", 3));
     assert_eq!(known.value::<u32>(), Some(&3));
     // A finding of a dropped value, or of another key, changes nothing.
     let mut late = Vec::new();
-    sum("a", 4).perform(&mut Simulation::default(), &|| false, &mut |finding| late.push(finding));
-    late.iter().for_each(|finding| known.take_in(finding.clone()));
+    sum("a", 4).perform(&mut Simulation::default(), &|| false, &mut |finding| {
+        late.push(finding)
+    });
+    late.iter()
+        .for_each(|finding| known.take_in(finding.clone()));
     assert_eq!(known.value::<u32>(), Some(&3));
     known.keep(&["a"]);
     late.into_iter().for_each(|finding| known.take_in(finding));
     assert_eq!(known.value::<u32>(), None);
     perform(
         &mut known,
-        Study::new("c", false, |_, _, _| -> Result<u32, String> { panic!("no such spring") }),
+        Study::new("c", false, |_, _, _| -> Result<u32, String> {
+            panic!("no such spring")
+        }),
     );
-    assert!(known.failure::<u32>().is_some_and(|why| why.contains("internal error")));
+    assert!(
+        known
+            .failure::<u32>()
+            .is_some_and(|why| why.contains("internal error"))
+    );
 }

@@ -43,7 +43,10 @@ fn glyphs_show_all_that_was_recorded() {
     assert_eq!(driver.app.keys(), Context::Map);
     assert_eq!(driver.app.mapped(), Quantity::Regime);
     for (quantity, text) in [
-        (Quantity::FirstTouchAdhesionShare, "F_a(d=0)/F_a,max over H, κ"),
+        (
+            Quantity::FirstTouchAdhesionShare,
+            "F_a(d=0)/F_a,max over H, κ",
+        ),
         (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
         (Quantity::AdhesionForce, "F_a (µN) "),
     ] {
@@ -57,7 +60,12 @@ fn glyphs_show_all_that_was_recorded() {
     driver.sees("W", "F_a (µN) ");
     driver.press("V");
     assert_eq!(driver.app.mapped(), Quantity::Regime);
-    driver.shows_all(["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "(12 of 12"]);
+    driver.shows_all([
+        "█ pressure-insensitive",
+        "· non-adhesive",
+        "▓ ░ profiles disagree",
+        "(12 of 12",
+    ]);
 }
 
 #[test]
@@ -80,7 +88,12 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
         driver.set("adhesion.kappa", kappa);
         driver.set("roughness.hurst", hurst);
         driver.shows("outside the map");
-        assert!(driver.rows().iter().any(|row| row.chars().take(68).any(|cell| cell == '◆')));
+        assert!(
+            driver
+                .rows()
+                .iter()
+                .any(|row| row.chars().take(68).any(|cell| cell == '◆'))
+        );
         driver.hides("no longer");
         driver.press("m");
         driver.press(if back.0 > 1.0 { "j" } else { "k" });
@@ -97,7 +110,11 @@ fn the_scene_follows_to_the_next_preload() {
     let first = preload(&driver);
     driver.shows("F_n/(E* h L) = 0.01  1 of 3, P: the next");
     let mut regimes = vec![driver.app.grid().cloned()];
-    for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
+    for (times, share) in [
+        (10.0, "0.1  2 of 3"),
+        (100.0, "1  3 of 3"),
+        (1.0, "0.01  1 of 3"),
+    ] {
         driver.press("P");
         assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
         driver.shows(format!("F_n/(E* h L) = {share}"));
@@ -120,13 +137,24 @@ fn the_scene_follows_to_the_next_preload() {
 #[test]
 fn the_computed_map_can_be_had_instead() {
     let (_folder, mut driver) = opened();
-    let charts = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
-    assert!(!charts(&mut driver), "nothing is computed that is not shown");
+    let charts = |driver: &mut Driver| {
+        studies(&mut driver.app)
+            .iter()
+            .any(|study| study.is::<Live>())
+    };
+    assert!(
+        !charts(&mut driver),
+        "nothing is computed that is not shown"
+    );
     assert_eq!(driver.press("W"), [Task::Study]);
     assert!(charts(&mut driver));
     driver.shows("over H, κ, 4 profiles");
     driver.press("Up");
-    assert_eq!(place(&driver).0, 1.19, "from cell to cell of the map that is shown");
+    assert_eq!(
+        place(&driver).0,
+        1.19,
+        "from cell to cell of the map that is shown"
+    );
     driver.answers("P", "W shows the study's");
     driver.sees("W", "Study small");
     // The study is hidden and shown again with the pane.
@@ -149,7 +177,8 @@ fn studies_of_other_quantities_open_as_maps_and_curves() {
     driver.hides("no longer");
     // H alone: curves with the confidence of the mean.
     let alone = PLAN.replace(&format!("{kappa},"), "");
-    let (_folder, mut driver) = opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
+    let (_folder, mut driver) =
+        opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
     driver.shows_all(["over H, 12 profiles", "95 % confidence of the mean"]);
     driver.press("Right");
     assert_eq!(driver.app.place(), Some((0.6, None)));
@@ -166,7 +195,9 @@ fn a_study_is_opened_by_its_path() {
     driver.act(Action::Paste(path("small")));
     driver.sees("Enter", "Study small: regime (d=0) over H, κ, 12 profiles");
     assert!(is_up_to_date(&driver.app) && !driver.app.edit.is_unsaved());
-    let Some(Roughness::SelfAffine { modes, .. }) = driver.document().scene().roughness else { panic!() };
+    let Some(Roughness::SelfAffine { modes, .. }) = driver.document().scene().roughness else {
+        panic!()
+    };
     assert_eq!(modes, Some((1, 32)));
     driver.press("u");
     assert_eq!(driver.document().scene(), rough().scene());

@@ -20,7 +20,9 @@ fn forces(driver: &Driver, profiles: u64) -> Vec<f64> {
     let scene = driver.document().scene();
     let force = |line: u64| {
         let scene = scene.with_seed(scene.seed().unwrap() + line);
-        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = Simulation::default()
+            .run(&scene, &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         outcome.figures.adhesion_force.unwrap()
     };
     let mut forces: Vec<f64> = (0..profiles).map(force).collect();
@@ -35,8 +37,14 @@ fn the_headline_is_the_median_of_random_profiles() {
     let median = f64::midpoint(forces[7], forces[8]);
     let rounded = asperity::data::format_rounded(median, 3, "N");
     let status = driver.status();
-    assert!(status.starts_with(&format!("F_a median {rounded} (")), "{rounded}: {status}");
-    assert!(status.contains(", 16 profiles) · this profile 46.1 nN"), "{status}");
+    assert!(
+        status.starts_with(&format!("F_a median {rounded} (")),
+        "{rounded}: {status}"
+    );
+    assert!(
+        status.contains(", 16 profiles) · this profile 46.1 nN"),
+        "{status}"
+    );
     driver.shows("F_a/F_a,max ");
     // In units of F_a,max.
     driver.press("N");
@@ -74,7 +82,10 @@ fn a_value_is_found_for_a_target_and_taken() {
     assert!((work / exact - 1.0).abs() < 1e-3, "{work} {exact}");
     assert!((driver.outcome().figures.adhesion_force.unwrap() / 5e-6 - 1.0).abs() < 1e-6);
     driver.press("u");
-    assert_ne!(driver.document().scene().adhesion.unwrap().work(), Some(work));
+    assert_ne!(
+        driver.document().scene().adhesion.unwrap().work(),
+        Some(work)
+    );
 }
 
 #[test]
@@ -86,23 +97,37 @@ fn a_preload_is_found_on_the_profiles_and_goes_to_the_stage_that_presses() {
     driver.press("Enter");
     assert!(driver.app.prompt.is_none(), "{}", driver.text());
     let ensemble = driver.app.studies.value::<Ensemble>().unwrap();
-    let reached = ensemble.values(Quantity::AdhesionShare).into_iter().flatten();
+    let reached = ensemble
+        .values(Quantity::AdhesionShare)
+        .into_iter()
+        .flatten();
     // The median preload suffices for half of the profiles.
-    let reached = reached.filter(|share| *share >= 0.002 * (1.0 - 1e-6)).count();
+    let reached = reached
+        .filter(|share| *share >= 0.002 * (1.0 - 1e-6))
+        .count();
     assert!((7..=9).contains(&reached), "{reached}");
     // What is out of reach is said, and the question stays.
     driver.press("f Ctrl+u `F_a/F_a,max = 99 %`");
     driver.shows("never reached");
     driver.press("Enter");
-    assert!(driver.refusal().is_some_and(|why| why.contains("never reached")), "{}", driver.text());
+    assert!(
+        driver
+            .refusal()
+            .is_some_and(|why| why.contains("never reached")),
+        "{}",
+        driver.text()
+    );
 }
 
 #[test]
 fn a_target_that_cannot_be_read_and_a_row_without_a_number_are_refused() {
     let mut driver = asked(rough());
     driver.select("roughness.hurst");
-    for (typed, why) in [("nothing", "allowed"), ("F_a/F_a,max = 120 %", "allowed: from 0"), ("κ = 2", "κ")]
-    {
+    for (typed, why) in [
+        ("nothing", "allowed"),
+        ("F_a/F_a,max = 120 %", "allowed: from 0"),
+        ("κ = 2", "κ"),
+    ] {
         driver.press(&format!("f Ctrl+u `{typed}`"));
         driver.shows(why);
         driver.press("Enter");

@@ -15,10 +15,14 @@ struct Token {
 /// The text of a numbered step of the tour, on one line.
 fn step(number: usize) -> String {
     let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
-    let (_, tour) = readme.split_once("## A tour of one minute").expect("the tour");
+    let (_, tour) = readme
+        .split_once("## A tour of one minute")
+        .expect("the tour");
     let (tour, _) = tour.split_once("\n![").expect("a figure after the tour");
     let (_, begin) = tour.split_once(&format!("\n{number}. ")).expect("the step");
-    let (step, _) = begin.split_once(&format!("\n{}. ", number + 1)).unwrap_or((begin, ""));
+    let (step, _) = begin
+        .split_once(&format!("\n{}. ", number + 1))
+        .unwrap_or((begin, ""));
     step.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
@@ -27,7 +31,12 @@ fn tokens(step: &str) -> Vec<Token> {
     let parts: Vec<&str> = step.split('`').collect();
     assert!(parts.len() % 2 == 1, "accents come in pairs: {step}");
     let pairs = parts[1..].chunks(2);
-    pairs.map(|pair| Token { text: pair[0].to_owned(), after: pair[1].to_owned() }).collect()
+    pairs
+        .map(|pair| Token {
+            text: pair[0].to_owned(),
+            after: pair[1].to_owned(),
+        })
+        .collect()
 }
 
 /// Presses the key of a token as often as the words after it say.
@@ -36,8 +45,10 @@ fn press(driver: &mut Driver, token: &Token) {
     let arrow = arrows.iter().find(|(arrow, _)| *arrow == token.text);
     let key = arrow.map_or(token.text.as_str(), |(_, name)| name);
     let times = ["once", "twice", "three times", "four times"];
-    let times =
-        times.iter().position(|times| token.after.trim_start().starts_with(times)).map_or(1, |at| at + 1);
+    let times = times
+        .iter()
+        .position(|times| token.after.trim_start().starts_with(times))
+        .map_or(1, |at| at + 1);
     for _ in 0..times {
         driver.press(key);
     }
@@ -46,14 +57,22 @@ fn press(driver: &mut Driver, token: &Token) {
 /// The words between two others.
 #[track_caller]
 fn between<'t>(text: &'t str, before: &str, after: &str) -> &'t str {
-    let (_, rest) = text.split_once(before).unwrap_or_else(|| panic!("no {before:?} in {text}"));
-    let (found, _) = rest.split_once(after).unwrap_or_else(|| panic!("no {after:?} in {rest}"));
+    let (_, rest) = text
+        .split_once(before)
+        .unwrap_or_else(|| panic!("no {before:?} in {text}"));
+    let (found, _) = rest
+        .split_once(after)
+        .unwrap_or_else(|| panic!("no {after:?} in {rest}"));
     found
 }
 
 /// Pull-off force of the shown profile with this number of digits.
 fn pull_off(driver: &Driver, digits: usize) -> String {
-    format_rounded(driver.outcome().figures.adhesion_force.expect("a pull-off"), digits, "N")
+    format_rounded(
+        driver.outcome().figures.adhesion_force.expect("a pull-off"),
+        digits,
+        "N",
+    )
 }
 
 fn opened() -> Driver {
@@ -75,14 +94,30 @@ fn asked() -> Driver {
     press(&mut driver, &keys[2]);
     press(&mut driver, &keys[3]);
     // "replace `80` by `20`", in the text that the prompt proposes.
-    let proposed = driver.app.prompt.as_ref().expect("a prompt").line.text().to_owned();
-    assert!(keys[3].after.contains("replace") && proposed.contains(names[4]), "{proposed}");
+    let proposed = driver
+        .app
+        .prompt
+        .as_ref()
+        .expect("a prompt")
+        .line
+        .text()
+        .to_owned();
+    assert!(
+        keys[3].after.contains("replace") && proposed.contains(names[4]),
+        "{proposed}"
+    );
     driver.press("Ctrl+u");
     driver.type_text(&proposed.replace(names[4], names[5]));
     for stated in [
         format!("F_n = {}", between(&text, "The answer is ", ", the median")),
-        format!("median of {}", between(&text, "the median of ", " random profiles")),
-        format!("quartiles {}", between(&text, "with quartiles from ", ". `Enter`")),
+        format!(
+            "median of {}",
+            between(&text, "the median of ", " random profiles")
+        ),
+        format!(
+            "quartiles {}",
+            between(&text, "with quartiles from ", ". `Enter`")
+        ),
     ] {
         driver.shows(stated);
     }
@@ -98,8 +133,17 @@ fn the_first_step_finds_the_preload() {
     assert!(step(1).to_lowercase().contains(&share.to_lowercase()));
     let force = between(&step(1), "The answer is ", ", the median").to_owned();
     driver.shows(force);
-    let stage = driver.app.edit.parameter().and_then(|parameter| parameter.leg);
-    assert_eq!(stage, Some(0), "the force of stage 1 is selected: {}", driver.text());
+    let stage = driver
+        .app
+        .edit
+        .parameter()
+        .and_then(|parameter| parameter.leg);
+    assert_eq!(
+        stage,
+        Some(0),
+        "the force of stage 1 is selected: {}",
+        driver.text()
+    );
 }
 
 #[test]
@@ -119,7 +163,11 @@ fn the_second_step_presses_until_patches_merge() {
     let before = format!("{before} {unit}");
     assert_eq!(pull_off(&driver, 2), before);
     let mut seen = Vec::new();
-    assert!(keys[2].after.starts_with(" three times"), "{}", keys[2].after);
+    assert!(
+        keys[2].after.starts_with(" three times"),
+        "{}",
+        keys[2].after
+    );
     for _ in 0..3 {
         driver.press("Right");
         seen.push(pull_off(&driver, 2));
@@ -128,10 +176,17 @@ fn the_second_step_presses_until_patches_merge() {
     assert_eq!(seen, [before.clone(), before, after.to_owned()]);
     let stages = &driver.document().scene().loading;
     assert_eq!(stages.len(), 2);
-    assert_eq!(stages[1], asperity::contact::Move::ToSeparation, "the bodies are still separated at the end");
+    assert_eq!(
+        stages[1],
+        asperity::contact::Move::ToSeparation,
+        "the bodies are still separated at the end"
+    );
     // `Enter` opens the editor of a value.
     press(&mut driver, &keys[3]);
-    assert!(matches!(driver.app.prompt.as_ref().map(|prompt| &prompt.purpose), Some(Purpose::Value)));
+    assert!(matches!(
+        driver.app.prompt.as_ref().map(|prompt| &prompt.purpose),
+        Some(Purpose::Value)
+    ));
     driver.press("Esc");
     for (path, typed) in [("material.youngs_modulus", names[4]), ("length", names[5])] {
         driver.set(path, typed);
@@ -144,7 +199,10 @@ fn the_third_step_names_keys_that_do_what_it_says() {
     let text = step(3);
     let keys = tokens(&text);
     let names: Vec<&str> = keys.iter().map(|token| token.text.as_str()).collect();
-    assert_eq!(names, ["E", ".pdf", ".svg", ".png", "s", "y", ":", "?", "q"]);
+    assert_eq!(
+        names,
+        ["E", ".pdf", ".svg", ".png", "s", "y", ":", "?", "q"]
+    );
     let mut driver = opened();
     for extension in &names[1..4] {
         press(&mut driver, &keys[0]);

@@ -21,23 +21,49 @@ fn chosen(tolerance: f64) -> Result<Choosing, String> {
         finest: 8192,
     };
     let is_reached = tolerance >= choice.error;
-    let unreached = || ChoiceError::Unreached { tolerance, best: Some(Box::new(choice.clone())) };
-    let found = Some(if is_reached { Ok(choice.clone()) } else { Err(unreached()) });
-    Ok(Choosing { tolerance, tried: None, found })
+    let unreached = || ChoiceError::Unreached {
+        tolerance,
+        best: Some(Box::new(choice.clone())),
+    };
+    let found = Some(if is_reached {
+        Ok(choice.clone())
+    } else {
+        Err(unreached())
+    });
+    Ok(Choosing {
+        tolerance,
+        tried: None,
+        found,
+    })
 }
 
 fn costs(table: CostTable) -> Costs {
-    Costs { table: Some(table), trying: None }
+    Costs {
+        table: Some(table),
+        trying: None,
+    }
 }
 
 /// A row whose error falls with a power of its setting, and whose time grows with it.
 fn row(knob: Knob, setting: f64, error: f64) -> Row {
-    let figure = ErrorFigure { error: error.max(1e-5), resolved: error > 1e-5, order: None };
-    let seconds = if knob == Knob::Step { 2e-12 / setting } else { 1e-7 * setting };
+    let figure = ErrorFigure {
+        error: error.max(1e-5),
+        resolved: error > 1e-5,
+        order: None,
+    };
+    let seconds = if knob == Knob::Step {
+        2e-12 / setting
+    } else {
+        1e-7 * setting
+    };
     Row {
         knob,
         setting,
-        springs: if knob == Knob::Step { 1024 } else { setting as u64 },
+        springs: if knob == Knob::Step {
+            1024
+        } else {
+            setting as u64
+        },
         seconds: Timing::of(vec![seconds]),
         transforms: None,
         errors: [Some(figure), None, None, None],
@@ -46,24 +72,46 @@ fn row(knob: Knob, setting: f64, error: f64) -> Row {
 
 fn table() -> CostTable {
     let springs = || (9..15).map(|power| f64::from(1 << power));
-    let mut rows: Vec<Row> = springs().map(|n| row(Knob::SubCellSprings, n, (64.0 / n).powi(2))).collect();
+    let mut rows: Vec<Row> = springs()
+        .map(|n| row(Knob::SubCellSprings, n, (64.0 / n).powi(2)))
+        .collect();
     rows.extend(springs().map(|n| row(Knob::GridSprings, n, 20.0 / n)));
-    rows.extend((0..6).map(|k| 1e-8 * 0.5_f64.powi(k)).map(|step| row(Knob::Step, step, 2e6 * step)));
+    rows.extend(
+        (0..6)
+            .map(|k| 1e-8 * 0.5_f64.powi(k))
+            .map(|step| row(Knob::Step, step, 2e6 * step)),
+    );
     let reference = CostReference {
         springs: 16384,
         adhesion_force: Some(1e-5),
         closed_form: false,
         errors: [Some(1e-5), None, None, None],
     };
-    CostTable { budget: 10.0, spent: 1.0, transform_seconds: 1e-2, reference, rows, left_out: Vec::new() }
+    CostTable {
+        budget: 10.0,
+        spent: 1.0,
+        transform_seconds: 1e-2,
+        reference,
+        rows,
+        left_out: Vec::new(),
+    }
 }
 
 fn estimate(error: f64) -> Option<Estimate> {
     let evidence = Evidence::Solutions(vec![512, 2048]);
-    Some(Estimate { target: Target::AdhesionForce, error, near_step: error > 1.0, evidence })
+    Some(Estimate {
+        target: Target::AdhesionForce,
+        error,
+        near_step: error > 1.0,
+        evidence,
+    })
 }
 
-fn driver_with(document: Document, estimate: Option<Estimate>, table: Result<CostTable, String>) -> Driver {
+fn driver_with(
+    document: Document,
+    estimate: Option<Estimate>,
+    table: Result<CostTable, String>,
+) -> Driver {
     let mut driver = Driver::start(document);
     driver.press("Space");
     driver.find(estimate.ok_or_else(String::new));
@@ -80,7 +128,10 @@ pub fn measured(document: Document) -> Driver {
 
 #[test]
 fn a_scene_with_nothing_to_show_says_so() {
-    let empty = CostTable { rows: Vec::new(), ..table() };
+    let empty = CostTable {
+        rows: Vec::new(),
+        ..table()
+    };
     let mut driver = driver_with(without_adhesion(), None, Ok(empty));
     driver.press("A");
     for size in [(120, 40), (80, 24)] {
@@ -103,9 +154,15 @@ fn an_edit_forgets_what_was_found_out() {
     assert!(driver.app.studies.value::<Costs>().is_none());
     driver.states("± …");
     driver.shows("measuring");
-    let setting = |setting: &str| Costs { table: None, trying: Some(setting.to_owned()) };
+    let setting = |setting: &str| Costs {
+        table: None,
+        trying: Some(setting.to_owned()),
+    };
     let generation = driver.app.edit.generation;
-    driver.app.studies.set(generation, setting("grid springs: 64 springs"), false);
+    driver
+        .app
+        .studies
+        .set(generation, setting("grid springs: 64 springs"), false);
     driver.shows("trying grid springs: 64 springs…");
 }
 
@@ -122,13 +179,26 @@ fn the_headline_has_its_error() {
     driver.states("± …");
     driver.app.view.shows_times = false;
     assert!(!driver.status().contains('±'), "{}", driver.status());
-    assert!(stated(None).status().contains("N, error unknown"), "{}", stated(None).status());
+    assert!(
+        stated(None).status().contains("N, error unknown"),
+        "{}",
+        stated(None).status()
+    );
     let near_step = stated(Some(1.4));
     near_step.states("N, near a step of F_a(F_n)");
     // Without a pulling force: the largest force, and the error of its curve.
-    let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
+    let curve = Estimate {
+        target: Target::Curve,
+        ..estimate(0.02).unwrap()
+    };
     let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
-    assert!(driver.status().starts_with("F_max 20 µN, grid ± 2 % of the curve"), "{}", driver.status());
+    assert!(
+        driver
+            .status()
+            .starts_with("F_max 20 µN, grid ± 2 % of the curve"),
+        "{}",
+        driver.status()
+    );
 }
 
 /// Types a tolerance.
@@ -150,7 +220,13 @@ fn a_tolerance_is_an_edit_that_can_be_taken_back() {
     driver.states("2 048 springs");
     driver.shows("2 048 springs with edges SubCell: the fewest");
     // The known error is from finer solutions than an estimate.
-    assert!(driver.app.studies.value::<Estimate>().is_some_and(|known| known.error == 4e-4));
+    assert!(
+        driver
+            .app
+            .studies
+            .value::<Estimate>()
+            .is_some_and(|known| known.error == 4e-4)
+    );
     let generation = driver.app.edit.generation;
     ask(&mut driver, "0.1 %");
     assert_eq!(driver.app.edit.generation, generation, "it is so already");
@@ -163,18 +239,28 @@ fn a_tolerance_is_an_edit_that_can_be_taken_back() {
 fn a_tolerance_out_of_reach_changes_nothing() {
     let mut driver = measured(rough());
     driver.resize((80, 24));
-    let (text, generation) = (driver.document().text().to_owned(), driver.app.edit.generation);
+    let (text, generation) = (
+        driver.document().text().to_owned(),
+        driver.app.edit.generation,
+    );
     ask(&mut driver, "1e-6");
     assert!(matches!(driver.app.message, Some(Message::Error(_))));
     let stated = "a tolerance of 1e-6 is not reached with at most";
     driver.states(stated);
     for wrong in ["", "0", "2", "much", "-1 %"] {
         ask(&mut driver, wrong);
-        assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
+        assert!(
+            driver.status().contains("allowed: a relative error"),
+            "{wrong}: {}",
+            driver.status()
+        );
     }
     driver.press("% 1 Esc");
     assert!(driver.app.message.is_none() && driver.app.studies.value::<Choosing>().is_none());
-    assert_eq!((driver.document().text(), driver.app.edit.generation), (text.as_str(), generation));
+    assert_eq!(
+        (driver.document().text(), driver.app.edit.generation),
+        (text.as_str(), generation)
+    );
     // No choice for a missing scene.
     let mut driver = Driver::open(rough());
     driver.answers("%", "still being computed");
@@ -185,7 +271,9 @@ fn the_first_warning_is_in_the_status_line_and_all_are_in_the_pane() {
     let mut driver = Driver::start(changed(&rough(), &[("roughness.modes", "(2, 400)")]));
     driver.press("Space");
     let warnings = asperity_report::warning_texts(&driver.outcome().warnings);
-    let [first, _, ..] = &warnings[..] else { panic!("two warnings: {warnings:?}") };
+    let [first, _, ..] = &warnings[..] else {
+        panic!("two warnings: {warnings:?}")
+    };
     let beginning: String = first.chars().take(12).collect();
     driver.resize((160, 40));
     driver.states(format!("! 1 of {} (A): {beginning}", warnings.len()));
@@ -206,5 +294,10 @@ fn the_first_warning_is_in_the_status_line_and_all_are_in_the_pane() {
         assert!(shown.contains(warning), "{warning}\n{}", driver.text());
     }
     let driver = Driver::start(smooth());
-    assert_eq!(driver.status().contains("! "), !driver.outcome().warnings.is_empty(), "{}", driver.status());
+    assert_eq!(
+        driver.status().contains("! "),
+        !driver.outcome().warnings.is_empty(),
+        "{}",
+        driver.status()
+    );
 }

@@ -25,7 +25,11 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
     match Simulation::new(folder.to_path_buf()).run(scene, &stop, &mut |_, _, _| Ok(())) {
         Ok(outcome) => {
             assert_numbers(&outcome)?;
-            let ends = outcome.history.legs.iter().filter_map(|leg| leg.curve.last().copied());
+            let ends = outcome
+                .history
+                .legs
+                .iter()
+                .filter_map(|leg| leg.curve.last().copied());
             let starts = std::iter::once(CurvePoint::default()).chain(ends);
             outcome
                 .history
@@ -46,10 +50,14 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
 /// it.
 fn within_reach(document: &Document, beyond: &BeyondFullContact) -> Option<Document> {
     let is_refused = |stage: &Move| {
-        target_field(*stage).is_some_and(|(field, value)| (field.unit, value) == (beyond.unit, beyond.found))
+        target_field(*stage)
+            .is_some_and(|(field, value)| (field.unit, value) == (beyond.unit, beyond.found))
     };
     let mut stages = document.stages();
-    let (_, stage) = stages.iter_mut().find(|(_, stage)| is_refused(stage)).expect("the refused stage");
+    let (_, stage) = stages
+        .iter_mut()
+        .find(|(_, stage)| is_refused(stage))
+        .expect("the refused stage");
     *stage = match *stage {
         Move::ToForce(_) => Move::ToForce(beyond.allowed),
         Move::ToDisplacement(_) => Move::ToDisplacement(beyond.allowed),
@@ -63,12 +71,33 @@ fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
     let all = format!("{outcome:?}");
     prop_assert!(!all.contains("NaN") && !all.contains("inf"), "{}", all);
     let (work, points) = (&outcome.history.work, outcome.line.points);
-    prop_assert_eq!(outcome.history.legs.iter().map(|leg| leg.attached).sum::<u64>(), work.attached);
+    prop_assert_eq!(
+        outcome
+            .history
+            .legs
+            .iter()
+            .map(|leg| leg.attached)
+            .sum::<u64>(),
+        work.attached
+    );
     prop_assert!(work.springs >= 1 && work.springs <= points as u64);
-    prop_assert!(outcome.histogram.as_ref().is_none_or(|histogram| histogram.low <= histogram.high));
+    prop_assert!(
+        outcome
+            .histogram
+            .as_ref()
+            .is_none_or(|histogram| histogram.low <= histogram.high)
+    );
     for patches in outcome.fragments.iter().chain([&outcome.history.contacts]) {
-        prop_assert!(patches.iter().all(|one| one.first <= one.last && one.last < points));
-        prop_assert!(patches.windows(2).all(|pair| pair[0].last < pair[1].first), "{:?}", patches);
+        prop_assert!(
+            patches
+                .iter()
+                .all(|one| one.first <= one.last && one.last < points)
+        );
+        prop_assert!(
+            patches.windows(2).all(|pair| pair[0].last < pair[1].first),
+            "{:?}",
+            patches
+        );
     }
     Ok(())
 }
@@ -80,20 +109,41 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
     let length = line.length.max(line.points as f64 * line.spacing);
     let is_loading = leg.direction == Direction::Loading;
     for point in leg.curve.iter().chain([&leg.largest, &leg.smallest]) {
-        prop_assert!((0.0..=length).contains(&point.contact_length), "{:?} on {} m", point, length);
-        prop_assert!(point.springs.max(point.fragments) <= line.points as u64, "{:?}", point);
+        prop_assert!(
+            (0.0..=length).contains(&point.contact_length),
+            "{:?} on {} m",
+            point,
+            length
+        );
+        prop_assert!(
+            point.springs.max(point.fragments) <= line.points as u64,
+            "{:?}",
+            point
+        );
         let is_free = point.force == 0.0 && point.contact_length == 0.0;
         prop_assert!(point.fragments > 0 || is_free, "{:?}", point);
     }
     for pair in leg.curve.windows(2) {
-        let [one, other] = if is_loading { [pair[0], pair[1]] } else { [pair[1], pair[0]] };
+        let [one, other] = if is_loading {
+            [pair[0], pair[1]]
+        } else {
+            [pair[1], pair[0]]
+        };
         // On one way the contact grows with the indentation.
         let grows = one.indentation <= other.indentation && one.springs <= other.springs;
-        prop_assert!(grows && one.contact_length <= other.contact_length + ROUNDING * length, "{:?}", pair);
+        prop_assert!(
+            grows && one.contact_length <= other.contact_length + ROUNDING * length,
+            "{:?}",
+            pair
+        );
     }
     // All springs at the deepest compression and the largest gap.
     let gap = line.deepest.max(f64::MIN_POSITIVE);
-    let deepest = leg.curve.iter().map(|point| point.indentation.abs()).fold(gap, f64::max);
+    let deepest = leg
+        .curve
+        .iter()
+        .map(|point| point.indentation.abs())
+        .fold(gap, f64::max);
     let rounding = ROUNDING * outcome.governing.effective_modulus * line.length * deepest;
     // Extremes are those of the contact; outside of contact there is no force.
     for point in leg.curve.iter().filter(|point| point.fragments > 0) {
@@ -103,9 +153,17 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
             point.force >= leg.smallest.force - rounding
         };
         let may_pull = outcome.governing.adhesive_work().is_some() || point.force >= 0.0;
-        prop_assert!(is_inside && may_pull, "{:?} {:?} {:?}", point, leg.largest, leg.smallest);
+        prop_assert!(
+            is_inside && may_pull,
+            "{:?} {:?} {:?}",
+            point,
+            leg.largest,
+            leg.smallest
+        );
     }
-    let Some(end) = leg.curve.last() else { return Err(TestCaseError::fail("a leg without points")) };
+    let Some(end) = leg.curve.last() else {
+        return Err(TestCaseError::fail("a leg without points"));
+    };
     prop_assert_eq!(start.springs + leg.attached - leg.detached, end.springs);
     let is_at = |force: f64| (end.force - force).abs() <= rounding + ROUNDING * force.abs();
     let is_reached = match leg.target {
@@ -115,7 +173,9 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
         Move::ToDisplacement(at) => match outcome.instrument {
             Some(instrument) if end.springs > 0 => {
                 let error = (end.displacement(instrument.stiffness) - at).abs();
-                error <= rounding / instrument.stiffness + ROUNDING * (at.abs() + end.indentation.abs())
+                error
+                    <= rounding / instrument.stiffness
+                        + ROUNDING * (at.abs() + end.indentation.abs())
             }
             _ => end.indentation == at,
         },
@@ -133,7 +193,11 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
     let (mut sum, mut least) = (0.0, f64::INFINITY);
     for leg in legs {
         sum += leg.released_energy;
-        if leg.curve.last().is_some_and(|point| point.springs == 0 && point.fragments == 0) {
+        if leg
+            .curve
+            .last()
+            .is_some_and(|point| point.springs == 0 && point.fragments == 0)
+        {
             least = least.min(sum);
         }
     }
@@ -145,8 +209,17 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
         Edges::SubCell => f64::EPSILON * deepest * deepest,
     };
     let rounded = 0.5 * outcome.governing.effective_modulus * outcome.line.length * squares;
-    prop_assert!(least >= -ROUNDING * size - rounded, "{:e} J won of {:e}", -least, size);
-    prop_assert!(outcome.governing.adhesive_work().is_some() || size == 0.0, "{:e} J without adhesion", size);
+    prop_assert!(
+        least >= -ROUNDING * size - rounded,
+        "{:e} J won of {:e}",
+        -least,
+        size
+    );
+    prop_assert!(
+        outcome.governing.adhesive_work().is_some() || size == 0.0,
+        "{:e} J without adhesion",
+        size
+    );
     Ok(())
 }
 
@@ -155,23 +228,29 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
     let message = error.to_string();
     prop_assert_eq!(message.lines().count(), 1);
     let is_explained = match error {
-        RunError::Contact(ContactError::Stage { index, target, reason }) => {
+        RunError::Contact(ContactError::Stage {
+            index,
+            target,
+            reason,
+        }) => {
             // Without adhesion every pressing force has its indentation, unless that exceeds all numbers.
             let stiffness = scene.material.effective_modulus() * scene.length;
-            let presses =
-                matches!(target, Move::ToForce(force) if *force > 0.0 && (force / stiffness).is_finite());
+            let presses = matches!(target, Move::ToForce(force) if *force > 0.0 && (force / stiffness).is_finite());
             let is_out_of_reach =
                 **reason == ContactError::OutOfReach && (scene.adhesion.is_some() || !presses);
             let is_named = message.starts_with(&format!("stage {}: ", index + 1));
-            let has_limit = ["; allowed", "within reach: "].iter().any(|words| message.contains(words));
+            let has_limit = ["; allowed", "within reach: "]
+                .iter()
+                .any(|words| message.contains(words));
             is_named && (has_limit || is_out_of_reach)
         }
         RunError::Surface(error) if error.field() == Some("form.file") => {
             matches!(scene.form, Some(Form::Table { .. })) && message.starts_with("form.file = ")
         }
-        RunError::Surface(SurfaceError::Refused { place: Place::Point(_), .. }) => {
-            message.contains("form and roughness")
-        }
+        RunError::Surface(SurfaceError::Refused {
+            place: Place::Point(_),
+            ..
+        }) => message.contains("form and roughness"),
         RunError::Surface(error) => error.file().is_some_and(|file| {
             matches!(scene.roughness, Some(Roughness::Measured { .. }))
                 && message.contains(&format!("{file:?}"))
@@ -185,7 +264,11 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
 #[test]
 fn scenes_over_whole_ranges() {
     let folder = tempfile::tempdir().unwrap();
-    let scenes = (quick().documents(), shapes(), (-30.0..5.0_f64).prop_map(f64::exp));
+    let scenes = (
+        quick().documents(),
+        shapes(),
+        (-30.0..5.0_f64).prop_map(f64::exp),
+    );
     proptest!(draws(200), |((document, shape, height) in scenes)| {
         // A little longer than the line.
         let profile = text_of(&shape, document.scene().length * (1.0 + 1e-9), height);
@@ -197,7 +280,11 @@ fn scenes_over_whole_ranges() {
 /// Gaps so far above all stretches that edges between springs round the released energy to noise.
 #[test]
 fn gaps_far_above_the_stretches() {
-    for (modulus, edges) in [("1.0e5", "Grid"), ("1.0e5", "SubCell"), ("1.0e13", "SubCell")] {
+    for (modulus, edges) in [
+        ("1.0e5", "Grid"),
+        ("1.0e5", "SubCell"),
+        ("1.0e13", "SubCell"),
+    ] {
         let text = format!(
             "(version: 1, material: (effective_modulus: {modulus}), length: 1.0e-9, form: Paraboloid(radius: 1.0e-3),
             roughness: SelfAffine(hurst: 0.7, rms_height: 100.0, modes: (91, 315), seed: 0),

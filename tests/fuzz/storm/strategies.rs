@@ -36,12 +36,21 @@ impl Drawn {
 
     /// Draws mistakes as well.
     pub fn with_mistakes(self) -> Self {
-        Drawn { wrong: true, ..self }
+        Drawn {
+            wrong: true,
+            ..self
+        }
     }
 
     /// Texts of scenes: from ordinary ones to those with each value at an end of its range.
     pub fn scene_texts(&self) -> BoxedStrategy<String> {
-        let of = |extreme| Drawn { extreme, ..self.clone() }.group("", None, "");
+        let of = |extreme| {
+            Drawn {
+                extreme,
+                ..self.clone()
+            }
+            .group("", None, "")
+        };
         proptest::strategy::Union::new(EXTREME.map(of)).boxed()
     }
 
@@ -52,16 +61,22 @@ impl Drawn {
             "a scene that is allowed",
             |(text, in_metres, roll_off)| {
                 let document = Document::parse(&text, "drawn").ok()?;
-                let Some(spectrum) = document.scene().spectrum() else { return Some(document) };
-                let [longest, shortest] =
-                    [spectrum.first, spectrum.last].map(|mode| document.scene().length / mode as f64);
+                let Some(spectrum) = document.scene().spectrum() else {
+                    return Some(document);
+                };
+                let [longest, shortest] = [spectrum.first, spectrum.last]
+                    .map(|mode| document.scene().length / mode as f64);
                 let set = |path: &str, value| (path.to_owned(), value);
                 let mut sets = Vec::new();
                 if in_metres {
                     let pair = format!("({}, {})", ron_float(longest), ron_float(shortest));
-                    sets = vec![set("roughness.modes", "None".into()), set("roughness.wavelengths", pair)];
+                    sets = vec![
+                        set("roughness.modes", "None".into()),
+                        set("roughness.wavelengths", pair),
+                    ];
                 }
-                let share = |share: f64| (longest + share * (shortest - longest)).clamp(shortest, longest);
+                let share =
+                    |share: f64| (longest + share * (shortest - longest)).clamp(shortest, longest);
                 sets.extend(roll_off.map(|at| set("roughness.roll_off", ron_float(share(at)))));
                 // A very short wave is outside the range of its field.
                 Some(document.set_all(&sets).unwrap_or(document))
@@ -72,12 +87,24 @@ impl Drawn {
     /// Overrides in the form of `--set`: path and value.
     pub fn overrides(&self, most: usize) -> BoxedStrategy<Vec<(String, String)>> {
         let of = |field: &'static Field| {
-            let drawn = Drawn { extreme: EXTREME[0], ..self.clone() };
-            drawn.value(field).prop_map(|value| (field.path.to_string(), value)).boxed()
+            let drawn = Drawn {
+                extreme: EXTREME[0],
+                ..self.clone()
+            };
+            drawn
+                .value(field)
+                .prop_map(|value| (field.path.to_string(), value))
+                .boxed()
         };
         let legs = LEG_FIELDS.map(|leg| {
-            let value = Drawn { extreme: EXTREME[0], ..self.clone() }.value(leg);
-            (0..3_usize, value).prop_map(|(index, value)| (format!("loading.{index}.0"), value)).boxed()
+            let value = Drawn {
+                extreme: EXTREME[0],
+                ..self.clone()
+            }
+            .value(leg);
+            (0..3_usize, value)
+                .prop_map(|(index, value)| (format!("loading.{index}.0"), value))
+                .boxed()
         });
         let one = proptest::strategy::Union::new(FIELDS.iter().map(of).chain(legs));
         prop::collection::vec(one, 1..=most).boxed()
@@ -96,7 +123,11 @@ impl Drawn {
                 .boxed(),
             Range::Wavelengths(..) => (self.number(field), self.number(field))
                 .prop_map(|(one, other)| {
-                    format!("({}, {})", ron_float(one.max(other)), ron_float(one.min(other)))
+                    format!(
+                        "({}, {})",
+                        ron_float(one.max(other)),
+                        ron_float(one.min(other))
+                    )
                 })
                 .boxed(),
             Range::Text { most, lines, .. } => text(most.min(MOST_CHARACTERS), lines),
@@ -113,7 +144,11 @@ impl Drawn {
             }
             Range::Group => self.group(field.path, None, ""),
         };
-        if self.wrong { prop_oneof![24 => value, 1 => mistake(field)].boxed() } else { value }
+        if self.wrong {
+            prop_oneof![24 => value, 1 => mistake(field)].boxed()
+        } else {
+            value
+        }
     }
 
     /// One of the choices of a field, given as a template: `Cone(angle: 0.1)`, `(work: 0.05)`,
@@ -123,9 +158,14 @@ impl Drawn {
         if arguments.is_empty() {
             return Just(name.to_string()).boxed();
         }
-        let argument = LEG_FIELDS.into_iter().find(|leg| (leg.path, leg.variant) == (field.path, Some(name)));
+        let argument = LEG_FIELDS
+            .into_iter()
+            .find(|leg| (leg.path, leg.variant) == (field.path, Some(name)));
         match argument {
-            Some(argument) => self.value(argument).prop_map(move |value| format!("{name}({value})")).boxed(),
+            Some(argument) => self
+                .value(argument)
+                .prop_map(move |value| format!("{name}({value})"))
+                .boxed(),
             None => {
                 let variant = Some(name).filter(|name| !name.is_empty());
                 self.group(field.path, variant, arguments)
@@ -158,7 +198,8 @@ impl Drawn {
             } else {
                 Just(field.last()).boxed()
             };
-            let entry = (name, self.value(field)).prop_map(|(name, value)| format!("{name}: {value}"));
+            let entry =
+                (name, self.value(field)).prop_map(|(name, value)| format!("{name}: {value}"));
             if given < 1.0 {
                 prop::option::weighted(given, entry).boxed()
             } else {
@@ -167,7 +208,12 @@ impl Drawn {
         };
         let entries: Vec<_> = FIELDS.iter().filter(belongs).map(entry).collect();
         entries
-            .prop_map(|entries| format!("({})", entries.into_iter().flatten().collect::<Vec<_>>().join(", ")))
+            .prop_map(|entries| {
+                format!(
+                    "({})",
+                    entries.into_iter().flatten().collect::<Vec<_>>().join(", ")
+                )
+            })
             .boxed()
     }
 
@@ -175,10 +221,22 @@ impl Drawn {
     /// magnitude alike.
     fn number(&self, field: &'static Field) -> BoxedStrategy<f64> {
         let (least, most) = field.range.ends().unwrap_or_default();
-        let least = if field.range.contains(least) { least } else { least.next_up() };
-        let most = if field.range.contains(most) { most } else { most.next_down() };
+        let least = if field.range.contains(least) {
+            least
+        } else {
+            least.next_up()
+        };
+        let most = if field.range.contains(most) {
+            most
+        } else {
+            most.next_down()
+        };
         let size = least.abs().max(most.abs());
-        let smallest = if least > 0.0 { least } else { 1e-300_f64.max(f64::MIN_POSITIVE / size) };
+        let smallest = if least > 0.0 {
+            least
+        } else {
+            1e-300_f64.max(f64::MIN_POSITIVE / size)
+        };
         let signed = |size: BoxedStrategy<f64>| {
             (size, any::<bool>()).prop_map(move |(size, negative)| {
                 let value = if negative && least < 0.0 { -size } else { size };
@@ -187,12 +245,15 @@ impl Drawn {
         };
         let decades = (smallest.ln()..size.ln()).prop_map(f64::exp).boxed();
         let usual = usual(field).unwrap_or((smallest.max(1e-3) * size.min(1e3)).sqrt());
-        let near = (-5.0..5.0_f64).prop_map(move |power| usual * power.exp()).boxed();
+        let near = (-5.0..5.0_f64)
+            .prop_map(move |power| usual * power.exp())
+            .boxed();
         let ends = prop_oneof![Just(least), Just(most), Just(0.0_f64.clamp(least, most))];
-        let inside =
-            (0.0..1.0_f64).prop_map(move |share| (least + share * (most - least)).clamp(least, most));
+        let inside = (0.0..1.0_f64)
+            .prop_map(move |share| (least + share * (most - least)).clamp(least, most));
         let extreme = prop_oneof![1 => ends, 2 => inside, 4 => signed(decades)];
-        prop_oneof![10 - self.extreme.min(9) => signed(near), self.extreme.max(1) => extreme].boxed()
+        prop_oneof![10 - self.extreme.min(9) => signed(near), self.extreme.max(1) => extreme]
+            .boxed()
     }
 }
 
@@ -205,7 +266,8 @@ fn whole(min: u64, max: u64) -> BoxedStrategy<u64> {
 
 /// Text with characters of all kinds except control characters.
 fn text(most: usize, lines: bool) -> BoxedStrategy<String> {
-    let character = prop_oneof![4 => proptest::char::range(' ', '~'), 1 => any::<char>(), 1 => Just('\n')];
+    let character =
+        prop_oneof![4 => proptest::char::range(' ', '~'), 1 => any::<char>(), 1 => Just('\n')];
     let allowed = move |c: &char| !is_control(*c) || (lines && *c == '\n');
     prop::collection::vec(character, 1..=most.max(1))
         .prop_map(move |text| {
@@ -220,11 +282,26 @@ fn text(most: usize, lines: bool) -> BoxedStrategy<String> {
 
 /// Values that a field does not allow: beyond the ends of the range, another type, nothing.
 fn mistake(field: &'static Field) -> BoxedStrategy<String> {
-    let mut values: Vec<String> =
-        ["", "NaN", "-inf", "-1", "1e999", "None", "()", "[]", "\"\\u{1b}[2J\"", "Nothing"]
-            .map(str::to_string)
-            .to_vec();
-    for end in field.range.ends().into_iter().flat_map(|(least, most)| [least, most]) {
+    let mut values: Vec<String> = [
+        "",
+        "NaN",
+        "-inf",
+        "-1",
+        "1e999",
+        "None",
+        "()",
+        "[]",
+        "\"\\u{1b}[2J\"",
+        "Nothing",
+    ]
+    .map(str::to_string)
+    .to_vec();
+    for end in field
+        .range
+        .ends()
+        .into_iter()
+        .flat_map(|(least, most)| [least, most])
+    {
         let away = end.abs().max(f64::MIN_POSITIVE) * 1e-9;
         values.extend([ron_float(end - away), ron_float(end + away)]);
     }
@@ -238,21 +315,35 @@ fn usual(field: &Field) -> Option<f64> {
         text[..end].trim().parse::<f64>().ok()
     };
     let of_templates = |templates: &[&str]| {
-        templates.iter().filter(|template| template.starts_with(field.variant.unwrap_or(""))).find_map(
-            |template| match template.split_once(&format!("{}: ", field.last())) {
-                Some((_, rest)) => number(rest),
-                None => number(template.split_once('(')?.1),
-            },
-        )
+        templates
+            .iter()
+            .filter(|template| template.starts_with(field.variant.unwrap_or("")))
+            .find_map(
+                |template| match template.split_once(&format!("{}: ", field.last())) {
+                    Some((_, rest)) => number(rest),
+                    None => number(template.split_once('(')?.1),
+                },
+            )
     };
-    let parent = if field.parent().is_empty() { field.path } else { field.parent() };
-    let templates = FIELDS.iter().find(|other| other.path == parent).map(|other| other.range);
+    let parent = if field.parent().is_empty() {
+        field.path
+    } else {
+        field.parent()
+    };
+    let templates = FIELDS
+        .iter()
+        .find(|other| other.path == parent)
+        .map(|other| other.range);
     let found = match templates {
         Some(Range::Choice(of) | Range::List { of, .. }) => of_templates(of),
         _ => None,
     };
     found.or_else(|| {
         let scene = find_scene(DEFAULT)?;
-        number(Document::parse(scene.text, scene.name).ok()?.value(field.path)?)
+        number(
+            Document::parse(scene.text, scene.name)
+                .ok()?
+                .value(field.path)?,
+        )
     })
 }

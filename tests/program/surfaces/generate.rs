@@ -15,7 +15,11 @@ pub struct Spectrum {
 impl Spectrum {
     /// Power of a wave of wave number k per area of wave numbers: h² is its integral over the plane.
     pub fn power(&self, k: f64) -> f64 {
-        if k > self.last { 0.0 } else { 1e-6 * (k / self.roll_off).max(1.0).powf(-2.0 - 2.0 * self.hurst) }
+        if k > self.last {
+            0.0
+        } else {
+            1e-6 * (k / self.roll_off).max(1.0).powf(-2.0 - 2.0 * self.hurst)
+        }
     }
 
     /// Rms height, rms gradient and e_el/E* of the equivalent line, of the waves from ½ on.
@@ -76,19 +80,32 @@ pub fn map(spectrum: &Spectrum, points: usize, seed: u64) -> Topography {
     let (all, length) = (2 * points, 2.0);
     let mut normal = Normal::new(seed);
     let plan = plan_inverse(all);
-    let signed = |index: usize| if 2 * index > all { index as f64 - all as f64 } else { index as f64 };
+    let signed = |index: usize| {
+        if 2 * index > all {
+            index as f64 - all as f64
+        } else {
+            index as f64
+        }
+    };
     let wave = |index: usize| {
         let k = signed(index % all).hypot(signed(index / all)) / length;
         // The real part of a sum of independent waves has half their power.
-        let power = if index == 0 { 0.0 } else { 2.0 * spectrum.power(k) / (length * length) };
+        let power = if index == 0 {
+            0.0
+        } else {
+            2.0 * spectrum.power(k) / (length * length)
+        };
         normal.complex() * power.sqrt()
     };
     let mut waves: Vec<Complex64> = (0..all * all).map(wave).collect();
     plan.process(&mut waves);
-    let mut turned: Vec<Complex64> =
-        (0..all * points).map(|index| waves[index % all * all + index / all]).collect();
+    let mut turned: Vec<Complex64> = (0..all * points)
+        .map(|index| waves[index % all * all + index / all])
+        .collect();
     plan.process(&mut turned);
-    let heights = turned.chunks_exact(all).flat_map(|row| row[..points].iter().map(|z| z.re));
+    let heights = turned
+        .chunks_exact(all)
+        .flat_map(|row| row[..points].iter().map(|z| z.re));
     topography(&heights.collect::<Vec<_>>(), points)
 }
 
@@ -110,23 +127,42 @@ impl Profiles {
 
     /// The same on a length, m.
     pub fn on(length: f64, spectrum: &Spectrum, points: usize) -> Self {
-        let stride = (2.0 * spectrum.last * length / points as f64).ceil().max(1.0) as usize;
+        let stride = (2.0 * spectrum.last * length / points as f64)
+            .ceil()
+            .max(1.0) as usize;
         let all = 2 * points * stride;
         let power = |wave: usize| cut(spectrum, 0.5 * wave as f64 / length) / length;
-        let amplitudes = (0..=all / 2).map(|wave| (0.5 * power(wave)).sqrt()).collect();
-        Profiles { amplitudes, points, length, stride, transform: plan_real_inverse(all) }
+        let amplitudes = (0..=all / 2)
+            .map(|wave| (0.5 * power(wave)).sqrt())
+            .collect();
+        Profiles {
+            amplitudes,
+            points,
+            length,
+            stride,
+            transform: plan_real_inverse(all),
+        }
     }
 
     /// The profile of a seed.
     pub fn profile(&self, seed: u64) -> Topography {
         let mut normal = Normal::new(seed);
-        let mut waves: Vec<Complex64> = self.amplitudes.iter().map(|a| normal.complex() * a).collect();
+        let mut waves: Vec<Complex64> = self
+            .amplitudes
+            .iter()
+            .map(|a| normal.complex() * a)
+            .collect();
         let last = waves.len() - 1;
         waves[0].im = 0.0;
         waves[last].im = 0.0;
         let mut heights = self.transform.make_output_vec();
         self.transform.process(&mut waves, &mut heights).unwrap();
-        let sampled: Vec<f64> = heights.iter().step_by(self.stride).take(self.points).copied().collect();
+        let sampled: Vec<f64> = heights
+            .iter()
+            .step_by(self.stride)
+            .take(self.points)
+            .copied()
+            .collect();
         read(&sampled, 0, self.length, &ReadOptions::default())
     }
 }
@@ -138,7 +174,10 @@ pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
     let pieces = 2000;
     let step = (1.0 + most).ln() / f64::from(pieces);
     let places = (0..pieces).map(|piece| ((f64::from(piece) + 0.5) * step).exp());
-    2.0 * step * places.map(|growth| spectrum.power(k.hypot(growth - 1.0)) * growth).sum::<f64>()
+    2.0 * step
+        * places
+            .map(|growth| spectrum.power(k.hypot(growth - 1.0)) * growth)
+            .sum::<f64>()
 }
 
 /// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m. Those that are not a number are
@@ -151,7 +190,9 @@ pub fn topography(heights: &[f64], columns: usize) -> Topography {
 pub fn read(heights: &[f64], columns: usize, length: f64, options: &ReadOptions) -> Topography {
     let points = if columns == 0 { heights.len() } else { columns };
     let rows = heights.len().checked_div(columns);
-    let shape = rows.map_or(format!("({points},)"), |rows| format!("({rows}, {columns})"));
+    let shape = rows.map_or(format!("({points},)"), |rows| {
+        format!("({rows}, {columns})")
+    });
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
     let size = (header.len() as u16).to_le_bytes();
     let mut bytes = [b"\x93NUMPY\x01\x00", &size[..], header.as_bytes()].concat();

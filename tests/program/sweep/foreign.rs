@@ -55,22 +55,46 @@ fn acts(c: char) -> bool {
 #[test]
 fn a_header_that_no_program_wrote_is_an_error() {
     let (_place, folder) = study(&plan(SMALL));
-    compute(&folder, 1, Shard { number: 1, count: 2 });
+    compute(
+        &folder,
+        1,
+        Shard {
+            number: 1,
+            count: 2,
+        },
+    );
     let header = header_of(&folder);
     let stray = folder.path().join("shards/stray.shard");
     for (from, to, expected) in [
-        ("\"count\":2", "\"count\":0", "shard 1/0: allowed: K/N with K from 1 to N"),
+        (
+            "\"count\":2",
+            "\"count\":0",
+            "shard 1/0: allowed: K/N with K from 1 to N",
+        ),
         ("\"number\":1", "\"number\":3", "shard 3/2: allowed: K/N"),
         ("\"number\":1", "\"number\":0", "shard 0/2: allowed: K/N"),
-        ("\"format\":1", "\"format\":2", "its format is 2; this program reads 1"),
-        ("\"format\":1,", "", "its first line is not the header of a shard file"),
+        (
+            "\"format\":1",
+            "\"format\":2",
+            "its format is 2; this program reads 1",
+        ),
+        (
+            "\"format\":1,",
+            "",
+            "its first line is not the header of a shard file",
+        ),
     ] {
         let other = header.replace(from, to);
         assert_ne!(other, header);
         fs::write(&stray, sealed(&other)).unwrap();
-        for message in [Status::of(&folder).unwrap_err().to_string(), merge(&folder).unwrap_err().to_string()]
-        {
-            assert!(message.contains("stray.shard: ") && message.contains(expected), "{message}");
+        for message in [
+            Status::of(&folder).unwrap_err().to_string(),
+            merge(&folder).unwrap_err().to_string(),
+        ] {
+            assert!(
+                message.contains("stray.shard: ") && message.contains(expected),
+                "{message}"
+            );
         }
     }
 }
@@ -86,10 +110,19 @@ fn records_that_do_not_belong_to_the_plan_are_left_out_and_computed_again() {
     let (short, _) = payload.rsplit_once(',').unwrap();
     let word = format!("{short},x");
     let values = payload.splitn(3, ',').nth(2).unwrap();
-    let [no_cell, no_seed] = [format!("{},{},{values}", plan.cells(), plan.seed), format!("0,7,{values}")];
-    for other in
-        [short.to_owned(), format!("{payload},1.0"), word, "0,0".into(), String::new(), no_cell, no_seed]
-    {
+    let [no_cell, no_seed] = [
+        format!("{},{},{values}", plan.cells(), plan.seed),
+        format!("0,7,{values}"),
+    ];
+    for other in [
+        short.to_owned(),
+        format!("{payload},1.0"),
+        word,
+        "0,0".into(),
+        String::new(),
+        no_cell,
+        no_seed,
+    ] {
         let changed = text.replacen(&sealed(&payload), &sealed(&other), 1);
         assert_ne!(changed, text);
         fs::write(file, changed).unwrap();
@@ -118,15 +151,27 @@ fn pipes_and_devices_are_refused_at_once() {
         assert!(message.contains(expected), "{arguments:?}: {message}");
     };
     let pipe = folder.path().join("shards/pipe.shard");
-    for make in [|path: &Path| fifo(path), |path: &Path| symlink("/dev/zero", path).unwrap()] {
+    for make in [
+        |path: &Path| fifo(path),
+        |path: &Path| symlink("/dev/zero", path).unwrap(),
+    ] {
         make(&pipe);
-        refused(&["sweep", "status", path], "pipe.shard: this is not a regular file");
-        refused(&["sweep", "merge", path], "pipe.shard: this is not a regular file");
+        refused(
+            &["sweep", "status", path],
+            "pipe.shard: this is not a regular file",
+        );
+        refused(
+            &["sweep", "merge", path],
+            "pipe.shard: this is not a regular file",
+        );
         fs::remove_file(&pipe).unwrap();
     }
     for name in ["summary.csv", "results.csv"] {
         let table = folder.path().join(name);
-        for make in [|path: &Path| fifo(path), |path: &Path| symlink("/dev/zero", path).unwrap()] {
+        for make in [
+            |path: &Path| fifo(path),
+            |path: &Path| symlink("/dev/zero", path).unwrap(),
+        ] {
             fs::remove_file(&table).unwrap();
             make(&table);
             let expected = format!("{name}: this is not a regular file");
@@ -140,7 +185,12 @@ fn pipes_and_devices_are_refused_at_once() {
     }
     // A line without an end.
     let table = fs::canonicalize(folder.path().join("results.csv")).unwrap();
-    fs::OpenOptions::new().write(true).open(table).unwrap().set_len(1 << 40).unwrap();
+    fs::OpenOptions::new()
+        .write(true)
+        .open(table)
+        .unwrap()
+        .set_len(1 << 40)
+        .unwrap();
     refused(&["sweep", "plot", path], "is not a row of this study");
 }
 
@@ -154,19 +204,28 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     let plan_file = at(&format!("{EVIL}.ron"));
     fs::write(&plan_file, SMALL).unwrap();
     let wrong = at(&format!("{EVIL}wrong.ron"));
-    fs::write(&wrong, SMALL.replace("\"adhesion.kappa\"", "\"ka\\u{1b}[2Jppa\\u{202e}\"")).unwrap();
+    fs::write(
+        &wrong,
+        SMALL.replace("\"adhesion.kappa\"", "\"ka\\u{1b}[2Jppa\\u{202e}\""),
+    )
+    .unwrap();
     let other = at("other.ron");
     fs::write(&other, SMALL.replace("Small", "Sm\u{1b}all")).unwrap();
     let mut outputs = Vec::new();
     let mut run = |arguments: &[&str]| {
         let output = asperity(arguments);
-        let shown =
-            [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
+        let shown = [output.stdout, output.stderr]
+            .map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+            .concat();
         assert!(!shown.contains(acts), "{arguments:?}: {shown:?}");
         assert!(!shown.is_empty(), "{arguments:?}");
         outputs.push(shown);
     };
-    let (new, none, map) = (at("new"), at(&format!("{EVIL}.none")), at(&format!("{EVIL}/map.svg")));
+    let (new, none, map) = (
+        at("new"),
+        at(&format!("{EVIL}.none")),
+        at(&format!("{EVIL}/map.svg")),
+    );
     let (title, nowhere) = (format!("title=\"{EVIL}\""), format!("{evil}/none/x"));
     for arguments in [
         &["sweep", "merge", &evil][..],
@@ -176,10 +235,22 @@ fn nothing_that_is_named_acts_on_a_terminal() {
         &["sweep", "plot", &evil],
         &["sweep", "plot", &evil, "--at", EVIL],
         &["sweep", "plot", &evil, "--x", EVIL],
-        &["sweep", "plot", &evil, "--at", "preload=0.01", "--quantity", "regime", "-o", &map],
+        &[
+            "sweep",
+            "plot",
+            &evil,
+            "--at",
+            "preload=0.01",
+            "--quantity",
+            "regime",
+            "-o",
+            &map,
+        ],
         &["sweep", &wrong, "-o", &new],
         &["sweep", &other, "-o", &new],
-        &["sweep", "submit", &plan_file, "-o", &new, "--jobs", "2", "--check", "--", EVIL],
+        &[
+            "sweep", "submit", &plan_file, "-o", &new, "--jobs", "2", "--check", "--", EVIL,
+        ],
         &["run", &evil],
         &["run", &none],
         &["run", "jkr-sphere", "--set", &title],
@@ -197,7 +268,11 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     let payload = header_of(&folder);
     let start = payload.find("\"host\":\"").unwrap() + 8;
     let end = start + payload[start..].find('"').unwrap();
-    let stray = format!("{}\\u001b]52;c;eA==\\u0007\u{9b}\u{202e}{}", &payload[..start], &payload[end..]);
+    let stray = format!(
+        "{}\\u001b]52;c;eA==\\u0007\u{9b}\u{202e}{}",
+        &payload[..start],
+        &payload[end..]
+    );
     let file = format!("{EVIL}.shard");
     fs::write(folder.path().join("shards").join(&file), sealed(&stray)).unwrap();
     run(&["sweep", "status", &evil]);
@@ -209,8 +284,16 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     .unwrap();
     run(&["sweep", "status", &evil]);
     let text = fs::read_to_string(folder.path().join("plan.ron")).unwrap();
-    fs::write(folder.path().join("plan.ron"), text.replace("Small", "Sm\u{1b}[2J\u{202e}all")).unwrap();
+    fs::write(
+        folder.path().join("plan.ron"),
+        text.replace("Small", "Sm\u{1b}[2J\u{202e}all"),
+    )
+    .unwrap();
     run(&["sweep", &plan_file, "-o", &evil]);
     run(&["sweep", "status", &evil]);
-    assert!(outputs.iter().any(|shown| shown.contains("\\u{1b}]52;c;eA==\\u{7}\\u{9b}2J\\u{202e}")));
+    assert!(
+        outputs
+            .iter()
+            .any(|shown| shown.contains("\\u{1b}]52;c;eA==\\u{7}\\u{9b}2J\\u{202e}"))
+    );
 }

@@ -21,7 +21,13 @@ const PLAN: &str = r#"(
 )"#;
 
 fn profile(amplitude: f64) -> String {
-    let row = |index: i32| format!("{:e} {:e}\n", f64::from(index) * 1e-6, amplitude * f64::from(index % 7));
+    let row = |index: i32| {
+        format!(
+            "{:e} {:e}\n",
+            f64::from(index) * 1e-6,
+            amplitude * f64::from(index % 7)
+        )
+    };
     (0..=110).map(row).collect()
 }
 
@@ -40,7 +46,10 @@ fn begin(place: &Path, plan: &Plan) -> Result<Folder, StudyError> {
 }
 
 fn hash_of(path: &Path) -> String {
-    let output = std::process::Command::new("sha256sum").arg(path).output().unwrap();
+    let output = std::process::Command::new("sha256sum")
+        .arg(path)
+        .output()
+        .unwrap();
     String::from_utf8(output.stdout).unwrap()[..64].to_owned()
 }
 
@@ -58,7 +67,11 @@ fn the_hash_of_the_content_is_in_the_plan() {
     }
     // The same study is continued, and read back, also from its own copy of the plan.
     begin(place.path(), &plan).unwrap();
-    let again = Plan::open(folder.path().join("plan.ron").to_str().unwrap(), &Changes::default()).unwrap();
+    let again = Plan::open(
+        folder.path().join("plan.ron").to_str().unwrap(),
+        &Changes::default(),
+    )
+    .unwrap();
     assert_eq!(&again, Folder::open(folder.path()).unwrap().plan());
     begin(place.path(), &again).unwrap();
 }
@@ -67,14 +80,27 @@ fn the_hash_of_the_content_is_in_the_plan() {
 fn a_file_that_has_changed_is_refused() {
     let (place, plan) = place();
     let folder = begin(place.path(), &plan).unwrap();
-    compute(&folder, 1, Shard { number: 1, count: 2 });
+    compute(
+        &folder,
+        1,
+        Shard {
+            number: 1,
+            count: 2,
+        },
+    );
     let line = place.path().join("line.csv");
     let expected = hash_of(&line);
     fs::write(&line, profile(2e-7)).unwrap();
     let found = hash_of(&line);
     let check = |error: StudyError| {
         let message = error.to_string();
-        for part in [line.to_str().unwrap(), &expected, &found, "has changed", "study/plan.ron"] {
+        for part in [
+            line.to_str().unwrap(),
+            &expected,
+            &found,
+            "has changed",
+            "study/plan.ron",
+        ] {
             assert!(message.contains(part), "{part}: {message}");
         }
     };
@@ -86,7 +112,10 @@ fn a_file_that_has_changed_is_refused() {
     compute(&begin(place.path(), &plan).unwrap(), 1, Shard::WHOLE);
     merge(&folder).unwrap();
     // A plan that requires other content is refused before it creates a folder.
-    let other = Plan { measured_sha256: Some(found), ..plan };
+    let other = Plan {
+        measured_sha256: Some(found),
+        ..plan
+    };
     let refused = Folder::create(&place.path().join("new"), &other).unwrap_err();
     assert!(refused.to_string().contains("has changed"), "{refused}");
     assert!(!place.path().join("new").exists());
@@ -118,6 +147,8 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
 #[test]
 fn a_hash_without_a_file_is_refused() {
     let smooth = super::SMALL.replace("profiles: 3", "profiles: 3, measured_sha256: \"abc\"");
-    let message = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
+    let message = Plan::parse(&smooth, "p.ron", &Changes::default())
+        .unwrap_err()
+        .to_string();
     assert!(message.contains("this scene has no such file"), "{message}");
 }

@@ -23,7 +23,11 @@ fn text() -> String {
 
 fn command(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    command.arg("sweep").arg(folder.join("plan-of-test.ron")).arg("-o").arg(folder.join("study"));
+    command
+        .arg("sweep")
+        .arg(folder.join("plan-of-test.ron"))
+        .arg("-o")
+        .arg(folder.join("study"));
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
@@ -72,7 +76,11 @@ fn killed_at_random_moments_it_goes_on() {
             let mut child = command(place.path()).spawn().unwrap();
             if kills == most {
                 let output = child.wait_with_output().unwrap();
-                assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+                assert!(
+                    output.status.success(),
+                    "{}",
+                    String::from_utf8_lossy(&output.stderr)
+                );
                 break;
             }
             sleep(whole.mul_f64(random.random_range(0.0..0.5)));
@@ -98,7 +106,10 @@ fn killed_at_random_moments_it_goes_on() {
 
 #[test]
 fn asked_to_stop_it_ends_cleanly() {
-    for (signal, code) in [(rustix::process::Signal::INT, 130), (rustix::process::Signal::TERM, 143)] {
+    for (signal, code) in [
+        (rustix::process::Signal::INT, 130),
+        (rustix::process::Signal::TERM, 143),
+    ] {
         let place = place();
         let mut child = command(place.path()).spawn().unwrap();
         wait_for(&mut child, place.path(), 20);
@@ -106,7 +117,10 @@ fn asked_to_stop_it_ends_cleanly() {
         let output = child.wait_with_output().unwrap();
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(code), "{message}");
-        assert!(message.contains("records are complete; the same command continues the study"), "{message}");
+        assert!(
+            message.contains("records are complete; the same command continues the study"),
+            "{message}"
+        );
         let folder = Folder::open(&place.path().join("study")).unwrap();
         assert_eq!(Status::of(&folder).unwrap().damaged, 0);
         assert!(command(place.path()).output().unwrap().status.success());
@@ -125,14 +139,31 @@ fn two_processes_may_be_given_the_same_shard() {
     let children: Vec<_> = ["1/2", "2/2", "1/2"].into_iter().map(shard).collect();
     for child in children {
         let output = child.wait_with_output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     }
     let study = place.path().join("study");
-    let merge =
-        Command::new(env!("CARGO_BIN_EXE_asperity")).args(["sweep", "merge"]).arg(&study).output().unwrap();
-    assert!(merge.status.success(), "{}", String::from_utf8_lossy(&merge.stderr));
+    let merge = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["sweep", "merge"])
+        .arg(&study)
+        .output()
+        .unwrap();
+    assert!(
+        merge.status.success(),
+        "{}",
+        String::from_utf8_lossy(&merge.stderr)
+    );
     let shards = Status::of(&Folder::open(&study).unwrap()).unwrap().shards;
-    assert_eq!(shards.iter().map(|shard| shard.shard.as_str()).collect::<Vec<_>>(), ["1/2", "2/2"]);
+    assert_eq!(
+        shards
+            .iter()
+            .map(|shard| shard.shard.as_str())
+            .collect::<Vec<_>>(),
+        ["1/2", "2/2"]
+    );
     check_whole(place.path());
 }
 
@@ -144,13 +175,23 @@ fn a_full_disk_is_stated_and_loses_nothing() {
     let mut words = vec![inner.get_program().to_owned()];
     words.extend(inner.get_args().map(std::ffi::OsStr::to_owned));
     let mut limited = Command::new("sh");
-    limited.arg("-c").arg("trap '' XFSZ; ulimit -f 16; exec \"$@\"").arg("sh").args(words);
+    limited
+        .arg("-c")
+        .arg("trap '' XFSZ; ulimit -f 16; exec \"$@\"")
+        .arg("sh")
+        .args(words);
     let output = limited.output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(message.contains(".shard: cannot be written: File too large"), "{message}");
+    assert!(
+        message.contains(".shard: cannot be written: File too large"),
+        "{message}"
+    );
     let there = done(place.path());
-    assert!(there > 10 && there < plan(&text()).records_in_all(), "{there}");
+    assert!(
+        there > 10 && there < plan(&text()).records_in_all(),
+        "{there}"
+    );
     let folder = Folder::open(&place.path().join("study")).unwrap();
     assert!(Status::of(&folder).unwrap().damaged <= 1);
     assert!(command(place.path()).output().unwrap().status.success());
@@ -160,13 +201,31 @@ fn a_full_disk_is_stated_and_loses_nothing() {
 #[test]
 fn too_little_memory_is_refused() {
     let place = place();
-    let words =
-        ["sweep", "plan-of-test.ron", "-o", "study", "--jobs", "1024", "--set", "numerics.points=1048576"];
+    let words = [
+        "sweep",
+        "plan-of-test.ron",
+        "-o",
+        "study",
+        "--jobs",
+        "1024",
+        "--set",
+        "numerics.points=1048576",
+    ];
     let mut limited = Command::new("sh");
-    limited.args(["-c", "ulimit -v 4000000; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_asperity")]).args(words);
+    limited
+        .args([
+            "-c",
+            "ulimit -v 4000000; exec \"$@\"",
+            "sh",
+            env!("CARGO_BIN_EXE_asperity"),
+        ])
+        .args(words);
     let output = limited.current_dir(place.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(message.contains("not enough memory: with --jobs 1024 the study takes up to"), "{message}");
+    assert!(
+        message.contains("not enough memory: with --jobs 1024 the study takes up to"),
+        "{message}"
+    );
     assert!(!place.path().join("study").exists());
 }

@@ -56,14 +56,22 @@ impl Span {
     /// Extends the span over neighbouring springs with gaps up to `level` in m, but not beyond the springs `lowest..=highest`.
     #[inline]
     pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
-        let Span { gap, mut first, mut last } = *self;
+        let Span {
+            gap,
+            mut first,
+            mut last,
+        } = *self;
         while first > lowest as usize && gaps[first - 1] < level {
             first -= 1;
         }
         while last < highest as usize && gaps[last + 1] <= level {
             last += 1;
         }
-        Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
+        Span {
+            gap: larger(gap, larger(gaps[first], gaps[last])),
+            first,
+            last,
+        }
     }
 
     /// Returns the index of the wall. The wall is the spring with the smaller gap of the two springs beside the span; it
@@ -71,7 +79,11 @@ impl Span {
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
-            (Some(left), Some(&right)) => Some(if right <= gaps[left] { self.last + 1 } else { left }),
+            (Some(left), Some(&right)) => Some(if right <= gaps[left] {
+                self.last + 1
+            } else {
+                left
+            }),
             (Some(left), None) => Some(left),
             (None, Some(_)) => Some(self.last + 1),
             (None, None) => None,
@@ -82,7 +94,19 @@ impl Span {
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let gap = gaps[wall];
-        if wall > self.last { Span { gap, last: wall, ..*self } } else { Span { gap, first: wall, ..*self } }
+        if wall > self.last {
+            Span {
+                gap,
+                last: wall,
+                ..*self
+            }
+        } else {
+            Span {
+                gap,
+                first: wall,
+                ..*self
+            }
+        }
     }
 
     /// Returns this span extended by its wall, or unchanged if it fills the profile.
@@ -155,8 +179,16 @@ impl EdgeSum {
     }
 
     pub fn total(&self) -> EdgeCells {
-        let EdgeSum { length, compression, squares } = *self;
-        EdgeCells { length: length.total(), compression: compression.total(), squares: squares.total() }
+        let EdgeSum {
+            length,
+            compression,
+            squares,
+        } = *self;
+        EdgeCells {
+            length: length.total(),
+            compression: compression.total(),
+            squares: squares.total(),
+        }
     }
 }
 
@@ -181,9 +213,16 @@ impl EdgeCell {
     /// of the span and the gap of its wall.
     #[inline]
     pub fn of(gaps: &[f64], &Span { first, last, .. }: &Span, level: f64) -> [Self; 2] {
-        let before = if first > 0 { gaps[first - 1] } else { f64::INFINITY };
+        let before = if first > 0 {
+            gaps[first - 1]
+        } else {
+            f64::INFINITY
+        };
         let after = gaps.get(last + 1).copied().unwrap_or(f64::INFINITY);
-        [EdgeCell::new(gaps[first], before, level), EdgeCell::new(gaps[last], after, level)]
+        [
+            EdgeCell::new(gaps[first], before, level),
+            EdgeCell::new(gaps[last], after, level),
+        ]
     }
 
     #[inline]
@@ -200,14 +239,22 @@ impl EdgeCell {
             };
         }
         // Level cells count at once, and cells too steep for a growth have none.
-        let growth = Some(height.recip()).filter(|&growth| growth < f64::INFINITY).unwrap_or(0.0);
+        let growth = Some(height.recip())
+            .filter(|&growth| growth < f64::INFINITY)
+            .unwrap_or(0.0);
         let (share, above) = match above < height {
             true if growth > 0.0 => (above * growth, above),
             true => (above / height, above),
             false => (1.0, height),
         };
         let carries = above * share;
-        EdgeCell { outside, share, growth, carries, squares: carries * above * (1.0 / 3.0) }
+        EdgeCell {
+            outside,
+            share,
+            growth,
+            carries,
+            squares: carries * above * (1.0 / 3.0),
+        }
     }
 
     /// Computes ∫ (c − θ)² dx over the part of the cell below the level t = θ + `above` (m), in cells times m².
@@ -224,7 +271,15 @@ impl Levels {
         let [left, right] = cells;
         let length = (span.last - span.first) as f64 + (left.share + right.share);
         let (growth, top) = (left.growth + right.growth, left.outside.min(right.outside));
-        (Levels { gap: span.gap, length, growth, top }, cells)
+        (
+            Levels {
+                gap: span.gap,
+                length,
+                growth,
+                top,
+            },
+            cells,
+        )
     }
 
     /// Returns the length in cells at the level `gap + rise` in m.
@@ -237,7 +292,11 @@ impl Levels {
     /// largest stretch in m of a patch one cell long.
     #[inline]
     pub fn rise(&self, stretch: f64, indentation: f64) -> f64 {
-        if self.growth <= 0.0 { 0.0 } else { self.free_rise(stretch, indentation - self.gap) }
+        if self.growth <= 0.0 {
+            0.0
+        } else {
+            self.free_rise(stretch, indentation - self.gap)
+        }
     }
 
     /// Returns √ℓ of a patch whose edges are free to move. `stretch` is the largest stretch in m of a patch one cell long, and
@@ -268,7 +327,10 @@ impl Levels {
         let length = self.length_at(rise);
         let root = 0.5 * stretch * self.growth;
         // φ rises with the level where √ℓ exceeds half of stretch × growth.
-        ((self.gap + rise) - stretch * length.sqrt(), root * root <= length)
+        (
+            (self.gap + rise) - stretch * length.sqrt(),
+            root * root <= length,
+        )
     }
 }
 
@@ -317,19 +379,42 @@ impl Slider {
     /// one.
     #[inline]
     pub fn of_cell(one: f64, other: f64) -> Self {
-        let (gap, top) = if one < other { (one, other) } else { (other, one) };
-        let growth = Some((top - gap).recip()).filter(|growth| growth.is_finite()).unwrap_or(0.0);
-        Self::without_adhesion(Levels { gap, length: 0.0, growth, top })
+        let (gap, top) = if one < other {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let growth = Some((top - gap).recip())
+            .filter(|growth| growth.is_finite())
+            .unwrap_or(0.0);
+        Self::without_adhesion(Levels {
+            gap,
+            length: 0.0,
+            growth,
+            top,
+        })
     }
 
     /// Creates the half cell at an end of the foundation, without adhesion. It has the gap of the last spring, in m, everywhere.
     pub fn half_cell(gap: f64) -> Self {
-        Self::without_adhesion(Levels { gap, length: 0.5, growth: 0.0, top: f64::INFINITY })
+        Self::without_adhesion(Levels {
+            gap,
+            length: 0.5,
+            growth: 0.0,
+            top: f64::INFINITY,
+        })
     }
 
     #[inline]
     fn without_adhesion(levels: Levels) -> Self {
-        Slider { levels, stretch: 0.0, cells: 0.0, edges: levels.length, compression: 0.0, squares: 0.0 }
+        Slider {
+            levels,
+            stretch: 0.0,
+            cells: 0.0,
+            edges: levels.length,
+            compression: 0.0,
+            squares: 0.0,
+        }
     }
 
     /// Returns the sums over both edge cells at an indentation in m.
@@ -361,7 +446,10 @@ impl Slider {
     /// events.
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let (levels, above) = (self.levels, indentation - self.levels.gap);
-        let (rise, fall) = (levels.free_rise(self.stretch, above), self.stretch * levels.growth);
+        let (rise, fall) = (
+            levels.free_rise(self.stretch, above),
+            self.stretch * levels.growth,
+        );
         if fall <= 0.0 {
             // Edges that do not move, or that bear no stretch.
             return self.edges + levels.growth * rise;

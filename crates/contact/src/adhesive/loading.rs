@@ -63,7 +63,10 @@ impl Closing {
             let left = node.size as usize - 1 - right;
             let mut closes = f64::INFINITY;
             let mut known = [0; 2];
-            let parts = [(left, index.saturating_sub(1 + right)), (right, index.saturating_sub(1))];
+            let parts = [
+                (left, index.saturating_sub(1 + right)),
+                (right, index.saturating_sub(1)),
+            ];
             for (side, (size, child)) in parts.into_iter().enumerate() {
                 // Both kinds of branches are read: a choice would often be mispredicted.
                 let place = ground.tree.turns[2 * (rank + side)];
@@ -73,20 +76,29 @@ impl Closing {
                 let closed = if is_leaf { lowest } else { of_node };
                 let mut reach = if is_leaf { [place; 2] } else { known_of_node };
                 let need = node.gap - closed;
-                let taken =
-                    if need * need <= square * ground.least_length(reach[0] as usize, reach[1] as usize) {
+                let taken = if need * need
+                    <= square * ground.least_length(reach[0] as usize, reach[1] as usize)
+                {
+                    closed
+                } else {
+                    let gap = if is_leaf {
                         closed
                     } else {
-                        let gap = if is_leaf { closed } else { ground.tree.nodes[child].gap };
-                        let start = Start { closes: closed, known: reach, gap };
-                        let place = ground.tree.maximum(&node);
-                        let (taken, walked) = ground.climb(start, place, &mut closing.evaluations);
-                        reach = walked;
-                        if !is_leaf {
-                            closing.known[child] = walked;
-                        }
-                        taken
+                        ground.tree.nodes[child].gap
                     };
+                    let start = Start {
+                        closes: closed,
+                        known: reach,
+                        gap,
+                    };
+                    let place = ground.tree.maximum(&node);
+                    let (taken, walked) = ground.climb(start, place, &mut closing.evaluations);
+                    reach = walked;
+                    if !is_leaf {
+                        closing.known[child] = walked;
+                    }
+                    taken
+                };
                 known[side] = reach[side];
                 closes = smaller(closes, taken);
             }
@@ -107,8 +119,18 @@ impl Closing {
         if !held.is_empty() {
             closes = Cow::Owned(gathered(self.closes.len(), self.closes.iter().copied())?);
         }
-        let listed = Listed { runs: Vec::new(), end: f64::NEG_INFINITY, evaluations: 0 };
-        let mut loading = Loading { ground, held, closes, known: &self.known, listed };
+        let listed = Listed {
+            runs: Vec::new(),
+            end: f64::NEG_INFINITY,
+            evaluations: 0,
+        };
+        let mut loading = Loading {
+            ground,
+            held,
+            closes,
+            known: &self.known,
+            listed,
+        };
         loading.close_around()?;
         loading.list()?;
         Ok(loading.listed)
@@ -125,7 +147,9 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
 
     /// Returns the held patch of the range `begin..end` that lies on this very branch, not on a branch below it.
     fn held_on(&self, [begin, end]: [usize; 2], branch: Branch) -> Option<&Held> {
-        self.held.get(begin).filter(|held| end - begin == 1 && held.branch == branch)
+        self.held
+            .get(begin)
+            .filter(|held| end - begin == 1 && held.branch == branch)
     }
 
     /// Finds when the nodes around held patches close. All other nodes close as on a loading from separation.
@@ -135,9 +159,15 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         let mut around = Vec::new();
         // A node comes before those in its parts.
         while let Some((branch, held)) = waiting.pop() {
-            if let (Ok(node), None, true) = (branch.origin(), self.held_on(held, branch), held[0] < held[1]) {
-                let parts =
-                    tree.parts(node).into_iter().zip(self.split(held, tree.maximum(&tree.nodes[node])));
+            if let (Ok(node), None, true) = (
+                branch.origin(),
+                self.held_on(held, branch),
+                held[0] < held[1],
+            ) {
+                let parts = tree
+                    .parts(node)
+                    .into_iter()
+                    .zip(self.split(held, tree.maximum(&tree.nodes[node])));
                 for part in parts.clone() {
                     push(&mut waiting, part)?;
                 }
@@ -149,7 +179,9 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
             let mut closes = f64::INFINITY;
             for (part, held) in tree.parts(node).into_iter().zip(self.split(held, place)) {
                 let start = self.start(part, self.held_on(held, part));
-                let (taken, _) = self.ground.climb(start, place, &mut self.listed.evaluations);
+                let (taken, _) = self
+                    .ground
+                    .climb(start, place, &mut self.listed.evaluations);
                 closes = smaller(closes, taken);
             }
             self.closes.to_mut()[node] = closes;
@@ -162,15 +194,25 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         let Ground { tree, gaps, .. } = *self.ground;
         if let Some(held) = held {
             let known = [held.first, held.last];
-            return Start { closes: f64::NEG_INFINITY, known, gap: self.ground.span(branch, known).gap };
+            return Start {
+                closes: f64::NEG_INFINITY,
+                known,
+                gap: self.ground.span(branch, known).gap,
+            };
         }
         match branch.origin() {
-            Ok(node) => {
-                Start { closes: self.closes[node], known: self.known[node], gap: tree.nodes[node].gap }
-            }
+            Ok(node) => Start {
+                closes: self.closes[node],
+                known: self.known[node],
+                gap: tree.nodes[node].gap,
+            },
             Err(rank) => {
                 let place = tree.minimum(rank);
-                Start { closes: gaps[place], known: [place as u32; 2], gap: gaps[place] }
+                Start {
+                    closes: gaps[place],
+                    known: [place as u32; 2],
+                    gap: gaps[place],
+                }
             }
         }
     }
@@ -179,10 +221,19 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
     fn list(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let held = [0, self.held.len()];
-        let mut branches =
-            vec![Climb { branch: tree.root(), merges: f64::INFINITY, parent: usize::MAX, held }];
+        let mut branches = vec![Climb {
+            branch: tree.root(),
+            merges: f64::INFINITY,
+            parent: usize::MAX,
+            held,
+        }];
         while let Some(climb) = branches.pop() {
-            let Climb { branch, merges, held, .. } = climb;
+            let Climb {
+                branch,
+                merges,
+                held,
+                ..
+            } = climb;
             let state = self.held_on(held, branch).copied();
             let start = self.start(branch, state.as_ref());
             let node = branch.origin().ok().map(|index| (index, tree.nodes[index]));
@@ -198,7 +249,15 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let merges = smaller(start.closes, merges);
                 let parent = tree.maximum(&node);
                 for (branch, held) in tree.parts(index).into_iter().zip(self.split(held, parent)) {
-                    push(&mut branches, Climb { branch, merges, parent, held })?;
+                    push(
+                        &mut branches,
+                        Climb {
+                            branch,
+                            merges,
+                            parent,
+                            held,
+                        },
+                    )?;
                 }
             }
         }
@@ -207,8 +266,20 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
 
     /// Lists the runs of one branch, the largest first. `pin` is the height in m of the pinned edges of a held patch above its
     /// largest gap.
-    fn climb(&mut self, climb: &Climb, start: Start, mut pin: Option<f64>) -> Result<(), ContactError> {
-        let (ground, Listed { runs, end: complete, evaluations }) = (self.ground, &mut self.listed);
+    fn climb(
+        &mut self,
+        climb: &Climb,
+        start: Start,
+        mut pin: Option<f64>,
+    ) -> Result<(), ContactError> {
+        let (
+            ground,
+            Listed {
+                runs,
+                end: complete,
+                evaluations,
+            },
+        ) = (self.ground, &mut self.listed);
         let gaps = ground.gaps;
         let square = ground.square();
         let mut span = ground.lowest(start);
@@ -233,7 +304,13 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let end = smaller(attaches, climb.merges);
                 if let Some(rise) = pin.take() {
                     let released = smaller(levels.release(ground.stretch, rise).0, end);
-                    push(runs, Run { pin: rise, ..Run::new(climb.branch, &span, closes, released) })?;
+                    push(
+                        runs,
+                        Run {
+                            pin: rise,
+                            ..Run::new(climb.branch, &span, closes, released)
+                        },
+                    )?;
                     closes = released;
                 }
                 if closes < end {
@@ -314,9 +391,17 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     fn below(&self, span: &Span, parent: usize) -> Span {
         let (at, end) = (parent as u32, self.gaps.len() as u32 - 1);
         if parent > span.last {
-            Span { last: parent - 1, ..*span }.up_to(self.gaps, self.gaps[parent], [0, at - 1])
+            Span {
+                last: parent - 1,
+                ..*span
+            }
+            .up_to(self.gaps, self.gaps[parent], [0, at - 1])
         } else {
-            Span { first: parent + 1, ..*span }.up_to(self.gaps, self.gaps[parent], [at + 1, end])
+            Span {
+                first: parent + 1,
+                ..*span
+            }
+            .up_to(self.gaps, self.gaps[parent], [at + 1, end])
         }
     }
 }

@@ -29,12 +29,21 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// which stay in place at the beginning of the next motion.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
         let ground = &self.ground;
-        self.runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
-            let span = ground.span_at(run, indentation);
-            let [first, last] = span.ends();
-            let pin = pins.then(|| ground.rise(&span, run.pin(), indentation));
-            Held { branch: run.branch, first, last, pin }
-        })
+        self.runs
+            .iter()
+            .rev()
+            .filter(move |run| run.is_at(indentation))
+            .map(move |run| {
+                let span = ground.span_at(run, indentation);
+                let [first, last] = span.ends();
+                let pin = pins.then(|| ground.rise(&span, run.pin(), indentation));
+                Held {
+                    branch: run.branch,
+                    first,
+                    last,
+                    pin,
+                }
+            })
     }
 
     /// Returns the springs of the leftmost and of the rightmost patch at an indentation in m.
@@ -54,12 +63,13 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
             let bottom = self.ground.bottom(run);
             thresholds[bottom.first..=bottom.last].fill(run.from);
             let mut below = bottom;
-            self.ground.each_span(run, f64::NEG_INFINITY, |span, from, _| {
-                thresholds[span.first..below.first].fill(from);
-                thresholds[below.last + 1..=span.last].fill(from);
-                below = *span;
-                false
-            });
+            self.ground
+                .each_span(run, f64::NEG_INFINITY, |span, from, _| {
+                    thresholds[span.first..below.first].fill(from);
+                    thresholds[below.last + 1..=span.last].fill(from);
+                    below = *span;
+                    false
+                });
         }
         thresholds
     }
@@ -67,7 +77,11 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let (ground, low, high) = (&self.ground, grid.points[0], grid.high());
         let mut tally = Tally::new(grid, SLIDES)?;
-        for run in self.runs.iter().filter(|run| run.from <= high && run.to > low) {
+        for run in self
+            .runs
+            .iter()
+            .filter(|run| run.from <= high && run.to > low)
+        {
             let (mut first, end) = (tally.place(run.from), tally.place(run.to));
             if first >= end {
                 continue;
@@ -97,7 +111,11 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
                 if low < to && from <= high {
                     intervals.add_events(from, to, ground.totals(span));
                     if SLIDES {
-                        intervals.add_piece(Piece { slider: ground.slider(run, span), from, to });
+                        intervals.add_piece(Piece {
+                            slider: ground.slider(run, span),
+                            from,
+                            to,
+                        });
                     }
                 }
                 from > high
@@ -118,7 +136,11 @@ impl SquaredStretch {
     /// Creates an empty sum for indentations θ between `−largest` and `largest` in m.
     fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>, largest: f64) -> Self {
         let scale = SquareScale::new(ground.tree.scale, largest);
-        SquaredStretch { scale, whole: 0, edges: CompensatedSum::default() }
+        SquaredStretch {
+            scale,
+            whole: 0,
+            edges: CompensatedSum::default(),
+        }
     }
 
     /// Adds (`sign` 1) or subtracts (−1) the squared stretches over a span at the indentation `at` in m. The edges of the span
@@ -134,10 +156,17 @@ impl SquaredStretch {
         let (squares, remainder) = self.scale.at(&totals, totals.whole(SLIDES), at);
         self.edges.add(f64::from(sign) * remainder);
         // Sums of all runs cancel down to the energy: those in between may pass the range of integers.
-        self.whole = self.whole.wrapping_add(if sign < 0 { squares.wrapping_neg() } else { squares });
+        self.whole = self.whole.wrapping_add(if sign < 0 {
+            squares.wrapping_neg()
+        } else {
+            squares
+        });
         if SLIDES {
             let cells = EdgeCell::of(ground.gaps, span, level);
-            cells.iter().for_each(|cell| self.edges.add(f64::from(sign) * cell.squares_below(level - at)));
+            cells.iter().for_each(|cell| {
+                self.edges
+                    .add(f64::from(sign) * cell.squares_below(level - at))
+            });
         }
     }
 
@@ -176,9 +205,16 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         if ground.stretch == 0.0 {
             return 0.0;
         }
-        let runs = || self.runs.iter().filter(|run| run.from <= high && run.to > low);
-        let events = runs().flat_map(|run| [run.from, run.to]).filter(|at| at.is_finite());
-        let mut sum = SquaredStretch::new(ground, events.fold(0.0, |most: f64, at| most.max(at.abs())));
+        let runs = || {
+            self.runs
+                .iter()
+                .filter(|run| run.from <= high && run.to > low)
+        };
+        let events = runs()
+            .flat_map(|run| [run.from, run.to])
+            .filter(|at| at.is_finite());
+        let mut sum =
+            SquaredStretch::new(ground, events.fold(0.0, |most: f64, at| most.max(at.abs())));
         for run in runs() {
             let [(bottom, lower), (top, upper)] = self.ends_of(run, low, high);
             if run.from > low {
@@ -198,8 +234,16 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// m of its edges there.
     fn ends_of(&self, run: &Run, low: f64, high: f64) -> [(Span, f64); 2] {
         let ground = &self.ground;
-        let top = if run.to > high { ground.span_at(run, high) } else { ground.span(run.branch, run.top) };
-        let bottom = if run.from < low { ground.span_at(run, low) } else { ground.bottom(run) };
+        let top = if run.to > high {
+            ground.span_at(run, high)
+        } else {
+            ground.span(run.branch, run.top)
+        };
+        let bottom = if run.from < low {
+            ground.span_at(run, low)
+        } else {
+            ground.bottom(run)
+        };
         let lower = ground.level(&bottom, run.pin(), run.from.max(low));
         let upper = ground.level_up_to(&top, run.pin(), run.to.min(high));
         [(bottom, lower), (top, upper)]

@@ -71,7 +71,14 @@ pub struct Ground<'a, const SLIDES: bool> {
 
 impl Run {
     pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
-        Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
+        Run {
+            from,
+            to,
+            pin: f64::NAN,
+            bottom: span.ends(),
+            top: span.ends(),
+            branch,
+        }
     }
 
     /// Returns the height in m of pinned edges above the largest gap; `None` for free edges.
@@ -92,7 +99,9 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let (first, last) = (first as usize, last as usize);
         let ends = larger(self.gaps[first], self.gaps[last]);
         // Above the lowest span of a branch the largest gap is that of the outermost spring that attached last.
-        let gap = branch.origin().map_or(ends, |node| larger(ends, self.tree.nodes[node].gap));
+        let gap = branch
+            .origin()
+            .map_or(ends, |node| larger(ends, self.tree.nodes[node].gap));
         Span { gap, first, last }
     }
 
@@ -132,14 +141,23 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let [high, high_squares] = self.tree.sums_before(self.gaps, end);
         let [low, low_squares] = self.tree.sums_before(self.gaps, span.first);
         let (quanta, squares) = (high - low, high_squares - low_squares);
-        ContactTotals { springs: span.springs() as i64, fragments: 1, quanta, squares }
+        ContactTotals {
+            springs: span.springs() as i64,
+            fragments: 1,
+            quanta,
+            squares,
+        }
     }
 
     /// Returns the upper end, in m, of the indentations over which a run fills a span. Beyond it the run fills the span `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
         // Unloading, the span above parts where this one would go on.
-        if self.unloading { self.holds_to(&self.levels(above)) } else { self.attaches_at(span, above.gap) }
+        if self.unloading {
+            self.holds_to(&self.levels(above))
+        } else {
+            self.attaches_at(span, above.gap)
+        }
     }
 
     /// Returns the upper end, in m, of the indentations over which a run fills one of its spans.
@@ -213,7 +231,12 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
             return Levels::between_springs(self.gaps, span).0;
         }
         let length = f64::from(span.springs() as u32);
-        Levels { gap: span.gap, length, growth: 0.0, top: f64::INFINITY }
+        Levels {
+            gap: span.gap,
+            length,
+            growth: 0.0,
+            top: f64::INFINITY,
+        }
     }
 
     /// Returns a lower bound in cells of the length of a span at its highest level.
@@ -226,7 +249,11 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// Returns the smallest indentation in m at which a span with these levels attaches its wall, whose gap is `wall` in m.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
-        let length = if SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
+        let length = if SLIDES {
+            levels.length_at(wall - levels.gap)
+        } else {
+            levels.length
+        };
         wall - self.stretch * length.sqrt()
     }
 

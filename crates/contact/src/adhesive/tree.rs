@@ -63,7 +63,11 @@ impl Branch {
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
-        if self.0 & 1 == 1 { Err(index) } else { Ok(index) }
+        if self.0 & 1 == 1 {
+            Err(index)
+        } else {
+            Ok(index)
+        }
     }
 }
 
@@ -80,7 +84,12 @@ struct Pending {
 impl ContactTree {
     /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero) with the sums of an edge model, in the memory of the
     /// former tree. `deepest` is the largest gap.
-    pub(crate) fn rebuild(mut self, gaps: &[f64], deepest: f64, edges: Edges) -> Result<Self, OutOfMemory> {
+    pub(crate) fn rebuild(
+        mut self,
+        gaps: &[f64],
+        deepest: f64,
+        edges: Edges,
+    ) -> Result<Self, OutOfMemory> {
         let scale = GapScale::for_gaps_up_to(deepest);
         (self.scale, self.of_cells) = (scale, edges == Edges::SubCell);
         let sums = std::mem::take(&mut self.sums);
@@ -102,7 +111,10 @@ impl ContactTree {
 
     /// Returns the branch that grows until it fills the profile.
     pub(crate) fn root(&self) -> Branch {
-        self.nodes.len().checked_sub(1).map_or(Branch::leaf(0), Branch::node)
+        self.nodes
+            .len()
+            .checked_sub(1)
+            .map_or(Branch::leaf(0), Branch::node)
     }
 
     /// Returns the index of the spring at the local minimum with this number.
@@ -124,8 +136,16 @@ impl ContactTree {
         let (rank, right) = (node.rank as usize, node.right as usize);
         let left = node.size as usize - 1 - right;
         [
-            if left == 0 { Branch::leaf(rank) } else { Branch::node(index - 1 - right) },
-            if right == 0 { Branch::leaf(rank + 1) } else { Branch::node(index - 1) },
+            if left == 0 {
+                Branch::leaf(rank)
+            } else {
+                Branch::node(index - 1 - right)
+            },
+            if right == 0 {
+                Branch::leaf(rank + 1)
+            } else {
+                Branch::node(index - 1)
+            },
         ]
     }
 
@@ -134,7 +154,11 @@ impl ContactTree {
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let block = spring / BLOCK;
-        let end = if self.of_cells { gaps.len().min(spring + 1) } else { spring };
+        let end = if self.of_cells {
+            gaps.len().min(spring + 1)
+        } else {
+            spring
+        };
         let rest = sums_of_few(&gaps[block * BLOCK..end], self.of_cells, self.scale);
         let sums = self.sums[block];
         [sums[0] + rest[0], sums[1] + rest[1]]
@@ -184,12 +208,26 @@ impl ContactTree {
         let mut nodes = emptied(std::mem::take(&mut self.nodes), count)?;
         let mut pending: Vec<Pending> = Vec::new();
         let gap_at = |turn: usize| gaps[self.turns[turn] as usize];
-        let mut lowest = if self.turns.is_empty() { 0.0 } else { gap_at(0) };
+        let mut lowest = if self.turns.is_empty() {
+            0.0
+        } else {
+            gap_at(0)
+        };
         let finish = |top: Pending, lowest: f64, nodes: &mut Vec<Node>| {
-            let lowest = if top.lowest < lowest { top.lowest } else { lowest };
+            let lowest = if top.lowest < lowest {
+                top.lowest
+            } else {
+                lowest
+            };
             let end = nodes.len() as u32;
             let (size, right) = (end + 1 - top.start, end - top.right_start);
-            nodes.push(Node { gap: top.gap, lowest, rank: top.rank, size, right });
+            nodes.push(Node {
+                gap: top.gap,
+                lowest,
+                rank: top.rank,
+                size,
+                right,
+            });
             lowest
         };
         for rank in 0..count {
@@ -200,7 +238,16 @@ impl ContactTree {
                 lowest = finish(top, lowest, &mut nodes);
             }
             let right_start = nodes.len() as u32;
-            push(&mut pending, Pending { gap, lowest, rank: rank as u32, start, right_start })?;
+            push(
+                &mut pending,
+                Pending {
+                    gap,
+                    lowest,
+                    rank: rank as u32,
+                    start,
+                    right_start,
+                },
+            )?;
             lowest = gap_at(2 * rank + 2);
         }
         while let Some(top) = pending.pop() {
@@ -228,7 +275,10 @@ fn sums_along(
     };
     match edges {
         Edges::Grid => {
-            gaps.as_chunks::<BLOCK>().0.iter().for_each(|springs| add(sums_of_few(springs, false, scale)));
+            gaps.as_chunks::<BLOCK>()
+                .0
+                .iter()
+                .for_each(|springs| add(sums_of_few(springs, false, scale)));
         }
         Edges::SubCell => {
             let cells = gaps.windows(BLOCK + 1).step_by(BLOCK);

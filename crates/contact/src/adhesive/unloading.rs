@@ -28,10 +28,26 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// A patch splits when its most stretched spring detaches. This happens as soon as the larger patch around it has split and
     /// the rule of Hess no longer holds the spring: t_v = min(t of the patch around v, smallest φ of v).
     pub fn open(&self, held: &[Held], from: f64) -> Result<Listed, ContactError> {
-        let mut listed = Listed { runs: Vec::new(), end: f64::INFINITY, evaluations: 0 };
+        let mut listed = Listed {
+            runs: Vec::new(),
+            end: f64::INFINITY,
+            evaluations: 0,
+        };
         let mut parts = Vec::new();
-        for &Held { branch, first, last, pin } in held.iter().rev() {
-            parts.push(Part { branch, first, last, opens: from, is_whole: true });
+        for &Held {
+            branch,
+            first,
+            last,
+            pin,
+        } in held.iter().rev()
+        {
+            parts.push(Part {
+                branch,
+                first,
+                last,
+                opens: from,
+                is_whole: true,
+            });
             while let Some(part) = parts.pop() {
                 for part in self.descend(part, pin, &mut listed)?.into_iter().flatten() {
                     push(&mut parts, part)?;
@@ -51,11 +67,27 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 
     /// Returns the two parts of the smallest span of a branch after `spring` detaches at an indentation in m.
-    fn parts_of(&self, branch: Branch, span: &Span, spring: usize, opens: f64) -> [Option<Part>; 2] {
-        let Ok(node) = branch.origin() else { return [None; 2] };
+    fn parts_of(
+        &self,
+        branch: Branch,
+        span: &Span,
+        spring: usize,
+        opens: f64,
+    ) -> [Option<Part>; 2] {
+        let Ok(node) = branch.origin() else {
+            return [None; 2];
+        };
         let [left, right] = self.tree.parts(node);
         let ([first, last], spring) = (span.ends(), spring as u32);
-        let part = |branch, first, last| Some(Part { branch, first, last, opens, is_whole: false });
+        let part = |branch, first, last| {
+            Some(Part {
+                branch,
+                first,
+                last,
+                opens,
+                is_whole: false,
+            })
+        };
         [part(left, first, spring - 1), part(right, spring + 1, last)]
     }
 
@@ -68,7 +100,11 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         listed: &mut Listed,
     ) -> Result<[Option<Part>; 2], ContactError> {
         let Ground { gaps, tree, .. } = *self;
-        let Listed { runs, end, evaluations } = listed;
+        let Listed {
+            runs,
+            end,
+            evaluations,
+        } = listed;
         let (mut first, mut last) = (part.first as usize, part.last as usize);
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
         let (bottom, lowest, place) = match part.branch.origin() {
@@ -89,7 +125,11 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let mut above: Option<Levels> = None;
         loop {
             let (left, right) = (gaps[first], gaps[last]);
-            let at_bottom = if is_leaf { first == last } else { left < bottom && right <= bottom };
+            let at_bottom = if is_leaf {
+                first == last
+            } else {
+                left < bottom && right <= bottom
+            };
             let gap = if at_bottom {
                 gaps[place]
             } else if left >= right {
@@ -109,8 +149,18 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
                     if let Some(rise) = pin.filter(|_| is_whole) {
                         let (released, slides) = levels.release(self.stretch, rise);
                         let released = smaller(opens, released);
-                        leaves = if slides { smaller(leaves, released) } else { released };
-                        push(runs, Run { pin: rise, ..Run::new(part.branch, &span, released, to) })?;
+                        leaves = if slides {
+                            smaller(leaves, released)
+                        } else {
+                            released
+                        };
+                        push(
+                            runs,
+                            Run {
+                                pin: rise,
+                                ..Run::new(part.branch, &span, released, to)
+                            },
+                        )?;
                         to = released;
                     }
                     match (runs.last_mut(), above) {

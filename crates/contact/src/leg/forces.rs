@@ -34,7 +34,10 @@ impl Leg {
             return Ok(Vec::new());
         }
         let sampled = self.sample(Grid::at(indentations.to_vec()))?;
-        Ok(sampled.iter().map(|state| state.point(self.contact.foundation)).collect())
+        Ok(sampled
+            .iter()
+            .map(|state| state.point(self.contact.foundation))
+            .collect())
     }
 
     /// Returns the energy in J that springs release on the part of this leg with indentations above `low` and up to `high` in
@@ -47,7 +50,11 @@ impl Leg {
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // Not −0 where nothing attaches with a stretch.
-        if self.direction == Direction::Loading { 0.0 - energy } else { energy }
+        if self.direction == Direction::Loading {
+            0.0 - energy
+        } else {
+            energy
+        }
     }
 
     pub(crate) fn state(&self, indentation: f64) -> Result<ContactState, ContactError> {
@@ -58,12 +65,20 @@ impl Leg {
     /// rigid instrument, whose displacement is the indentation, adds none.
     fn with_instrument(&self) -> Self {
         let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
-        Leg { instrument: if springs.is_infinite() { 0.0 } else { springs }, ..self.clone() }
+        Leg {
+            instrument: if springs.is_infinite() { 0.0 } else { springs },
+            ..self.clone()
+        }
     }
 
     /// Finds the indentation in m at which a motion from the indentation `from` (m) reaches its goal. The returned goal is the
     /// separation if the contact is lost on the way.
-    pub(crate) fn reach(&self, goal: Goal, from: f64, work: &mut Work) -> Result<(f64, Goal), ContactError> {
+    pub(crate) fn reach(
+        &self,
+        goal: Goal,
+        from: f64,
+        work: &mut Work,
+    ) -> Result<(f64, Goal), ContactError> {
         let lost = self.end.min(from);
         let end = match goal {
             Goal::Indentation(at) => at,
@@ -89,7 +104,10 @@ impl Leg {
         work: &mut Work,
     ) -> Result<ContactState, ContactError> {
         let leg = self.with_instrument();
-        let sampled: Vec<_> = sampled.iter().map(|state| state.beside(leg.instrument)).collect();
+        let sampled: Vec<_> = sampled
+            .iter()
+            .map(|state| state.beside(leg.instrument))
+            .collect();
         self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
     }
 
@@ -123,7 +141,9 @@ impl Leg {
             if !loads {
                 events.reverse();
             }
-            events.iter().for_each(|interval| area.add(interval.jumped(loads, &mut reached)));
+            events
+                .iter()
+                .for_each(|interval| area.add(interval.jumped(loads, &mut reached)));
         };
         match loads {
             true => pairs.chunks(AT_ONCE).for_each(&mut pass),
@@ -147,7 +167,9 @@ impl Leg {
             let sampled = self.sample(Grid::new(self.end.min(from), from, SEARCH_INTERVALS))?;
             return self.last_at_most(&sampled, wanted, work).ok_or_else(|| {
                 let smallest = self.extreme(Extreme::Smallest, &sampled, work).compression;
-                ContactError::DetachesBefore { smallest: stiffness * smallest }
+                ContactError::DetachesBefore {
+                    smallest: stiffness * smallest,
+                }
             });
         }
         let complete = self.end.max(from);
@@ -175,7 +197,9 @@ impl Leg {
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.sample(grid)),
         }?;
         if self.instrument > 0.0 {
-            sampled.iter_mut().for_each(|state| *state = state.beside(self.instrument));
+            sampled
+                .iter_mut()
+                .for_each(|state| *state = state.beside(self.instrument));
         }
         Ok(sampled)
     }
@@ -198,40 +222,68 @@ impl Leg {
             return Vec::new();
         }
         let slides = self.contact.edges == Edges::SubCell;
-        let mut intervals =
-            Intervals::new(ends, slides, self.contact.profile.springs.scale(), self.instrument);
+        let mut intervals = Intervals::new(
+            ends,
+            slides,
+            self.contact.profile.springs.scale(),
+            self.instrument,
+        );
         match &self.patches {
-            Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).search(&mut intervals),
-            Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.search(&mut intervals)),
+            Patches::Springs(thresholds) => {
+                Thresholds::new(&self.contact, thresholds).search(&mut intervals)
+            }
+            Patches::Runs(tree, runs) => {
+                along_runs!(self, tree, runs, along => along.search(&mut intervals))
+            }
         }
         intervals.finish(&mut work.events_sorted)
     }
 
     /// Finds the contact of the extreme force between the first and the last point of a sampled leg.
-    pub(crate) fn extreme(&self, extreme: Extreme, leg: &[ContactState], work: &mut Work) -> ContactState {
+    pub(crate) fn extreme(
+        &self,
+        extreme: Extreme,
+        leg: &[ContactState],
+        work: &mut Work,
+    ) -> ContactState {
         let mut best = extreme.of(leg);
         // Without adhesion the force never falls.
         if self.contact.hess.is_some() {
             let chosen = intervals(leg, |low, high| extreme.may_lie(low, high, &best));
-            self.events(&chosen, work).iter().for_each(|interval| interval.extreme(extreme, &mut best));
+            self.events(&chosen, work)
+                .iter()
+                .for_each(|interval| interval.extreme(extreme, &mut best));
         }
         best
     }
 
     /// Finds the contact of the smallest force of an unloading between the ends of a grid. Points of the grid are evaluated
     /// only between neighbours of a coarser grid whose bounds allow a smaller force.
-    pub(crate) fn smallest(&self, grid: &Grid, work: &mut Work) -> Result<ContactState, ContactError> {
+    pub(crate) fn smallest(
+        &self,
+        grid: &Grid,
+        work: &mut Work,
+    ) -> Result<ContactState, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let best = Extreme::Smallest.of(&coarse);
-        let leg = self.refined(grid, coarse, |low, high| Extreme::Smallest.may_lie(low, high, &best))?;
+        let leg = self.refined(grid, coarse, |low, high| {
+            Extreme::Smallest.may_lie(low, high, &best)
+        })?;
         Ok(self.extreme(Extreme::Smallest, &leg, work))
     }
 
     /// Finds the smallest indentation in m, between the ends of a grid, at which the compression is at least `wanted` in m.
-    fn first_at_least(&self, grid: &Grid, wanted: f64, work: &mut Work) -> Result<Option<f64>, ContactError> {
+    fn first_at_least(
+        &self,
+        grid: &Grid,
+        wanted: f64,
+        work: &mut Work,
+    ) -> Result<Option<f64>, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let reached = |leg: &[ContactState]| {
-            leg.iter().find(|state| state.compression >= wanted).map(|state| state.indentation)
+            leg.iter()
+                .find(|state| state.compression >= wanted)
+                .map(|state| state.indentation)
         };
         // Behind the first point that has it nothing is sought.
         let may_lie = |end: Option<f64>| {
@@ -244,7 +296,11 @@ impl Leg {
         let leg = self.refined(grid, coarse, may_lie(coarse_end))?;
         let end = reached(&leg);
         let chosen = intervals(&leg, may_lie(end));
-        Ok(self.events(&chosen, work).iter().find_map(|interval| interval.first_at_least(wanted)).or(end))
+        Ok(self
+            .events(&chosen, work)
+            .iter()
+            .find_map(|interval| interval.first_at_least(wanted))
+            .or(end))
     }
 
     /// Evaluates a finer grid where needed. It adds to the sampled points `coarse` the points of `grid` between two neighbours
@@ -273,7 +329,13 @@ impl Leg {
         let reached = leg.iter().rfind(|state| state.compression <= wanted);
         let start = reached.map(|state| state.indentation);
         let first = start.unwrap_or(f64::NEG_INFINITY);
-        let chosen = intervals(leg, |low, high| low.indentation >= first && lower_bound(low, high) <= wanted);
-        self.events(&chosen, work).iter().rev().find_map(|interval| interval.last_at_most(wanted)).or(start)
+        let chosen = intervals(leg, |low, high| {
+            low.indentation >= first && lower_bound(low, high) <= wanted
+        });
+        self.events(&chosen, work)
+            .iter()
+            .rev()
+            .find_map(|interval| interval.last_at_most(wanted))
+            .or(start)
     }
 }

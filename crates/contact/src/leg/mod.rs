@@ -137,13 +137,25 @@ impl Leg {
         thresholds: Vec<f64>,
     ) -> Self {
         let patches = Patches::Springs(Arc::new(thresholds));
-        Leg { patches, end, ..Leg::apart(&contact.of_whole_springs(), direction) }
+        Leg {
+            patches,
+            end,
+            ..Leg::apart(&contact.of_whole_springs(), direction)
+        }
     }
 
     fn without_adhesion(contact: &Contact, direction: Direction) -> Self {
         let patches = Patches::Springs(Arc::clone(&contact.profile.springs.gaps));
-        let end = if direction == Direction::Loading { contact.profile.deepest() } else { 0.0 };
-        Leg { patches, end, ..Leg::apart(contact, direction) }
+        let end = if direction == Direction::Loading {
+            contact.profile.deepest()
+        } else {
+            0.0
+        };
+        Leg {
+            patches,
+            end,
+            ..Leg::apart(contact, direction)
+        }
     }
 
     /// Computes the leg of a loading that begins in separation.
@@ -168,8 +180,7 @@ impl Leg {
         match &self.patches {
             Patches::Springs(_) => Ok(Leg::without_adhesion(&self.contact, direction)),
             Patches::Runs(tree, runs) => {
-                let held: Vec<Held> =
-                    along_runs!(self, tree, runs, along => along.held_at(at, self.pins()).collect());
+                let held: Vec<Held> = along_runs!(self, tree, runs, along => along.held_at(at, self.pins()).collect());
                 Leg::apart(&self.contact, direction).list(tree, &held, at)
             }
         }
@@ -191,7 +202,12 @@ impl Leg {
         });
         evaluations += listed.evaluations;
         let patches = Patches::Runs(Arc::clone(tree), Arc::new(listed.runs));
-        Ok(Leg { patches, end: listed.end, evaluations, ..self })
+        Ok(Leg {
+            patches,
+            end: listed.end,
+            evaluations,
+            ..self
+        })
     }
 
     fn is_stepwise(&self) -> bool {
@@ -200,7 +216,11 @@ impl Leg {
 
     /// Returns an error for a leg of the stepwise solver, which is known only at its steps.
     pub(super) fn refuse_stepwise(&self) -> Result<(), ContactError> {
-        if self.is_stepwise() { Err(ContactError::Stepwise) } else { Ok(()) }
+        if self.is_stepwise() {
+            Err(ContactError::Stepwise)
+        } else {
+            Ok(())
+        }
     }
 
     /// Returns the contact to which the leg belongs.
@@ -223,7 +243,9 @@ impl Leg {
     /// Returns the number of bytes of memory that this leg takes, without the memory of its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
-            Patches::Springs(thresholds) if self.is_stepwise() => size_of::<f64>() * thresholds.capacity(),
+            Patches::Springs(thresholds) if self.is_stepwise() => {
+                size_of::<f64>() * thresholds.capacity()
+            }
             Patches::Springs(_) => 0,
             Patches::Runs(_, runs) => size_of::<Run>() * runs.capacity(),
         }
@@ -236,7 +258,10 @@ impl Leg {
                 Patch::of_springs(thresholds.iter().map(|&threshold| threshold <= indentation))
             }
             Patches::Runs(tree, runs) => {
-                let patch = |held: Held| Patch { first: held.first as usize, last: held.last as usize };
+                let patch = |held: Held| Patch {
+                    first: held.first as usize,
+                    last: held.last as usize,
+                };
                 along_runs!(self, tree, runs, along => along.held_at(indentation, false).map(patch).collect())
             }
         }
@@ -247,7 +272,10 @@ impl Leg {
         match &self.patches {
             Patches::Springs(thresholds) => {
                 let outermost = [thresholds.first(), thresholds.last()];
-                outermost.into_iter().flatten().any(|&threshold| threshold <= indentation)
+                outermost
+                    .into_iter()
+                    .flatten()
+                    .any(|&threshold| threshold <= indentation)
             }
             Patches::Runs(tree, runs) => {
                 let last_spring = self.contact.gaps().len() - 1;
@@ -262,20 +290,31 @@ impl Leg {
     /// Returns the indentations above `low` and up to `high` (m) at which the force jumps by about `least` (N) or more, in
     /// ascending order.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
-        let Patches::Runs(_, runs) = &self.patches else { return Vec::new() };
+        let Patches::Runs(_, runs) = &self.patches else {
+            return Vec::new();
+        };
         let springs = |[first, last]: [u32; 2]| f64::from(last - first + 1);
-        let ends = runs.iter().flat_map(|run| [(run.from, springs(run.bottom)), (run.to, -springs(run.top))]);
+        let ends = runs
+            .iter()
+            .flat_map(|run| [(run.from, springs(run.bottom)), (run.to, -springs(run.top))]);
         let mut events: Vec<(f64, f64)> = ends.filter(|(at, _)| low < *at && *at <= high).collect();
-        events.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        events.sort_unstable_by(|one, other| {
+            one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1))
+        });
         // The springs that attach or detach are stretched by about s √n.
         let stretch = self.contact.rule().stretch(self.direction);
         let jump = |events: &[(f64, f64)]| {
-            let most = events.iter().fold(0.0_f64, |most, event| most.max(event.1.abs()));
+            let most = events
+                .iter()
+                .fold(0.0_f64, |most, event| most.max(event.1.abs()));
             let change: f64 = events.iter().map(|event| event.1).sum();
             self.contact.foundation.spring_stiffness() * stretch * most.sqrt() * change.abs()
         };
         let together = events.chunk_by(|one, next| one.0 == next.0);
-        together.filter(|events| jump(events) >= least).map(|events| events[0].0).collect()
+        together
+            .filter(|events| jump(events) >= least)
+            .map(|events| events[0].0)
+            .collect()
     }
 
     /// Returns for each spring of the profile the smallest indentation in m at which the spring is in contact. It is −∞ for a
@@ -293,38 +332,75 @@ impl Leg {
     /// Computes the state of one patch at an indentation in m. `number` counts the patches from the left, from 0.
     /// Returns `None` if the number is not below the number of patches.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
-        self.pinned_patches(indentation).get(number).map(|patch| self.state_of(patch, indentation))
+        self.pinned_patches(indentation)
+            .get(number)
+            .map(|patch| self.state_of(patch, indentation))
     }
 
     /// Computes the states of all patches in contact at an indentation in m, from left to right.
     pub fn patch_states(&self, indentation: f64) -> Vec<PatchState> {
         let patches = self.pinned_patches(indentation);
-        patches.iter().map(|patch| self.state_of(patch, indentation)).collect()
+        patches
+            .iter()
+            .map(|patch| self.state_of(patch, indentation))
+            .collect()
     }
 
     /// Returns the patches in contact at an indentation in m. If the edges of a patch are pinned, it has their height in m
     /// above its largest gap.
     fn pinned_patches(&self, indentation: f64) -> Vec<(Patch, Option<f64>)> {
         let Patches::Runs(tree, runs) = &self.patches else {
-            return self.patches(indentation).into_iter().map(|patch| (patch, None)).collect();
+            return self
+                .patches(indentation)
+                .into_iter()
+                .map(|patch| (patch, None))
+                .collect();
         };
-        let patch = |held: Held| (Patch { first: held.first as usize, last: held.last as usize }, held.pin);
+        let patch = |held: Held| {
+            (
+                Patch {
+                    first: held.first as usize,
+                    last: held.last as usize,
+                },
+                held.pin,
+            )
+        };
         along_runs!(self, tree, runs, along => along.held_at(indentation, self.pins()).map(patch).collect())
     }
 
     fn state_of(&self, &(patch, pin): &(Patch, Option<f64>), indentation: f64) -> PatchState {
-        let Contact { profile, foundation, edges, .. } = &self.contact;
+        let Contact {
+            profile,
+            foundation,
+            edges,
+            ..
+        } = &self.contact;
         let (rule, gaps, scale) = (self.contact.rule(), profile.gaps(), profile.springs.scale());
         let slides = *edges == Edges::SubCell;
         let stretch = rule.stretch(self.direction);
         let Patch { first, last } = patch;
-        let span = Span { gap: gaps[patch.springs()].iter().copied().fold(0.0, f64::max), first, last };
+        let span = Span {
+            gap: gaps[patch.springs()].iter().copied().fold(0.0, f64::max),
+            first,
+            last,
+        };
         let totals = ContactTotals::of_patch(&gaps[patch.springs()], slides, scale);
         let cells = || Slider::new(gaps, &span, stretch, pin).edge_cells(indentation);
-        let cells = if slides { cells() } else { EdgeCells::default() };
+        let cells = if slides {
+            cells()
+        } else {
+            EdgeCells::default()
+        };
         let state = ContactState::new(slides, indentation, totals, cells, &scale);
-        let free =
-            || if slides { Levels::between_springs(gaps, &span).0.rise(stretch, indentation) } else { 0.0 };
+        let free = || {
+            if slides {
+                Levels::between_springs(gaps, &span)
+                    .0
+                    .rise(stretch, indentation)
+            } else {
+                0.0
+            }
+        };
         let point = state.point(*foundation);
         let level = span.gap + pin.unwrap_or_else(free);
         let [left, right] = match slides {
@@ -333,7 +409,8 @@ impl Leg {
         };
         PatchState {
             springs: patch,
-            edges: [first as f64 + 0.5 - left, last as f64 + 0.5 + right].map(|cells| profile.place(cells)),
+            edges: [first as f64 + 0.5 - left, last as f64 + 0.5 + right]
+                .map(|cells| profile.place(cells)),
             length: point.contact_length,
             force: point.force,
             largest_stretch: rule.stretch(Direction::Unloading) * state.length.sqrt(),
@@ -347,7 +424,11 @@ impl Leg {
         self.contact.edges == Edges::SubCell && !self.contact.rule().is_one()
     }
 
-    fn along<'a, const SLIDES: bool>(&'a self, tree: &'a ContactTree, runs: &'a [Run]) -> Runs<'a, SLIDES> {
+    fn along<'a, const SLIDES: bool>(
+        &'a self,
+        tree: &'a ContactTree,
+        runs: &'a [Run],
+    ) -> Runs<'a, SLIDES> {
         let ground = Ground {
             gaps: self.contact.gaps(),
             tree,

@@ -38,29 +38,47 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 impl Segments {
     pub fn new(thresholds: &[f64], body: &Body) -> Self {
-        let mut springs: Vec<(f64, f64)> =
-            thresholds.iter().copied().zip(body.gaps.iter().copied()).collect();
+        let mut springs: Vec<(f64, f64)> = thresholds
+            .iter()
+            .copied()
+            .zip(body.gaps.iter().copied())
+            .collect();
         springs.retain(|(threshold, _)| *threshold < f64::INFINITY);
         springs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let nothing = Step { from: f64::NEG_INFINITY, springs: 0.0, gaps: (0.0, 0.0) };
+        let nothing = Step {
+            from: f64::NEG_INFINITY,
+            springs: 0.0,
+            gaps: (0.0, 0.0),
+        };
         let mut steps = vec![nothing];
         for &(threshold, gap) in &springs {
             let last = steps[steps.len() - 1];
             let (high, low) = two_sum(last.gaps.0, gap);
-            let next = Step { from: threshold, springs: last.springs + 1.0, gaps: (high, last.gaps.1 + low) };
+            let next = Step {
+                from: threshold,
+                springs: last.springs + 1.0,
+                gaps: (high, last.gaps.1 + low),
+            };
             if last.from == threshold {
                 steps.pop();
             }
             steps.push(next);
         }
-        Segments { stiffness: body.foundation.spring_stiffness(), steps, springs }
+        Segments {
+            stiffness: body.foundation.spring_stiffness(),
+            steps,
+            springs,
+        }
     }
 
     /// Pieces (from, to, step) of a range, in ascending order.
     fn pieces(&self, low: f64, high: f64) -> impl DoubleEndedIterator<Item = (f64, f64, Step)> {
         (0..self.steps.len()).filter_map(move |index| {
             let step = self.steps[index];
-            let next = self.steps.get(index + 1).map_or(f64::INFINITY, |next| next.from);
+            let next = self
+                .steps
+                .get(index + 1)
+                .map_or(f64::INFINITY, |next| next.from);
             let (from, to) = (step.from.max(low), next.min(high));
             (from < to || (from == to && high < next)).then_some((from, to, step))
         })
@@ -77,38 +95,45 @@ impl Segments {
 
     /// Smallest force in contact on a range, N: it is at a threshold or at the low end.
     pub fn smallest(&self, low: f64, high: f64) -> f64 {
-        let held = self.pieces(low, high).filter(|(_, _, step)| step.springs > 0.0);
+        let held = self
+            .pieces(low, high)
+            .filter(|(_, _, step)| step.springs > 0.0);
         let ends = held.map(|(from, _, step)| self.stiffness * step.compression(from));
         ends.fold(f64::INFINITY, f64::min)
     }
 
     /// Largest force on a range, N: just before a threshold or at the high end.
     pub fn largest(&self, low: f64, high: f64) -> f64 {
-        let ends = self.pieces(low, high).map(|(_, to, step)| self.stiffness * step.compression(to));
+        let ends = self
+            .pieces(low, high)
+            .map(|(_, to, step)| self.stiffness * step.compression(to));
         ends.fold(self.force(high), f64::max)
     }
 
     /// Smallest indentation from `low` on at which the force is at least `force`.
     pub fn first_at_least(&self, force: f64, low: f64) -> Option<f64> {
         let wanted = force / self.stiffness;
-        self.pieces(low, f64::INFINITY).find_map(|(from, to, step)| {
-            if step.compression(from) >= wanted {
-                return Some(from);
-            }
-            let crossing = (wanted + step.gaps.0 + step.gaps.1) / step.springs;
-            (step.springs > 0.0 && crossing < to).then_some(crossing)
-        })
+        self.pieces(low, f64::INFINITY)
+            .find_map(|(from, to, step)| {
+                if step.compression(from) >= wanted {
+                    return Some(from);
+                }
+                let crossing = (wanted + step.gaps.0 + step.gaps.1) / step.springs;
+                (step.springs > 0.0 && crossing < to).then_some(crossing)
+            })
     }
 
     /// Largest indentation up to `high` at which springs are in contact and the force is at most `force`.
     pub fn last_at_most(&self, force: f64, high: f64) -> Option<f64> {
         let wanted = force / self.stiffness;
-        self.pieces(f64::NEG_INFINITY, high).rev().find_map(|(from, to, step)| {
-            if step.springs == 0.0 || step.compression(from) > wanted {
-                return None;
-            }
-            Some(((wanted + step.gaps.0 + step.gaps.1) / step.springs).min(to))
-        })
+        self.pieces(f64::NEG_INFINITY, high)
+            .rev()
+            .find_map(|(from, to, step)| {
+                if step.springs == 0.0 || step.compression(from) > wanted {
+                    return None;
+                }
+                Some(((wanted + step.gaps.0 + step.gaps.1) / step.springs).min(to))
+            })
     }
 
     /// ∫F dd over a range, J.
@@ -116,7 +141,12 @@ impl Segments {
         let area = |(from, to, step): (f64, f64, Step)| {
             0.5 * (to - from) * (step.compression(from) + step.compression(to))
         };
-        self.stiffness * self.pieces(low, high).filter(|piece| piece.2.springs > 0.0).map(area).sum::<f64>()
+        self.stiffness
+            * self
+                .pieces(low, high)
+                .filter(|piece| piece.2.springs > 0.0)
+                .map(area)
+                .sum::<f64>()
     }
 
     /// Energy in the springs in contact at d, J.

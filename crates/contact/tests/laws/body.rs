@@ -4,8 +4,8 @@
 
 use asperity_contact::motion::load_body;
 use asperity_contact::{
-    self as contact, Contact, ContactBuilder, CurvePoint, Edges, History, LegRecord, Modulus, Move, Patch,
-    Profile,
+    self as contact, Contact, ContactBuilder, CurvePoint, Edges, History, LegRecord, Modulus, Move,
+    Patch, Profile,
 };
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -22,7 +22,10 @@ pub struct Foundation {
 
 impl Foundation {
     pub const fn new(spacing: f64, effective_modulus: f64) -> Self {
-        Foundation { spacing, effective_modulus }
+        Foundation {
+            spacing,
+            effective_modulus,
+        }
     }
 
     /// E* Δx, N/m.
@@ -42,7 +45,10 @@ impl Foundation {
 
     pub fn builder(&self, gaps: &[f64], edges: Edges, works: [f64; 2]) -> ContactBuilder {
         let profile = Profile::from_gaps(gaps.to_vec(), self.spacing).unwrap();
-        let contact = Contact::builder(&profile, Modulus::effective(self.effective_modulus).unwrap());
+        let contact = Contact::builder(
+            &profile,
+            Modulus::effective(self.effective_modulus).unwrap(),
+        );
         contact.edges(edges).works_of_adhesion(works)
     }
 }
@@ -63,21 +69,34 @@ pub struct Body {
 impl Body {
     /// A body with one work of adhesion, J/m².
     pub fn new(gaps: Vec<f64>, edges: Edges, foundation: Foundation, work: f64) -> Self {
-        Body { gaps, edges, foundation, work, closing_work: work }
+        Body {
+            gaps,
+            edges,
+            foundation,
+            work,
+            closing_work: work,
+        }
     }
 
     /// The same body with both works of adhesion multiplied by a factor.
     pub fn with_more_adhesion(&self, factor: f64) -> Self {
-        Body { work: factor * self.work, closing_work: factor * self.closing_work, ..self.clone() }
+        Body {
+            work: factor * self.work,
+            closing_work: factor * self.closing_work,
+            ..self.clone()
+        }
     }
 
     pub fn contact(&self) -> Contact {
-        self.foundation.contact(&self.gaps, self.edges, [self.closing_work, self.work])
+        self.foundation
+            .contact(&self.gaps, self.edges, [self.closing_work, self.work])
     }
 
     /// The contact under an instrument of this stiffness, N/m.
     pub fn under(&self, stiffness: f64) -> Contact {
-        let contact = self.foundation.builder(&self.gaps, self.edges, [self.closing_work, self.work]);
+        let contact =
+            self.foundation
+                .builder(&self.gaps, self.edges, [self.closing_work, self.work]);
         contact.loading_stiffness(stiffness).build().unwrap()
     }
 
@@ -88,7 +107,10 @@ impl Body {
 
     /// The separated body in the exact solver, without adhesion.
     pub fn bare(&self, samples: usize) -> contact::motion::Body {
-        contact::motion::Body::new(&self.foundation.contact(&self.gaps, self.edges, [0.0; 2]), samples)
+        contact::motion::Body::new(
+            &self.foundation.contact(&self.gaps, self.edges, [0.0; 2]),
+            samples,
+        )
     }
 
     pub fn history(&self, targets: &[Move], samples: usize) -> History {
@@ -119,21 +141,32 @@ impl Body {
     /// Largest force at indentations up to 1.3 m, N, and its product with the largest stretch there.
     pub fn scales(&self) -> [f64; 2] {
         let stretch = 1.3 + self.deepest() + self.largest_stretch();
-        [self.stiffness() * stretch, self.stiffness() * stretch * stretch]
+        [
+            self.stiffness() * stretch,
+            self.stiffness() * stretch * stretch,
+        ]
     }
 
     /// A drawn target of this body in a solver.
     pub fn target(&self, (target, from_here): Drawn, solver: &contact::motion::Body) -> Move {
-        let Move::ToForce(share) = target else { return target };
-        Move::ToForce(share * self.force_scale() + if from_here { solver.point().force } else { 0.0 })
+        let Move::ToForce(share) = target else {
+            return target;
+        };
+        Move::ToForce(
+            share * self.force_scale() + if from_here { solver.point().force } else { 0.0 },
+        )
     }
 
     /// Turning points that cover all states of a body: a first contact, minor loops, below first touch, full contact
     /// and back.
     pub fn tour(&self) -> Vec<Move> {
         let depth = self.deepest() + self.largest_stretch();
-        let shares = [0.31, 0.123, 0.57, -0.017, 0.71, 0.69, 1.03, 0.43, 0.47, -0.07];
-        let turns = shares.iter().map(|share| Move::ToIndentation(share * depth));
+        let shares = [
+            0.31, 0.123, 0.57, -0.017, 0.71, 0.69, 1.03, 0.43, 0.47, -0.07,
+        ];
+        let turns = shares
+            .iter()
+            .map(|share| Move::ToIndentation(share * depth));
         turns.chain([Move::ToSeparation]).collect()
     }
 }
@@ -147,16 +180,23 @@ pub fn from_lowest(heights: &[f64]) -> Vec<f64> {
 /// Gaps of a random self-affine line about 1 m deep: polygons of ever more pieces with ever smaller heights.
 pub fn self_affine(hurst: f64, mut seed: u64, points: usize) -> Vec<f64> {
     let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (seed >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut heights = vec![0.0; points];
-    let pieces = (0..).map(|power| 1 << power).take_while(|pieces| 4 * pieces <= points);
+    let pieces = (0..)
+        .map(|power| 1 << power)
+        .take_while(|pieces| 4 * pieces <= points);
     for pieces in pieces {
-        let corners: Vec<f64> = (0..=pieces).map(|_| 0.6 * random() * (pieces as f64).powf(-hurst)).collect();
+        let corners: Vec<f64> = (0..=pieces)
+            .map(|_| 0.6 * random() * (pieces as f64).powf(-hurst))
+            .collect();
         for (point, height) in heights.iter_mut().enumerate() {
             let (piece, share) = (point * pieces / points, point * pieces % points);
-            *height += corners[piece] + (corners[piece + 1] - corners[piece]) * share as f64 / points as f64;
+            *height += corners[piece]
+                + (corners[piece + 1] - corners[piece]) * share as f64 / points as f64;
         }
     }
     from_lowest(&heights)
@@ -174,19 +214,24 @@ pub fn lines(most: usize) -> BoxedStrategy<Vec<f64>> {
     });
     let noise = prop::collection::vec(0.0..1.0_f64, 1..most);
     let few = prop::collection::vec(0.0..1.0_f64, 1..5);
-    let levels = prop::collection::vec(0_u8..6, 1..most)
-        .prop_map(|levels| levels.iter().map(|&level| 0.25 * f64::from(level)).collect());
+    let levels = prop::collection::vec(0_u8..6, 1..most).prop_map(|levels| {
+        levels
+            .iter()
+            .map(|&level| 0.25 * f64::from(level))
+            .collect()
+    });
     let flat_but_one = (1..most, any::<Index>(), -1_i8..=1).prop_map(|(count, at, height)| {
         let mut heights = vec![0.0; count];
         heights[at.index(count)] = f64::from(height);
         heights
     });
     // Of one tread for each spring, or of longer ones: a ramp, stairs, teeth, plateaus.
-    let teeth =
-        (1..most, 2..most.max(3), 1_usize..40, 1_i32..3).prop_map(|(count, period, treads, power)| {
+    let teeth = (1..most, 2..most.max(3), 1_usize..40, 1_i32..3).prop_map(
+        |(count, period, treads, power)| {
             let share = |spring: usize| (spring % period * treads / period) as f64 / treads as f64;
             (0..count).map(|spring| share(spring).powi(power)).collect()
-        });
+        },
+    );
     let rough = (0.1..0.9_f64, any::<u64>(), 4..most.max(5))
         .prop_map(|(hurst, seed, points)| self_affine(hurst, seed, points));
     let heights = prop_oneof![
@@ -213,31 +258,55 @@ pub fn lines(most: usize) -> BoxedStrategy<Vec<f64>> {
 pub fn bodies(most: usize) -> BoxedStrategy<Body> {
     let power = |powers: std::ops::Range<f64>| powers.prop_map(|power| 10.0_f64.powf(power));
     let range = prop_oneof![8 => power(-5.0..2.0), 1 => power(-32.0..-5.0), 1 => Just(0.0)];
-    let closing = prop_oneof![4 => Just(1.0), 1 => Just(0.0), 1 => Just(1.0 - 1e-6), 3 => 0.0..1.0_f64];
+    let closing =
+        prop_oneof![4 => Just(1.0), 1 => Just(0.0), 1 => Just(1.0 - 1e-6), 3 => 0.0..1.0_f64];
     let edges = prop_oneof![Just(Edges::Grid), Just(Edges::SubCell)];
-    (lines(most), edges, range, closing, 0.003..0.03_f64, 0.3..3.0_f64)
+    (
+        lines(most),
+        edges,
+        range,
+        closing,
+        0.003..0.03_f64,
+        0.3..3.0_f64,
+    )
         .prop_map(|(gaps, edges, range, closing, spacing, modulus)| {
             let work = range * modulus;
             let foundation = Foundation::new(spacing, modulus);
-            Body { gaps, edges, foundation, work, closing_work: closing * work }
+            Body {
+                gaps,
+                edges,
+                foundation,
+                work,
+                closing_work: closing * work,
+            }
         })
         .boxed()
 }
 
 /// Bodies whose patches are whole springs.
 pub fn whole_springs(most: usize) -> BoxedStrategy<Body> {
-    bodies(most).prop_map(|body| Body { edges: Edges::Grid, ..body }).boxed()
+    bodies(most)
+        .prop_map(|body| Body {
+            edges: Edges::Grid,
+            ..body
+        })
+        .boxed()
 }
 
 /// Indentations of turning points: some of them repeated, some on a level.
 pub fn indentations(most: usize) -> BoxedStrategy<Vec<f64>> {
-    let turn = prop_oneof![4 => -0.9..1.3_f64, 1 => (-3_i8..6).prop_map(|level| 0.25 * f64::from(level))];
+    let turn =
+        prop_oneof![4 => -0.9..1.3_f64, 1 => (-3_i8..6).prop_map(|level| 0.25 * f64::from(level))];
     let turn = (turn, prop::option::weighted(0.2, any::<Index>()));
     prop::collection::vec(turn, 1..most)
         .prop_map(|drawn| {
             let mut turns: Vec<f64> = Vec::new();
             for (turn, again) in drawn {
-                turns.push(again.filter(|_| !turns.is_empty()).map_or(turn, |again| *again.get(&turns)));
+                turns.push(
+                    again
+                        .filter(|_| !turns.is_empty())
+                        .map_or(turn, |again| *again.get(&turns)),
+                );
             }
             turns
         })
@@ -249,8 +318,12 @@ pub type Drawn = (Move, bool);
 
 /// Any target, some on a level.
 pub fn any_target() -> BoxedStrategy<Drawn> {
-    let by = (-4.0..0.0_f64, any::<bool>())
-        .prop_map(|(power, up)| (Move::ToForce(if up { 1.0 } else { -1.0 } * 10_f64.powf(power)), true));
+    let by = (-4.0..0.0_f64, any::<bool>()).prop_map(|(power, up)| {
+        (
+            Move::ToForce(if up { 1.0 } else { -1.0 } * 10_f64.powf(power)),
+            true,
+        )
+    });
     let level = (-4_i8..8).prop_map(|level| Move::ToIndentation(0.25 * f64::from(level)));
     let absolute = prop_oneof![
         5 => (-0.9..1.3_f64).prop_map(Move::ToIndentation),
@@ -271,7 +344,11 @@ pub fn targets(most: usize) -> BoxedStrategy<Vec<Drawn>> {
 /// An eighth of this number of cases, times the effort.
 pub fn cases(whole: u32) -> ProptestConfig {
     let cases = crate::effort::cases(whole.div_ceil(8));
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+    ProptestConfig {
+        cases,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
 }
 
 /// End of a leg; separated at d = 0 if the leg has no point.
@@ -281,8 +358,16 @@ pub fn end(record: &LegRecord) -> CurvePoint {
 
 /// All bits of a point.
 pub fn bits(point: &CurvePoint) -> [u64; 6] {
-    let CurvePoint { indentation, force, contact_length, springs, fragments, stored_energy } = *point;
-    let [d, force, length, energy] = [indentation, force, contact_length, stored_energy].map(f64::to_bits);
+    let CurvePoint {
+        indentation,
+        force,
+        contact_length,
+        springs,
+        fragments,
+        stored_energy,
+    } = *point;
+    let [d, force, length, energy] =
+        [indentation, force, contact_length, stored_energy].map(f64::to_bits);
     [d, force, length, energy, springs, fragments]
 }
 
@@ -296,5 +381,8 @@ pub fn indices(patches: &[Patch]) -> Vec<usize> {
 }
 
 pub fn to_indentations(indentations: &[f64]) -> Vec<Move> {
-    indentations.iter().map(|&to| Move::ToIndentation(to)).collect()
+    indentations
+        .iter()
+        .map(|&to| Move::ToIndentation(to))
+        .collect()
 }

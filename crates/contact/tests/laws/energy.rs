@@ -14,7 +14,11 @@ fn work_done(body: &Body, record: &LegRecord, leg: &Leg) -> f64 {
     }
     let segments = Segments::new(&leg.thresholds(), body);
     let (start, end) = (record.start(), record.end());
-    if start < end { segments.work(start, end) } else { -segments.work(end, start) }
+    if start < end {
+        segments.work(start, end)
+    } else {
+        -segments.work(end, start)
+    }
 }
 
 proptest! {

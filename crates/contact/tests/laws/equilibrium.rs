@@ -39,18 +39,31 @@ impl<'a> Blind<'a> {
             Order::Inwards => springs.sort_by_key(|index| (*index).min(count - 1 - index)),
             Order::Shuffled(_) => {}
         }
-        Blind { body, contact: vec![false; count], order, springs }
+        Blind {
+            body,
+            contact: vec![false; count],
+            order,
+            springs,
+        }
     }
 
     /// Largest stretch of this number of springs under a work of adhesion, m.
     fn stretch(&self, springs: usize, work: f64) -> f64 {
-        let Foundation { spacing, effective_modulus, .. } = self.body.foundation;
+        let Foundation {
+            spacing,
+            effective_modulus,
+            ..
+        } = self.body.foundation;
         (PI * springs as f64 * spacing * (work / effective_modulus)).sqrt()
     }
 
     /// Springs in the run of contact to the left and to the right of a spring.
     fn beside(&self, index: usize) -> [usize; 2] {
-        let left = self.contact[..index].iter().rev().take_while(|&&c| c).count();
+        let left = self.contact[..index]
+            .iter()
+            .rev()
+            .take_while(|&&c| c)
+            .count();
         let right = self.contact[index + 1..].iter().take_while(|&&c| c).count();
         [left, right]
     }
@@ -62,7 +75,8 @@ impl<'a> Blind<'a> {
             gap > d && {
                 let [left, right] = self.beside(index);
                 let run = &self.body.gaps[index - left..=index + right];
-                gap - d >= self.stretch(run.len(), self.body.work) && run.iter().all(|other| *other <= gap)
+                gap - d >= self.stretch(run.len(), self.body.work)
+                    && run.iter().all(|other| *other <= gap)
             }
         } else {
             let grows = |&n: &usize| n > 0 && gap - d <= self.stretch(n, self.body.closing_work);
@@ -79,7 +93,9 @@ impl<'a> Blind<'a> {
         while !quiet {
             if let Order::Shuffled(state) = &mut self.order {
                 for last in (1..springs.len()).rev() {
-                    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                    *state = state
+                        .wrapping_mul(6_364_136_223_846_793_005)
+                        .wrapping_add(1);
                     springs.swap(last, (*state >> 33) as usize % (last + 1));
                 }
             }
@@ -120,7 +136,11 @@ fn count(index: usize, number: usize) {
 }
 
 /// Moves a body and its blind relaxation to targets and compares them at probes on the way, which are shares of it.
-fn compare(body: &Body, order: Order, drawn: &[((Move, bool), Vec<f64>)]) -> Result<(), TestCaseError> {
+fn compare(
+    body: &Body,
+    order: Order,
+    drawn: &[((Move, bool), Vec<f64>)],
+) -> Result<(), TestCaseError> {
     let (mut solver, mut blind) = (body.on(2), Blind::new(body, order));
     let agree = |solver: &contact::motion::Body, blind: &Blind, d: f64| {
         prop_assert_eq!(solver.leg().patches(d), blind.patches(), "at {}", d);
@@ -149,7 +169,11 @@ fn compare(body: &Body, order: Order, drawn: &[((Move, bool), Vec<f64>)]) -> Res
         let separates = target == Move::ToSeparation;
         // Separation ends just where the last springs still hold: to rounding, the blind relaxation may be on either
         // side of it. Elsewhere both are at the same number.
-        let to = if separates { (end.indentation + ROUNDING).min(present) } else { end.indentation };
+        let to = if separates {
+            (end.indentation + ROUNDING).min(present)
+        } else {
+            end.indentation
+        };
         for probe in probes.iter().filter(|_| !stays) {
             let d = present + probe * (to - present);
             agree(&solver, &blind.relaxed(d), d)?;
@@ -167,7 +191,12 @@ fn compare(body: &Body, order: Order, drawn: &[((Move, bool), Vec<f64>)]) -> Res
         }
         let patches = blind.patches();
         let counts = (indices(&patches).len() as u64, patches.len() as u64);
-        prop_assert_eq!((end.springs, end.fragments), counts, "at the end of {:?}", target);
+        prop_assert_eq!(
+            (end.springs, end.fragments),
+            counts,
+            "at the end of {:?}",
+            target
+        );
     }
     Ok(())
 }
@@ -190,7 +219,9 @@ proptest! {
 #[test]
 fn contact_states_agree_with_blind_relaxation() {
     any_history();
-    let [states, springs, refused] = COMPARED.each_ref().map(|count| count.load(Ordering::Relaxed));
+    let [states, springs, refused] = COMPARED
+        .each_ref()
+        .map(|count| count.load(Ordering::Relaxed));
     println!("{states} contact states, {springs} states of springs, {refused} legs refused");
     let histories = u64::from(cases(HISTORIES).cases);
     assert!(states >= 12 * histories && springs >= 330 * histories && refused >= histories / 24);
@@ -200,15 +231,35 @@ fn contact_states_agree_with_blind_relaxation() {
 #[test]
 fn springs_change_at_the_threshold_itself() {
     for (wall, work) in [(0.5, 0.3), (0.7, 1e-3), (0.9, 2.0)] {
-        let body = Body::new(vec![0.0, wall], Edges::Grid, Foundation::new(0.01, 1.0), work);
+        let body = Body::new(
+            vec![0.0, wall],
+            Edges::Grid,
+            Foundation::new(0.01, 1.0),
+            work,
+        );
         let stretch = |springs| body.foundation.largest_stretch(work, springs);
-        let springs =
-            |turns: &[f64]| end(body.history(&to_indentations(turns), 2).legs.last().unwrap()).springs;
+        let springs = |turns: &[f64]| {
+            end(body
+                .history(&to_indentations(turns), 2)
+                .legs
+                .last()
+                .unwrap())
+            .springs
+        };
         let attaches = wall - stretch(1);
-        assert_eq!([attaches.next_down(), attaches].map(|d| springs(&[d])), [1, 2]);
+        assert_eq!(
+            [attaches.next_down(), attaches].map(|d| springs(&[d])),
+            [1, 2]
+        );
         let detaches = wall - stretch(2);
-        assert_eq!([detaches.next_up(), detaches].map(|d| springs(&[1.0, d])), [2, 1]);
+        assert_eq!(
+            [detaches.next_up(), detaches].map(|d| springs(&[1.0, d])),
+            [2, 1]
+        );
         let separates = -stretch(1);
-        assert_eq!([separates.next_up(), separates].map(|d| springs(&[0.0, d])), [1, 0]);
+        assert_eq!(
+            [separates.next_up(), separates].map(|d| springs(&[0.0, d])),
+            [1, 0]
+        );
     }
 }

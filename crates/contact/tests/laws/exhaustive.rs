@@ -26,14 +26,19 @@ const AGREE: f64 = 1e-12;
 /// every line of this number of springs with gaps in any order, ties included. Springs out of reach on the left, `before`
 /// of them, move the others across the ends of blocks. Returns the number of lines.
 fn every_order(springs: usize, before: usize) -> Result<u64, String> {
-    let mut gaps: Vec<f64> = (0..before).map(|place| 3.0 + (before - place) as f64).collect();
+    let mut gaps: Vec<f64> = (0..before)
+        .map(|place| 3.0 + (before - place) as f64)
+        .collect();
     gaps.resize(before + springs, 0.0);
     let mut lines = 0;
     for levels in sequences(springs.min(LEVELS.len()), springs) {
         let highest = levels.iter().copied().max().unwrap_or(0);
         // One line of each order: that which leaves no level out.
         if (0..highest).all(|level| levels.contains(&level)) {
-            gaps[before..].iter_mut().zip(levels).for_each(|(gap, level)| *gap = LEVELS[level]);
+            gaps[before..]
+                .iter_mut()
+                .zip(levels)
+                .for_each(|(gap, level)| *gap = LEVELS[level]);
             for range in RANGES {
                 compare(&gaps, range, Edges::Grid)?;
                 compare(&gaps, range, Edges::SubCell)?;
@@ -46,22 +51,38 @@ fn every_order(springs: usize, before: usize) -> Result<u64, String> {
 
 /// All sequences of `count` digits below `base`.
 fn sequences(base: usize, count: usize) -> impl Iterator<Item = Vec<usize>> {
-    let digits = move |number| (0..count as u32).map(move |digit| number / base.pow(digit) % base).collect();
+    let digits = move |number| {
+        (0..count as u32)
+            .map(move |digit| number / base.pow(digit) % base)
+            .collect()
+    };
     (0..base.pow(count as u32)).map(digits)
 }
 
 fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
     let mut body = Body::new(&FOUNDATION.contact(gaps, edges, [range; 2]), 2);
-    let definition = Definition { gaps, stretch: FOUNDATION.largest_stretch(range, 1), edges };
-    let whole = Patch { first: 0, last: gaps.len() - 1 };
+    let definition = Definition {
+        gaps,
+        stretch: FOUNDATION.largest_stretch(range, 1),
+        edges,
+    };
+    let whole = Patch {
+        first: 0,
+        last: gaps.len() - 1,
+    };
     let deepest = gaps.iter().copied().fold(0.0, f64::max) + 0.1;
     let mut expected = vec![f64::INFINITY; gaps.len()];
     definition.close(whole, &mut expected);
     let check = |body: &mut Body, to: f64, expected: &[f64]| {
-        body.move_to(Move::ToIndentation(to)).map_err(|error: ContactError| error.to_string())?;
+        body.move_to(Move::ToIndentation(to))
+            .map_err(|error: ContactError| error.to_string())?;
         let found = body.leg().thresholds();
-        let agree = found.iter().zip(expected).all(|(one, other)| (one - other).abs() < AGREE);
-        let differ = || format!("{gaps:?}, γ/E* = {range} m, {edges:?}: {found:?}, not {expected:?}");
+        let agree = found
+            .iter()
+            .zip(expected)
+            .all(|(one, other)| (one - other).abs() < AGREE);
+        let differ =
+            || format!("{gaps:?}, γ/E* = {range} m, {edges:?}: {found:?}, not {expected:?}");
         if agree { Ok(()) } else { Err(differ()) }
     };
     check(&mut body, deepest, &expected)?;
@@ -83,11 +104,23 @@ struct Definition<'a> {
 impl Definition<'_> {
     /// The largest of these gaps, the leftmost of equals, and the parts on its sides.
     fn split(&self, Patch { first, last }: Patch) -> (usize, impl Iterator<Item = Patch>) {
-        let larger = |best: usize, next: usize| if self.gaps[next] > self.gaps[best] { next } else { best };
+        let larger = |best: usize, next: usize| {
+            if self.gaps[next] > self.gaps[best] {
+                next
+            } else {
+                best
+            }
+        };
         let root = (first..=last).fold(first, larger);
         let parts = [
-            (root > first).then(|| Patch { first, last: root - 1 }),
-            (root < last).then_some(Patch { first: root + 1, last }),
+            (root > first).then(|| Patch {
+                first,
+                last: root - 1,
+            }),
+            (root < last).then_some(Patch {
+                first: root + 1,
+                last,
+            }),
         ];
         (root, parts.into_iter().flatten())
     }
@@ -99,11 +132,12 @@ impl Definition<'_> {
             return patch.springs().len() as f64;
         }
         let gaps = self.gaps;
-        let share = |inside: usize, outside: Option<usize>| match outside.and_then(|at| gaps.get(at)) {
-            None => 0.5,
-            Some(&gap) if gap == gaps[inside] => 1.0,
-            Some(gap) => ((level - gaps[inside]) / (gap - gaps[inside])).min(1.0),
-        };
+        let share =
+            |inside: usize, outside: Option<usize>| match outside.and_then(|at| gaps.get(at)) {
+                None => 0.5,
+                Some(&gap) if gap == gaps[inside] => 1.0,
+                Some(gap) => ((level - gaps[inside]) / (gap - gaps[inside])).min(1.0),
+            };
         (last - first) as f64 + share(first, first.checked_sub(1)) + share(last, Some(last + 1))
     }
 
@@ -116,7 +150,9 @@ impl Definition<'_> {
             closes.max(gap - self.stretch * self.length(part, gap).sqrt())
         });
         let closes = taken.fold(gap, f64::min);
-        thresholds[patch.springs()].iter_mut().for_each(|one| *one = one.min(closes));
+        thresholds[patch.springs()]
+            .iter_mut()
+            .for_each(|one| *one = one.min(closes));
         closes
     }
 
@@ -124,7 +160,9 @@ impl Definition<'_> {
     fn open(&self, patch: Patch, opens: f64, thresholds: &mut [f64]) {
         let (root, parts) = self.split(patch);
         let gap = self.gaps[root];
-        let opens = opens.min(gap - self.stretch * (patch.springs().len() as f64).sqrt()).min(gap);
+        let opens = opens
+            .min(gap - self.stretch * (patch.springs().len() as f64).sqrt())
+            .min(gap);
         thresholds[root] = opens;
         parts.for_each(|part| self.open(part, opens, thresholds));
     }
@@ -144,7 +182,8 @@ fn every_history(step: usize) -> Result<u64, String> {
                 let mut body = Body::new(&contact, 2);
                 let mut bare = vec![false; gaps.len()];
                 for at in turns.iter().map(|&turn| TURNS[turn]) {
-                    body.move_to(Move::ToIndentation(at)).map_err(|error| error.to_string())?;
+                    body.move_to(Move::ToIndentation(at))
+                        .map_err(|error| error.to_string())?;
                     relax(&gaps, &mut bare, at, works);
                     let mut found = vec![false; gaps.len()];
                     for patch in body.leg().patches(at) {
@@ -152,7 +191,9 @@ fn every_history(step: usize) -> Result<u64, String> {
                     }
                     if found != bare {
                         let history = format!("at {at} m of turns {turns:?} of {TURNS:?} m");
-                        return Err(format!("{gaps:?}, γ/E* = {works:?} m, {history}: {found:?}"));
+                        return Err(format!(
+                            "{gaps:?}, γ/E* = {works:?} m, {history}: {found:?}"
+                        ));
                     }
                     compared += 1;
                 }
@@ -168,8 +209,15 @@ fn relax(gaps: &[f64], contact: &mut [bool], at: f64, works: [f64; 2]) {
     loop {
         let mut quiet = true;
         for spring in 0..gaps.len() {
-            let left = contact[..spring].iter().rev().take_while(|&&holds| holds).count();
-            let right = contact[spring + 1..].iter().take_while(|&&holds| holds).count();
+            let left = contact[..spring]
+                .iter()
+                .rev()
+                .take_while(|&&holds| holds)
+                .count();
+            let right = contact[spring + 1..]
+                .iter()
+                .take_while(|&&holds| holds)
+                .count();
             let reach = gaps[spring] - at;
             let applies = if contact[spring] {
                 let patch = &gaps[spring - left..=spring + right];
@@ -191,16 +239,27 @@ fn relax(gaps: &[f64], contact: &mut [bool], at: f64, works: [f64; 2]) {
 #[test]
 fn every_order_of_few_gaps_has_the_thresholds_of_the_definition() {
     // The numbers of weak orders (Fubini).
-    let counts: Vec<u64> = (1..=6).map(|springs| every_order(springs, 0).unwrap()).collect();
+    let counts: Vec<u64> = (1..=6)
+        .map(|springs| every_order(springs, 0).unwrap())
+        .collect();
     assert_eq!(counts, [1, 3, 13, 75, 541, 4683]);
-    assert!((59..64).all(|before| every_order(4, before) == Ok(75)), "across the end of a block");
+    assert!(
+        (59..64).all(|before| every_order(4, before) == Ok(75)),
+        "across the end of a block"
+    );
 }
 
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn every_order_of_eight_gaps_has_the_thresholds_of_the_definition() {
-    assert_eq!([every_order(7, 0), every_order(8, 0)], [Ok(47_293), Ok(545_835)]);
-    assert!((58..64).all(|before| every_order(6, before) == Ok(4683)), "across the end of a block");
+    assert_eq!(
+        [every_order(7, 0), every_order(8, 0)],
+        [Ok(47_293), Ok(545_835)]
+    );
+    assert!(
+        (58..64).all(|before| every_order(6, before) == Ok(4683)),
+        "across the end of a block"
+    );
 }
 
 #[test]

@@ -18,7 +18,8 @@ fn wrong_values_are_named_with_what_is_allowed() {
         let contact = Contact::builder(&flat, modulus(1e6)).works_of_adhesion(works);
         of(contact.loading_stiffness(stiffness).build().unwrap_err())
     };
-    let profile = |heights: &[f64], spacing| of(Profile::from_heights(heights, spacing).unwrap_err());
+    let profile =
+        |heights: &[f64], spacing| of(Profile::from_heights(heights, spacing).unwrap_err());
     let gaps = |gaps: &[f64]| of(Profile::from_gaps(gaps.to_vec(), 1e-6).unwrap_err());
     for (refused, expected) in [
         (of(Modulus::effective(f64::NAN).unwrap_err()), format!("effective modulus = NaN; {pascals}")),
@@ -79,28 +80,63 @@ fn wrong_values_are_named_with_what_is_allowed() {
 #[test]
 fn wrong_loadings_are_named_with_what_is_allowed() {
     let flat = Profile::from_gaps(vec![0.0; 3], 1e-6).unwrap();
-    let contact = Contact::builder(&flat, modulus(1e6)).work_of_adhesion(0.05).build().unwrap();
+    let contact = Contact::builder(&flat, modulus(1e6))
+        .work_of_adhesion(0.05)
+        .build()
+        .unwrap();
     let load = |stages: &[Move], options| contact.load_with(stages, options).unwrap_err();
     for target in [1e100, f64::NAN] {
-        let refused = load(&[Move::ToTouch, Move::ToForce(target)], LoadOptions::default()).to_string();
+        let refused = load(
+            &[Move::ToTouch, Move::ToForce(target)],
+            LoadOptions::default(),
+        )
+        .to_string();
         assert!(refused.starts_with("target of stage 2 = "), "{refused}");
-        assert!(contact.reversals(&[Move::ToIndentation(target)], &[]).is_err());
+        assert!(
+            contact
+                .reversals(&[Move::ToIndentation(target)], &[])
+                .is_err()
+        );
     }
     for samples in [0, 1, u64::MAX] {
         let refused = load(&[Move::ToTouch], LoadOptions::default().samples(samples)).to_string();
-        assert!(refused.ends_with("; allowed: from 2 to 1000000"), "{refused}");
+        assert!(
+            refused.ends_with("; allowed: from 2 to 1000000"),
+            "{refused}"
+        );
     }
     for indentations in [&[1.0, 0.5][..], &[0.0, f64::NAN], &[1e100]] {
-        let refused = load(&[Move::ToTouch], LoadOptions::default().indentations(indentations)).to_string();
-        assert!(refused.ends_with("; allowed: from -1e50 to 1e50 m, ascending"), "{refused}");
+        let refused = load(
+            &[Move::ToTouch],
+            LoadOptions::default().indentations(indentations),
+        )
+        .to_string();
+        assert!(
+            refused.ends_with("; allowed: from -1e50 to 1e50 m, ascending"),
+            "{refused}"
+        );
         assert!(contact.reversals(&[Move::ToTouch], indentations).is_err());
     }
     // The stage and the smallest force within reach, as data; at that force the stage is accepted.
-    let refused = load(&[Move::ToTouch, Move::ToForce(-1.0)], LoadOptions::default());
+    let refused = load(
+        &[Move::ToTouch, Move::ToForce(-1.0)],
+        LoadOptions::default(),
+    );
     let smallest = refused.smallest_force().unwrap();
-    assert_eq!((refused.stage(), refused.is_out_of_reach()), (Some(1), true));
-    assert!(contact.load(&[Move::ToTouch, Move::ToForce(smallest)]).is_ok());
-    assert!(contact.load(&[Move::ToTouch, Move::ToForce(1.001 * smallest)]).is_err());
+    assert_eq!(
+        (refused.stage(), refused.is_out_of_reach()),
+        (Some(1), true)
+    );
+    assert!(
+        contact
+            .load(&[Move::ToTouch, Move::ToForce(smallest)])
+            .is_ok()
+    );
+    assert!(
+        contact
+            .load(&[Move::ToTouch, Move::ToForce(1.001 * smallest)])
+            .is_err()
+    );
     assert_eq!(ContactError::Interrupted.stage(), None);
 }
 
@@ -109,7 +145,10 @@ fn gaps_and_heights_keep_their_memory() {
     let heights = vec![0.0, -2.0, -1.0];
     let memory = heights.as_ptr();
     let profile = Profile::from_heights(heights, 0.5).unwrap();
-    assert_eq!((profile.gaps().as_ptr(), profile.gaps()), (memory, &[0.0, 2.0, 1.0][..]));
+    assert_eq!(
+        (profile.gaps().as_ptr(), profile.gaps()),
+        (memory, &[0.0, 2.0, 1.0][..])
+    );
     let shared = Arc::new(vec![1.0, 0.0]);
     let profile = Profile::from_gaps(Arc::clone(&shared), 0.5).unwrap();
     assert!(Arc::ptr_eq(profile.shared_gaps(), &shared));
@@ -128,11 +167,16 @@ fn a_loading_is_stopped_before_a_stage() {
             stage < allowed
         };
         let cycle = contact.load_with(&stages, LoadOptions::default().before_stage(&mut proceed));
-        assert_eq!(cycle.err(), (allowed < 3).then_some(ContactError::Interrupted));
+        assert_eq!(
+            cycle.err(),
+            (allowed < 3).then_some(ContactError::Interrupted)
+        );
         assert_eq!(seen, (0..=allowed.min(2)).collect::<Vec<_>>());
     }
     assert!(
-        contact.load(&[]).is_ok_and(|cycle| cycle.curve().force.is_empty() && cycle.patches().is_empty())
+        contact
+            .load(&[])
+            .is_ok_and(|cycle| cycle.curve().force.is_empty() && cycle.patches().is_empty())
     );
 }
 
@@ -140,9 +184,13 @@ fn a_loading_is_stopped_before_a_stage() {
 fn any_magnitudes() -> impl Strategy<Value = (Vec<f64>, [f64; 5])> {
     let size = |least: f64| (least..50.0).prop_map(|power| 10.0_f64.powf(power));
     let heights = (size(-300.0), prop::collection::vec(0.0..1.0_f64, 5));
-    let heights = heights.prop_map(|(height, shares)| shares.iter().map(|share| height * share).collect());
+    let heights =
+        heights.prop_map(|(height, shares)| shares.iter().map(|share| height * share).collect());
     let work = prop_oneof![9 => size(-300.0), 1 => Just(0.0)];
-    (heights, (size(-50.0), size(-50.0), work, size(-300.0), size(-50.0)))
+    (
+        heights,
+        (size(-50.0), size(-50.0), work, size(-300.0), size(-50.0)),
+    )
         .prop_map(|(heights, (a, b, c, d, e))| (heights, [a, b, c, d, e]))
 }
 

@@ -12,7 +12,11 @@ fn behind(curve: &[(f64, f64)], sign: f64) -> f64 {
     for pair in curve.windows(2) {
         reached = f64::max(reached, sign * pair[0].1);
         let behind = [0, 1].map(|end| reached - sign * pair[end].1);
-        let share = if behind[1] >= 0.0 { 1.0 } else { behind[0] / (behind[0] - behind[1]) };
+        let share = if behind[1] >= 0.0 {
+            1.0
+        } else {
+            behind[0] / (behind[0] - behind[1])
+        };
         area += 0.5 * (behind[0] + behind[1].max(0.0)) * share * (pair[1].0 - pair[0].0).abs();
     }
     area

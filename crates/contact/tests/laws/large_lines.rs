@@ -12,12 +12,18 @@ fn legs(gaps: &[f64], work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
     let loading = solver.advance(Move::ToIndentation(deepest)).unwrap();
     let fragments = solver.leg().patches(deepest).len();
     let unloading = solver.advance(Move::ToSeparation).unwrap();
-    assert_eq!((loading.attached, unloading.attached), (unloading.detached, 0));
+    assert_eq!(
+        (loading.attached, unloading.attached),
+        (unloading.detached, 0)
+    );
     ([loading, unloading], fragments)
 }
 
 fn near(found: f64, expected: f64, relative: f64) {
-    assert!((found - expected).abs() <= relative * expected.abs(), "{found} against {expected}");
+    assert!(
+        (found - expected).abs() <= relative * expected.abs(),
+        "{found} against {expected}"
+    );
 }
 
 #[test]
@@ -29,7 +35,9 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     // dd/da = 0 at detachment; dF/da = 0 at the smallest force.
     let last = PI * work / (4.0 * slope * slope);
     let smallest = 9.0 * PI * work / (4.0 * slope * slope);
-    let rising: Vec<f64> = (0..SPRINGS).map(|i| slope * i as f64 / SPRINGS as f64).collect();
+    let rising: Vec<f64> = (0..SPRINGS)
+        .map(|i| slope * i as f64 / SPRINGS as f64)
+        .collect();
     let falling: Vec<f64> = rising.iter().rev().copied().collect();
     let (one, fragments) = legs(&rising, work, deepest);
     let (other, fragments_of_other) = legs(&falling, work, deepest);
@@ -43,10 +51,17 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     near(unloading.smallest.force, force(smallest), 1e-4);
     near(unloading.smallest.indentation, indentation(smallest), 1e-2);
     near(unloading.end(), indentation(last), 3e-4);
-    for point in one.iter().flat_map(|leg| &leg.curve).filter(|point| point.springs > 0) {
+    for point in one
+        .iter()
+        .flat_map(|leg| &leg.curve)
+        .filter(|point| point.springs > 0)
+    {
         // Each point of the curve has the length at which the rule of Hess just holds.
         let length = point.springs as f64 / SPRINGS as f64;
-        assert!((point.indentation - indentation(length)).abs() < 1e-5, "{point:?}");
+        assert!(
+            (point.indentation - indentation(length)).abs() < 1e-5,
+            "{point:?}"
+        );
         assert!((point.force - force(length)).abs() < 1e-5, "{point:?}");
     }
 }

@@ -15,7 +15,9 @@ fn remembered(indentations: &[f64]) -> Vec<f64> {
                 // b is no turn but a point on the way.
                 [.., a, b, c] if (a < b) == (b < c) => drop(turns.remove(end - 2)),
                 // The loop from b to c and back lies on the way from a to d.
-                [.., _, b, c, d] if (b - c).abs() <= (d - c).abs() => drop(turns.drain(end - 3..end - 1)),
+                [.., _, b, c, d] if (b - c).abs() <= (d - c).abs() => {
+                    drop(turns.drain(end - 3..end - 1))
+                }
                 _ => break,
             }
         }

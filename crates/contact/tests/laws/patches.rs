@@ -29,16 +29,26 @@ fn moves_alike(
         };
         let end = end(&record);
         // The rounding of a crossing depends on the indentation from which it is sought.
-        let divided = from.springs > 0 && matches!(target, Move::ToIndentation(_) | Move::ToSeparation);
-        let between =
-            |part: &f64| Move::ToIndentation(from.indentation + part * (end.indentation - from.indentation));
+        let divided =
+            from.springs > 0 && matches!(target, Move::ToIndentation(_) | Move::ToSeparation);
+        let between = |part: &f64| {
+            Move::ToIndentation(from.indentation + part * (end.indentation - from.indentation))
+        };
         let (mut released, mut changed) = (0.0, 0);
-        for target in parts.iter().filter(|_| divided).map(between).chain([target]) {
+        for target in parts
+            .iter()
+            .filter(|_| divided)
+            .map(between)
+            .chain([target])
+        {
             let before = moved.point();
             if let Some(motion) = moved.move_to(target).unwrap() {
                 let after = moved.point();
-                let low =
-                    if before.springs == 0 || after.springs == 0 { f64::NEG_INFINITY } else { motion.low };
+                let low = if before.springs == 0 || after.springs == 0 {
+                    f64::NEG_INFINITY
+                } else {
+                    motion.low
+                };
                 released += motion.leg.released_energy(low, motion.high);
                 changed += after.springs.abs_diff(before.springs);
             }

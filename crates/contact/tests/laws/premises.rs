@@ -17,7 +17,9 @@ fn pull_off_after_separation(body: &Body, targets: &[Move]) -> f64 {
 
 fn warning_of(history: &History, body: &Body) -> Option<Warning> {
     let warnings = history.warnings(body.contact().profile());
-    warnings.into_iter().find(|warning| warning.name() == "ends_in_contact")
+    warnings
+        .into_iter()
+        .find(|warning| warning.name() == "ends_in_contact")
 }
 
 proptest! {
@@ -96,17 +98,29 @@ fn heights_show_whether_a_body_is_curved() {
     let is_curved = |gaps: Vec<f64>| Profile::from_gaps(gaps, 1e-6).unwrap().is_curved();
     for (seed, exponent) in (0..300).map(|seed| (seed, 1.0 + 0.01 * seed as f64)) {
         let off_centre = 0.3 * (seed as f64).sin();
-        assert!(is_curved(body_of_power(exponent, 0.0, off_centre, seed, 1000)), "{exponent}");
-        assert!(is_curved(body_of_power(exponent, 0.01, off_centre, seed, 1000)), "{exponent}");
+        assert!(
+            is_curved(body_of_power(exponent, 0.0, off_centre, seed, 1000)),
+            "{exponent}"
+        );
+        assert!(
+            is_curved(body_of_power(exponent, 0.01, off_centre, seed, 1000)),
+            "{exponent}"
+        );
     }
     // One long wave, with its crest in the middle or elsewhere.
     for shift in 0..20 {
-        let wave =
-            |index: u32| 1.0 - (2.0 * PI * (f64::from(index) / 1000.0 + 0.05 * f64::from(shift))).cos();
-        assert!(!is_curved(body::from_lowest(&(0..1000).map(wave).collect::<Vec<f64>>())), "{shift}");
+        let wave = |index: u32| {
+            1.0 - (2.0 * PI * (f64::from(index) / 1000.0 + 0.05 * f64::from(shift))).cos()
+        };
+        assert!(
+            !is_curved(body::from_lowest(
+                &(0..1000).map(wave).collect::<Vec<f64>>()
+            )),
+            "{shift}"
+        );
     }
-    let rough =
-        (0..2000).filter(|seed| is_curved(body::self_affine(0.1 + 0.0004 * *seed as f64, *seed, 1024)));
+    let rough = (0..2000)
+        .filter(|seed| is_curved(body::self_affine(0.1 + 0.0004 * *seed as f64, *seed, 1024)));
     let taken_for_curved = rough.count();
     println!("{taken_for_curved} of 2000 rough profiles are taken for curved bodies");
     assert!(taken_for_curved <= 20, "{taken_for_curved} of 2000");
@@ -127,7 +141,13 @@ fn a_cut_through_a_sphere_is_doubted() {
                 panic!("{:?}", profile.doubt())
             };
             assert!((found / radius - 1.0).abs() < 1e-6, "{found} {radius}");
-            assert_eq!(profile.clone().with_nominal_form(NominalForm::Curved).doubt(), None);
+            assert_eq!(
+                profile
+                    .clone()
+                    .with_nominal_form(NominalForm::Curved)
+                    .doubt(),
+                None
+            );
             assert_eq!(profile.with_nominal_form(NominalForm::Flat).doubt(), None);
         }
     }
@@ -135,26 +155,48 @@ fn a_cut_through_a_sphere_is_doubted() {
     assert_eq!(rough.doubt(), Some(Warning::HeightsAsProfile));
     for few in 1..6 {
         let gaps: Vec<f64> = (0..few).map(|index| f64::from(index) * 1e-9).collect();
-        assert_eq!(Profile::from_gaps(gaps, 1e-6).unwrap().doubt().is_some(), few > 1);
+        assert_eq!(
+            Profile::from_gaps(gaps, 1e-6).unwrap().doubt().is_some(),
+            few > 1
+        );
     }
     // A flat profile is its own equivalent.
-    assert_eq!(Profile::from_gaps(vec![0.0; 64], 1e-6).unwrap().doubt(), None);
+    assert_eq!(
+        Profile::from_gaps(vec![0.0; 64], 1e-6).unwrap().doubt(),
+        None
+    );
 }
 
 /// The contact of a curved body must end inside its profile, that of a flat one need not.
 #[test]
 fn a_contact_at_the_ends_of_a_curved_body_is_named() {
-    let gaps: Vec<f64> = (-600..=600).map(|index| (f64::from(index) * 1e-7).powi(2) / 1e-4).collect();
+    let gaps: Vec<f64> = (-600..=600)
+        .map(|index| (f64::from(index) * 1e-7).powi(2) / 1e-4)
+        .collect();
     let names = |form: NominalForm, force: f64| {
-        let profile = Profile::from_gaps(gaps.clone(), 1e-7).unwrap().with_nominal_form(form);
-        let contact = Contact::builder(&profile, Modulus::effective(1e6).unwrap()).work_of_adhesion(0.05);
-        let cycle = contact.build().unwrap().load(&[Move::ToForce(force), Move::ToSeparation]).unwrap();
-        cycle.warnings().iter().map(|warning| warning.name().to_owned()).collect::<Vec<_>>()
+        let profile = Profile::from_gaps(gaps.clone(), 1e-7)
+            .unwrap()
+            .with_nominal_form(form);
+        let contact =
+            Contact::builder(&profile, Modulus::effective(1e6).unwrap()).work_of_adhesion(0.05);
+        let cycle = contact
+            .build()
+            .unwrap()
+            .load(&[Move::ToForce(force), Move::ToSeparation])
+            .unwrap();
+        cycle
+            .warnings()
+            .iter()
+            .map(|warning| warning.name().to_owned())
+            .collect::<Vec<_>>()
     };
     let (light, heavy) = (1e-4, 1e-2);
     assert_eq!(names(NominalForm::Curved, light), [""; 0]);
     assert_eq!(names(NominalForm::Curved, heavy), ["contact_at_ends"]);
     assert_eq!(names(NominalForm::Flat, heavy), [""; 0]);
     assert_eq!(names(NominalForm::Unstated, light), ["cut_like_heights"]);
-    assert_eq!(names(NominalForm::Unstated, heavy), ["contact_at_ends", "cut_like_heights"]);
+    assert_eq!(
+        names(NominalForm::Unstated, heavy),
+        ["contact_at_ends", "cut_like_heights"]
+    );
 }

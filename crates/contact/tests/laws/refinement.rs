@@ -6,14 +6,28 @@ use super::*;
 fn refined(body: &Body, factor: usize) -> Body {
     let gaps = (0..factor * body.gaps.len()).map(|index| {
         let (cell, part) = (index / factor, index % factor);
-        let beside = if part < factor / 2 { cell.checked_sub(1) } else { Some(cell + 1) };
+        let beside = if part < factor / 2 {
+            cell.checked_sub(1)
+        } else {
+            Some(cell + 1)
+        };
         let here = body.gaps[cell];
         // Beyond the first and the last spring the profile is level.
-        let there = beside.and_then(|beside| body.gaps.get(beside)).copied().unwrap_or(here);
+        let there = beside
+            .and_then(|beside| body.gaps.get(beside))
+            .copied()
+            .unwrap_or(here);
         here + (there - here) * (part.abs_diff(factor / 2) as f64 / factor as f64)
     });
-    let foundation = Foundation { spacing: body.foundation.spacing / factor as f64, ..body.foundation };
-    Body { gaps: gaps.collect(), foundation, ..body.clone() }
+    let foundation = Foundation {
+        spacing: body.foundation.spacing / factor as f64,
+        ..body.foundation
+    };
+    Body {
+        gaps: gaps.collect(),
+        foundation,
+        ..body.clone()
+    }
 }
 
 proptest! {

@@ -38,19 +38,44 @@ fn compare(
     let reversals = all(&mut new(), turns, points).unwrap();
     for (turn, reversal) in turns.iter().zip(&reversals) {
         let history = load_body(&mut new(), &[*turn, Move::ToSeparation], |_, _| Ok(())).unwrap();
-        let [loading, unloading] = &history.legs[..] else { panic!("{history:?}") };
+        let [loading, unloading] = &history.legs[..] else {
+            panic!("{history:?}")
+        };
         prop_assert_eq!(bits(&reversal.turn), bits(&end(loading)), "{:?}", turn);
-        prop_assert_eq!(bits(&reversal.smallest), bits(&unloading.smallest), "{:?}", turn);
-        prop_assert_eq!(reversal.separation.to_bits(), unloading.end().to_bits(), "{:?}", turn);
+        prop_assert_eq!(
+            bits(&reversal.smallest),
+            bits(&unloading.smallest),
+            "{:?}",
+            turn
+        );
+        prop_assert_eq!(
+            reversal.separation.to_bits(),
+            unloading.end().to_bits(),
+            "{:?}",
+            turn
+        );
         let dissipated = loading.released_energy + unloading.released_energy;
-        prop_assert_eq!(reversal.dissipated_energy.to_bits(), (dissipated + 0.0).to_bits(), "{:?}", turn);
-        let below = points.iter().filter(|point| **point <= reversal.turn.indentation);
+        prop_assert_eq!(
+            reversal.dissipated_energy.to_bits(),
+            (dissipated + 0.0).to_bits(),
+            "{:?}",
+            turn
+        );
+        let below = points
+            .iter()
+            .filter(|point| **point <= reversal.turn.indentation);
         let separate = below.map(|&point| {
-            let to_point =
-                load_body(&mut new(), &[*turn, Move::ToIndentation(point)], |_, _| Ok(())).unwrap();
+            let to_point = load_body(&mut new(), &[*turn, Move::ToIndentation(point)], |_, _| {
+                Ok(())
+            })
+            .unwrap();
             end(&to_point.legs[1]).force.to_bits()
         });
-        let found: Vec<_> = reversal.forces.iter().map(|force| force.to_bits()).collect();
+        let found: Vec<_> = reversal
+            .forces
+            .iter()
+            .map(|force| force.to_bits())
+            .collect();
         prop_assert_eq!(found, separate.collect::<Vec<_>>(), "{:?}", turn);
     }
     Ok(())
@@ -76,13 +101,30 @@ proptest! {
 
 #[test]
 fn turning_points_out_of_contact_are_refused() {
-    let body = Body::new(vec![0.0, 0.5, 0.25], Edges::SubCell, Foundation::new(0.01, 1.0), 0.0);
+    let body = Body::new(
+        vec![0.0, 0.5, 0.25],
+        Edges::SubCell,
+        Foundation::new(0.01, 1.0),
+        0.0,
+    );
     for (turns, index, reason) in [
-        (vec![Move::ToTouch, Move::ToIndentation(-0.1)], 1, ContactError::NoContact),
-        (vec![Move::ToForce(f64::INFINITY)], 0, ContactError::NotFinite(f64::INFINITY)),
+        (
+            vec![Move::ToTouch, Move::ToIndentation(-0.1)],
+            1,
+            ContactError::NoContact,
+        ),
+        (
+            vec![Move::ToForce(f64::INFINITY)],
+            0,
+            ContactError::NotFinite(f64::INFINITY),
+        ),
         (vec![Move::ToSeparation], 0, ContactError::NoContact),
     ] {
-        let expected = ContactError::Stage { index, target: turns[index], reason: Box::new(reason) };
+        let expected = ContactError::Stage {
+            index,
+            target: turns[index],
+            reason: Box::new(reason),
+        };
         assert_eq!(all(&mut body.bare(2), &turns, &[]), Err(expected));
     }
 }
@@ -92,8 +134,13 @@ fn all_reversals_share_one_loading_pass() {
     for work in [0.002, 0.02] {
         let gaps = self_affine(0.7, 1, 1 << 13);
         let mut body = Body::new(gaps, Edges::SubCell, Foundation::new(1e-3, 1.0), work).on(2);
-        let turns: Vec<Move> = (1..=64).map(|turn| Move::ToForce(0.05 * f64::from(turn))).collect();
+        let turns: Vec<Move> = (1..=64)
+            .map(|turn| Move::ToForce(0.05 * f64::from(turn)))
+            .collect();
         body.reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
-        assert_eq!((body.work().loading_passes, body.work().unloading_passes), (1, 64));
+        assert_eq!(
+            (body.work().loading_passes, body.work().unloading_passes),
+            (1, 64)
+        );
     }
 }

@@ -56,7 +56,10 @@ fn it_stops_on_request_and_refuses_too_many_steps() {
     let contact = body(rough(16, 1), 0.0).contact();
     let stop = || true;
     let mut solver = Stepwise::new(&contact, 0.01, 9, &stop).unwrap();
-    assert_eq!(solver.advance(Move::ToIndentation(1.0)), Err(ContactError::Interrupted));
+    assert_eq!(
+        solver.advance(Move::ToIndentation(1.0)),
+        Err(ContactError::Interrupted)
+    );
     let refused = stepwise(&contact, 1e-9).advance(Move::ToIndentation(1.0));
     assert_eq!(refused, Err(ContactError::TooManySteps(1e-9)));
 }
@@ -83,9 +86,14 @@ fn targets_out_of_reach_leave_the_body_in_place() {
         }
         solver.advance(Move::ToIndentation(0.3)).unwrap();
         assert!(steps.replace(0) > 300);
-        assert_eq!(solver.leg().turn(0.3).err(), (work > 0.0).then_some(ContactError::Stepwise));
+        assert_eq!(
+            solver.leg().turn(0.3).err(),
+            (work > 0.0).then_some(ContactError::Stepwise)
+        );
         let beyond = solver.advance(Move::ToForce(-1e9));
-        let Err(ContactError::DetachesBefore { smallest }) = beyond else { panic!("{beyond:?}") };
+        let Err(ContactError::DetachesBefore { smallest }) = beyond else {
+            panic!("{beyond:?}")
+        };
         // The body pulled off before it was put back.
         assert!(steps.replace(0) > 300);
         let record = solver.advance(Move::ToSeparation).unwrap();

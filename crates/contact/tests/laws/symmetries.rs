@@ -5,11 +5,25 @@ use super::*;
 /// All numbers of a leg, bit for bit, but for the sign of energies of zero and for the number next to an indentation of zero.
 fn leg_bits(record: &LegRecord) -> Vec<u64> {
     let of_point = |point: &CurvePoint| {
-        let indentation = if point.indentation.abs() < 1e-300 { 0.0 } else { point.indentation };
-        bits(&CurvePoint { indentation, stored_energy: point.stored_energy + 0.0, ..*point })
+        let indentation = if point.indentation.abs() < 1e-300 {
+            0.0
+        } else {
+            point.indentation
+        };
+        bits(&CurvePoint {
+            indentation,
+            stored_energy: point.stored_energy + 0.0,
+            ..*point
+        })
     };
-    let points = record.curve.iter().chain([&record.largest, &record.smallest]);
-    points.flat_map(of_point).chain([record.attached, record.detached]).collect()
+    let points = record
+        .curve
+        .iter()
+        .chain([&record.largest, &record.smallest]);
+    points
+        .flat_map(of_point)
+        .chain([record.attached, record.detached])
+        .collect()
 }
 
 /// A history possible for every body. Between springs a force without adhesion vanishes by and by, so that the place of
@@ -17,8 +31,14 @@ fn leg_bits(record: &LegRecord) -> Vec<u64> {
 fn targets(body: &Body, turns: &[f64], force: f64) -> Vec<Move> {
     let first = Move::ToForce(force * body.force_scale());
     let last = [Move::ToZeroForce, Move::ToSeparation];
-    let last = last.into_iter().skip(usize::from(body.edges == Edges::SubCell));
-    [first].into_iter().chain(to_indentations(turns)).chain(last).collect()
+    let last = last
+        .into_iter()
+        .skip(usize::from(body.edges == Edges::SubCell));
+    [first]
+        .into_iter()
+        .chain(to_indentations(turns))
+        .chain(last)
+        .collect()
 }
 
 /// Springs in contact after a history.

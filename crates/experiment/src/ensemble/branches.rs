@@ -36,24 +36,44 @@ impl Branches {
     pub fn of(curve: &MeasuredCurve) -> Result<Self, ExperimentError> {
         let turn = curve.turns[0];
         let branch = |number: usize| -> Vec<Point> {
-            let of = curve.points().zip(&curve.segment).filter(|(_, segment)| **segment == number);
-            of.map(|((displacement, force), _)| (displacement - turn, force)).collect()
+            let of = curve
+                .points()
+                .zip(&curve.segment)
+                .filter(|(_, segment)| **segment == number);
+            of.map(|((displacement, force), _)| (displacement - turn, force))
+                .collect()
         };
         let (mut approach, mut retraction) = (branch(0), branch(1));
         if approach.len().min(retraction.len()) < FEWEST || curve.free < 2 * FEWEST_FREE {
             let allowed = "an approach, which begins before contact, and its retraction";
-            return refused("no approach and retraction of at least 20 points each", allowed);
+            return refused(
+                "no approach and retraction of at least 20 points each",
+                allowed,
+            );
         }
         // The first contacts of a rough body are weak, and may lie in the part that seems to be free.
         let free = curve.free / 2;
-        let before: Vec<f64> = approach[..free.min(approach.len())].iter().map(|point| point.1).collect();
+        let before: Vec<f64> = approach[..free.min(approach.len())]
+            .iter()
+            .map(|point| point.1)
+            .collect();
         let zero = mean(&before);
         let points = approach.iter().chain(&retraction);
-        let largest = points.map(|point| (point.1 - zero).abs()).fold(0.0, f64::max);
+        let largest = points
+            .map(|point| (point.1 - zero).abs())
+            .fold(0.0, f64::max);
         let noise = standard_deviation(&before, zero).max(LEAST_NOISE * largest);
         let zero = if curve.is_estimated[0] { zero } else { 0.0 };
-        [&mut approach, &mut retraction].into_iter().flatten().for_each(|point| point.1 -= zero);
-        let branches = Branches { approach, retraction, noise, free };
+        [&mut approach, &mut retraction]
+            .into_iter()
+            .flatten()
+            .for_each(|point| point.1 -= zero);
+        let branches = Branches {
+            approach,
+            retraction,
+            noise,
+            free,
+        };
         if branches.ends_in_contact() {
             return refused(
                 "the retraction ends before contact is lost",
@@ -66,7 +86,11 @@ impl Branches {
     fn ends_in_contact(&self) -> bool {
         let end = &self.retraction[self.retraction.len() - FEWEST_FREE..];
         let mean = end.iter().map(|point| point.1).sum::<f64>() / FEWEST_FREE as f64;
-        let largest = self.retraction.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
+        let largest = self
+            .retraction
+            .iter()
+            .map(|point| point.1.abs())
+            .fold(0.0, f64::max);
         mean.abs() > (LOST * self.noise / (FEWEST_FREE as f64).sqrt()).max(NEAR_ZERO * largest)
     }
 

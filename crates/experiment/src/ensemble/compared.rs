@@ -40,7 +40,11 @@ impl Compared {
             .flat_map(|(line, curves)| {
                 let of = curves.iter().zip(&places);
                 of.map(move |(curve, place)| {
-                    (line as u64, measured.described(*curve, line), place.parameters())
+                    (
+                        line as u64,
+                        measured.described(*curve, line),
+                        place.parameters(),
+                    )
                 })
             })
             .collect();
@@ -49,37 +53,79 @@ impl Compared {
         let of_line = |(line, described, _): &(u64, Described, [f64; 2])| {
             alone(polynomials.of_line(*line, described), has_one_modulus)
         };
-        let learned: Vec<Vec<[f64; 2]>> =
-            curves.chunks(places.len()).map(|line| line.iter().map(of_line).collect()).collect();
+        let learned: Vec<Vec<[f64; 2]>> = curves
+            .chunks(places.len())
+            .map(|line| line.iter().map(of_line).collect())
+            .collect();
         let scatter = Scatter::of(table, |line, node| learned[line][node]);
         let likelihood = Likelihood::new(table, &scatter, known);
         let of_curve = |(index, curve): (usize, &Summaries)| {
-            alone(polynomials.of_curve(&measured.described(*curve, index)), has_one_modulus)
+            alone(
+                polynomials.of_curve(&measured.described(*curve, index)),
+                has_one_modulus,
+            )
         };
-        let of_curves = measured.summaries.iter().enumerate().map(of_curve).collect();
-        Compared { polynomials, has_one_modulus, learned, scatter, likelihood, of_curves }
+        let of_curves = measured
+            .summaries
+            .iter()
+            .enumerate()
+            .map(of_curve)
+            .collect();
+        Compared {
+            polynomials,
+            has_one_modulus,
+            learned,
+            scatter,
+            likelihood,
+            of_curves,
+        }
     }
 
     /// Predicts ln γ and ln E* of another computed curve of a random profile.
     pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measured) -> [f64; 2] {
         let described = measured.described(*curve, line);
-        alone(self.polynomials.of_line(line as u64, &described), self.has_one_modulus)
+        alone(
+            self.polynomials.of_line(line as u64, &described),
+            self.has_one_modulus,
+        )
     }
 
     /// Returns the probability of the parameters given all measured curves.
     pub fn posterior(&self, measured: &Measured) -> Posterior {
-        let of = |index: usize| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>());
-        self.likelihood.posterior([of(0), of(1)], measured.summaries.len() as f64)
+        let of = |index: usize| {
+            mean(
+                &self
+                    .of_curves
+                    .iter()
+                    .map(|of| of[index])
+                    .collect::<Vec<_>>(),
+            )
+        };
+        self.likelihood
+            .posterior([of(0), of(1)], measured.summaries.len() as f64)
     }
 
     /// Returns the standard deviation of the measured curves divided by the standard deviation of the random profiles.
     pub fn scatter_ratio(&self, measured: &Measured, best: Place) -> Option<f64> {
         let count = self.of_curves.len();
         let inverse = self.scatter.at(best).inverse().0;
-        let centre = [0, 1].map(|index| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>()));
-        let sum: f64 = self.of_curves.iter().map(|of| distance(centre, inverse, *of)).sum();
+        let centre = [0, 1].map(|index| {
+            mean(
+                &self
+                    .of_curves
+                    .iter()
+                    .map(|of| of[index])
+                    .collect::<Vec<_>>(),
+            )
+        });
+        let sum: f64 = self
+            .of_curves
+            .iter()
+            .map(|of| distance(centre, inverse, *of))
+            .sum();
         let values = if self.has_one_modulus { 1.0 } else { 2.0 };
-        (measured.summaries.len() >= FEWEST_FOR_SCATTER).then(|| (sum / (count as f64 - 1.0) / values).sqrt())
+        (measured.summaries.len() >= FEWEST_FOR_SCATTER)
+            .then(|| (sum / (count as f64 - 1.0) / values).sqrt())
     }
 
     /// Returns the results of each curve used without the others.
@@ -94,7 +140,8 @@ impl Compared {
         let row = |(index, (name, _)): (usize, &(String, MeasuredCurve))| {
             let (of, at) = (measured.summaries[index], self.of_curves[index]);
             let posterior = self.likelihood.posterior(at, 1.0);
-            let away = distance(moments.mean, inverse, at) / (1.0 + 1.0 / self.learned.len() as f64);
+            let away =
+                distance(moments.mean, inverse, at) / (1.0 + 1.0 / self.learned.len() as f64);
             CurveOfEnsemble {
                 name: name.clone(),
                 preload: measured.preloads[index],
@@ -113,5 +160,9 @@ impl Compared {
 
 /// Returns the predicted values, with 0 for the second one if the table has one modulus.
 fn alone(values: [f64; 2], has_one_modulus: bool) -> [f64; 2] {
-    if has_one_modulus { [values[0], 0.0] } else { values }
+    if has_one_modulus {
+        [values[0], 0.0]
+    } else {
+        values
+    }
 }

@@ -98,7 +98,10 @@ impl Specimen<'_> {
         let mut all = Vec::with_capacity(ranges.len() * moduli.len());
         for range in ranges {
             let work = range.exp() * bare.effective_modulus();
-            let contact = bare.with(modulus).works_of_adhesion([self.closing * work, work]).build()?;
+            let contact = bare
+                .with(modulus)
+                .works_of_adhesion([self.closing * work, work])
+                .build()?;
             let first = all.len();
             let mut approach = Body::new(&contact, 2);
             // The largest modulus has the smallest indentation.
@@ -107,7 +110,11 @@ impl Specimen<'_> {
                     return Err(ContactError::Interrupted.into());
                 }
                 let scale = modulus.exp() / contact.effective_modulus();
-                let loop_ = Loop { stiffness: self.stiffness / scale, scale, protocol };
+                let loop_ = Loop {
+                    stiffness: self.stiffness / scale,
+                    scale,
+                    protocol,
+                };
                 let branches = loop_.branches(&mut approach, &mut noise)?;
                 all.push(summaries(&branches, protocol.preload));
             }
@@ -119,7 +126,10 @@ impl Specimen<'_> {
 
 /// Returns the seed of a random profile of the table. Another seed of the scene gives other profiles.
 pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
-    let of_scene = scene.seed().unwrap_or_default().wrapping_mul(SEEDS_OF_SCENE);
+    let of_scene = scene
+        .seed()
+        .unwrap_or_default()
+        .wrapping_mul(SEEDS_OF_SCENE);
     FIRST_SEED.wrapping_add(of_scene).wrapping_add(line)
 }
 
@@ -135,7 +145,8 @@ impl Loop<'_> {
     /// noise, and so the force at which the body turns differs from it.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
-        let turning_force = (protocol.preload + noise.of_preload).max(LEAST_TURN * protocol.preload);
+        let turning_force =
+            (protocol.preload + noise.of_preload).max(LEAST_TURN * protocol.preload);
         body.move_to(Move::ToForce(turning_force / self.scale))?;
         let (approach, turn) = (body.leg(), body.point().indentation);
         let retraction = approach.turn(turn)?;
@@ -146,11 +157,20 @@ impl Loop<'_> {
         };
         let pressed = sampling.over(&approach, [0.0, turn], 1, Some(CurvePoint::default()))?;
         let pulled = sampling.pull(&retraction, turn)?;
-        let top = pressed.points().last().map_or(turn, |point| point.displacement);
+        let top = pressed
+            .points()
+            .last()
+            .map_or(turn, |point| point.displacement);
         let force = |curve: &DisplacementCurve, place: f64| {
             curve.at(top + place).map_or_else(
                 // At the turning point itself, by rounding.
-                || if place > -1e-9 * top.abs() { turning_force } else { 0.0 },
+                || {
+                    if place > -1e-9 * top.abs() {
+                        turning_force
+                    } else {
+                        0.0
+                    }
+                },
                 |point| self.scale * point.force,
             )
         };
@@ -161,16 +181,38 @@ impl Loop<'_> {
             .map(|(index, &place)| (place, force(&pressed, place) + noise.at(index)))
             .collect();
         let first = approach.len();
-        let end = pulled.points().last().map_or(0.0, |point| point.displacement) - top;
-        let (count, last) = (protocol.retraction.len(), protocol.retraction[protocol.retraction.len() - 1]);
+        let end = pulled
+            .points()
+            .last()
+            .map_or(0.0, |point| point.displacement)
+            - top;
+        let (count, last) = (
+            protocol.retraction.len(),
+            protocol.retraction[protocol.retraction.len() - 1],
+        );
         let step = (last - protocol.retraction[0]) / (count - 1) as f64;
         // A retraction that is too short for this curve goes on until contact is lost.
-        let more = if end < last { (((end - last) / step) as usize + 4).min(LONGEST * count) } else { 0 };
+        let more = if end < last {
+            (((end - last) / step) as usize + 4).min(LONGEST * count)
+        } else {
+            0
+        };
         let beyond = (1..=more).map(|index| last + step * index as f64);
-        let places = protocol.retraction.iter().copied().chain(beyond).enumerate();
-        let retraction =
-            places.map(|(index, place)| (place, force(&pulled, place) + noise.at(first + index))).collect();
-        Ok(Branches { approach, retraction, noise: protocol.noise, free: protocol.free })
+        let places = protocol
+            .retraction
+            .iter()
+            .copied()
+            .chain(beyond)
+            .enumerate();
+        let retraction = places
+            .map(|(index, place)| (place, force(&pulled, place) + noise.at(first + index)))
+            .collect();
+        Ok(Branches {
+            approach,
+            retraction,
+            noise: protocol.noise,
+            free: protocol.free,
+        })
     }
 }
 
@@ -189,8 +231,13 @@ impl Noise {
     fn new(seed: u64, protocol: &Protocol) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let of_preload = protocol.preload_error * normal_pair(&mut generator)[0];
-        let mut noise =
-            Noise { generator, deviation: protocol.noise, values: Vec::new(), zero: 0.0, of_preload };
+        let mut noise = Noise {
+            generator,
+            deviation: protocol.noise,
+            values: Vec::new(),
+            zero: 0.0,
+            of_preload,
+        };
         let free = protocol.free.max(1);
         noise.zero = (0..free).map(|index| noise.at(index)).sum::<f64>() / free as f64;
         noise
@@ -198,7 +245,8 @@ impl Noise {
 
     fn at(&mut self, index: usize) -> f64 {
         while self.values.len() <= index {
-            self.values.extend(normal_pair(&mut self.generator).map(|value| self.deviation * value));
+            self.values
+                .extend(normal_pair(&mut self.generator).map(|value| self.deviation * value));
         }
         self.values[index] - self.zero
     }

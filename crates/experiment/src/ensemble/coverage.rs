@@ -23,7 +23,11 @@ struct ParameterRow {
 impl ParameterRow {
     fn add(&mut self, fit: &EnsembleFit, work: f64, modulus: f64) {
         let holds = |one: IntervalEstimate, truth: f64| one.low <= truth && truth <= one.high;
-        self.work.push((holds(fit.work, work), fit.work.half_width(), (fit.work.value / work).ln()));
+        self.work.push((
+            holds(fit.work, work),
+            fit.work.half_width(),
+            (fit.work.value / work).ln(),
+        ));
         self.modulus.push(holds(fit.modulus, modulus));
     }
 
@@ -58,7 +62,11 @@ fn truth(base: &Scene, generator: &mut ChaCha8Rng) -> Scene {
     let mut between = |factor: f64| factor.powf(generator.random::<f64>() - 0.5);
     let work = base.adhesion.and_then(|adhesion| adhesion.work()).unwrap() * between(4.0);
     let modulus = base.material.effective_modulus() * between(2.0);
-    Scene { adhesion: Some(Adhesion::by_work(work)), material: Material::effective(modulus), ..base.clone() }
+    Scene {
+        adhesion: Some(Adhesion::by_work(work)),
+        material: Material::effective(modulus),
+        ..base.clone()
+    }
 }
 
 /// A roughness whose height and Hurst exponent differ by drawn errors.
@@ -68,7 +76,12 @@ fn rougher(scene: &Scene, generator: &mut ChaCha8Rng) -> Scene {
         (-2.0 * (1.0 - one).ln()).sqrt() * (std::f64::consts::TAU * other).cos()
     };
     let mut scene = scene.clone();
-    if let Some(Roughness::SelfAffine { hurst, rms_height: Some(height), .. }) = &mut scene.roughness {
+    if let Some(Roughness::SelfAffine {
+        hurst,
+        rms_height: Some(height),
+        ..
+    }) = &mut scene.roughness
+    {
         *height *= (ROUGHNESS_ERRORS[0] * normal()).exp();
         *hurst += ROUGHNESS_ERRORS[1] * normal();
     }
@@ -78,7 +91,9 @@ fn rougher(scene: &Scene, generator: &mut ChaCha8Rng) -> Scene {
 /// Compares the curves of 2 specimens, or of `TEST_EFFORT` specimens, with random profiles, and asserts what the intervals
 /// hold. Half-widths and errors refer to ln γ. With 60 specimens the table is the one in docs/experiment.md.
 fn compare(name: &str, with_errors: bool) {
-    let effort = std::env::var("TEST_EFFORT").ok().and_then(|effort| effort.parse().ok());
+    let effort = std::env::var("TEST_EFFORT")
+        .ok()
+        .and_then(|effort| effort.parse().ok());
     let count = effort.unwrap_or(2).clamp(2, 60);
     let base = scene(name);
     let kinds = if with_errors {
@@ -91,14 +106,25 @@ fn compare(name: &str, with_errors: bool) {
     for specimen in 0..count {
         let mut generator = ChaCha8Rng::seed_from_u64(specimen);
         let truth = truth(&base, &mut generator);
-        let rough = if with_errors { rougher(&truth, &mut generator) } else { truth.clone() };
-        let [work, modulus] = [truth.adhesion.unwrap().work().unwrap(), truth.material.effective_modulus()];
+        let rough = if with_errors {
+            rougher(&truth, &mut generator)
+        } else {
+            truth.clone()
+        };
+        let [work, modulus] = [
+            truth.adhesion.unwrap().work().unwrap(),
+            truth.material.effective_modulus(),
+        ];
         let curves: Vec<_> = (0..32)
             .map(|index| 1000 * (specimen + 1) + index)
             .map(|seed| (seed.to_string(), curve(&mut simulation, &rough, seed, 0.01)))
             .collect();
         for (row, &(places, is_modulus_free)) in rows.iter_mut().zip(&kinds) {
-            let material = if is_modulus_free { base.material } else { truth.material };
+            let material = if is_modulus_free {
+                base.material
+            } else {
+                truth.material
+            };
             let stated = ROUGHNESS_ERRORS.map(|error| Some(error).filter(|_| with_errors));
             let options = EnsembleOptions {
                 lines: 128,
@@ -106,25 +132,45 @@ fn compare(name: &str, with_errors: bool) {
                 height_error: stated[0],
                 hurst_error: stated[1],
             };
-            let scene = document(&Scene { material, ..base.clone() });
-            let fit =
-                fit_ensemble(&curves[..places], &scene, &options, Control::default().on_threads(2)).unwrap();
+            let scene = document(&Scene {
+                material,
+                ..base.clone()
+            });
+            let fit = fit_ensemble(
+                &curves[..places],
+                &scene,
+                &options,
+                Control::default().on_threads(2),
+            )
+            .unwrap();
             row.add(&fit, work, modulus);
-            println!("{name} {specimen} {places} {is_modulus_free}: {:?}", row.work.last());
+            println!(
+                "{name} {specimen} {places} {is_modulus_free}: {:?}",
+                row.work.last()
+            );
         }
     }
     let mut table = String::new();
     for (row, (places, is_modulus_free)) in rows.iter().zip(kinds) {
         let modulus = if is_modulus_free { "free" } else { "given" };
-        let errors = if with_errors { ", errors of the roughness" } else { "" };
-        table += &row.text(&format!("`{name}`, {places} curves{errors}, E\\* {modulus}"));
+        let errors = if with_errors {
+            ", errors of the roughness"
+        } else {
+            ""
+        };
+        table += &row.text(&format!(
+            "`{name}`, {places} curves{errors}, E\\* {modulus}"
+        ));
         let least = if with_errors { 0.85 } else { 0.9 };
         assert!(count < 20 || row.share() >= least, "{table}");
     }
     println!("{table}");
     // The page has the rows of rough spheres.
     let docs = include_str!("../../../../docs/experiment.md");
-    assert!(count < 60 || name != "rough-sphere" || docs.contains(&table), "{table}");
+    assert!(
+        count < 60 || name != "rough-sphere" || docs.contains(&table),
+        "{table}"
+    );
 }
 
 #[test]

@@ -43,7 +43,11 @@ fn slopes(scatter: &Scatter, place: Place) -> [[f64; 2]; 2] {
 impl Response {
     pub fn at(scatter: &Scatter, place: Place, is_modulus_free: bool) -> Self {
         let inverse = scatter.at(place).inverse().0;
-        Response { slopes: slopes(scatter, place), inverse, is_modulus_free }
+        Response {
+            slopes: slopes(scatter, place),
+            inverse,
+            is_modulus_free,
+        }
     }
 
     /// Returns the changes of ln γ and ln E* that explain a change of the predicted values.
@@ -89,27 +93,39 @@ pub(crate) fn deviations(
         .map(|scatter| {
             let moments = scatter.at(place);
             let slopes = slopes(scatter, place).map(|slope| slope[0]);
-            (moments.mean[0], moments.covariance[0].max(f64::MIN_POSITIVE).sqrt(), slopes)
+            (
+                moments.mean[0],
+                moments.covariance[0].max(f64::MIN_POSITIVE).sqrt(),
+                slopes,
+            )
         })
         .collect();
     // The node nearest to the place.
     let away = |one: &Place| (one.range - place.range).abs() + (one.modulus - place.modulus).abs();
-    let nearest = table.places().enumerate().min_by(|one, other| away(&one.1).total_cmp(&away(&other.1)));
+    let nearest = table
+        .places()
+        .enumerate()
+        .min_by(|one, other| away(&one.1).total_cmp(&away(&other.1)));
     let node = nearest.map_or(0, |(node, _)| node);
-    let at_node: Vec<(Summaries, [f64; 2])> =
-        (0..lines).map(|line| (table.lines[line][node], learned(line, node))).collect();
+    let at_node: Vec<(Summaries, [f64; 2])> = (0..lines)
+        .map(|line| (table.lines[line][node], learned(line, node)))
+        .collect();
     let average = |of: &dyn Fn(usize) -> f64, chosen: &[usize]| {
         chosen.iter().map(|&line| of(line)).sum::<f64>() / chosen.len() as f64
     };
     let all: Vec<usize> = (0..lines).collect();
-    let centre: Summaries = std::array::from_fn(|index| average(&|line| at_node[line].0[index], &all));
+    let centre: Summaries =
+        std::array::from_fn(|index| average(&|line| at_node[line].0[index], &all));
     let learned_centre = [0, 1].map(|index| average(&|line| at_node[line].1[index], &all));
     let mut generator = ChaCha8Rng::seed_from_u64(lines as u64);
     let mut largest: Vec<f64> = (0..DRAWS)
         .map(|_| {
-            let chosen: Vec<usize> = (0..mean.curves).map(|_| generator.random_range(0..lines)).collect();
-            let change =
-                [0, 1].map(|index| average(&|line| at_node[line].1[index], &chosen) - learned_centre[index]);
+            let chosen: Vec<usize> = (0..mean.curves)
+                .map(|_| generator.random_range(0..lines))
+                .collect();
+            let change = [0, 1].map(|index| {
+                average(&|line| at_node[line].1[index], &chosen) - learned_centre[index]
+            });
             let explained = response.explain(change);
             let deviation = |index: usize| {
                 let (_, error, slopes) = rows[index];

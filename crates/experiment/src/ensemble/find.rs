@@ -15,7 +15,9 @@ use crate::reason::{Reason, of_profile};
 use crate::scene::wrong;
 use asperity_contact::Move;
 use asperity_data::{Control, format_quantity, mean};
-use asperity_scene::{Adhesion, Document, Material, Roughness, Scene, Simulation, Solver, Strength};
+use asperity_scene::{
+    Adhesion, Document, Material, Roughness, Scene, Simulation, Solver, Strength,
+};
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
@@ -70,10 +72,15 @@ pub fn fit_ensemble(
     };
     scope(|scope| match Builder::new().spawn_scoped(scope, compare) {
         Ok(thread) => {
-            receiver.iter().for_each(|computed| control.report(computed as u64));
+            receiver
+                .iter()
+                .for_each(|computed| control.report(computed as u64));
             thread.join().unwrap_or_else(|panic| resume_unwind(panic))
         }
-        Err(error) => refused(format!("the system starts no thread: {error}"), "one more thread"),
+        Err(error) => refused(
+            format!("the system starts no thread: {error}"),
+            "one more thread",
+        ),
     })
 }
 
@@ -87,7 +94,9 @@ fn compare(
     let (document, instrument) = &of_instrument(curves, document)?;
     let measured = Measured::of(curves)?;
     let (_, governing) = Simulation::new(document.resolve("")).contact(document.scene())?;
-    let closing = governing.adhesive_works().map_or(1.0, |[closing, opening]| closing / opening);
+    let closing = governing
+        .adhesive_works()
+        .map_or(1.0, |[closing, opening]| closing / opening);
     let folder = document.resolve("");
     let computed = AtomicUsize::new(0);
     let workers = Workers {
@@ -106,7 +115,11 @@ fn compare(
     let known = (!options.is_modulus_free).then(|| governing.effective_modulus.ln());
     let centre = placed(&workers, &measured, &governing, known)?;
     let from = |centre: f64, index: usize| {
-        nodes(centre - 0.5 * (NODES[index] - 1) as f64 * STEPS[index], STEPS[index], NODES[index])
+        nodes(
+            centre - 0.5 * (NODES[index] - 1) as f64 * STEPS[index],
+            STEPS[index],
+            NODES[index],
+        )
     };
     let moduli = known.map_or_else(|| from(centre.modulus, 1), |modulus| vec![modulus]);
     let mut table = Table::new(&workers, options.lines, from(centre.range, 0), moduli)?;
@@ -125,13 +138,25 @@ fn compare(
     let posterior = compared.posterior(&measured);
     let best = posterior.best();
     let response = Response::at(&compared.scatter, best, known.is_none());
-    let shifts = Shifts { workers: &workers, compared: &compared, measured: &measured, response: &response };
+    let shifts = Shifts {
+        workers: &workers,
+        compared: &compared,
+        measured: &measured,
+        response: &response,
+    };
     // Curves without adhesion do not change with γ, and no change of γ makes up for a change of the roughness.
     let beyond = posterior.beyond();
-    let work_at_most = beyond.contains(&End::LowRange).then(|| posterior.most_work());
-    let roughness = if work_at_most.is_some() { None } else { shifts.at(best, options.lines)? };
+    let work_at_most = beyond
+        .contains(&End::LowRange)
+        .then(|| posterior.most_work());
+    let roughness = if work_at_most.is_some() {
+        None
+    } else {
+        shifts.at(best, options.lines)?
+    };
     let by_roughness = |by_height: f64, by_hurst: f64| {
-        let [height, hurst] = [options.height_error, options.hurst_error].map(Option::unwrap_or_default);
+        let [height, hurst] =
+            [options.height_error, options.hurst_error].map(Option::unwrap_or_default);
         NORMAL * (by_height * height).hypot(by_hurst * hurst)
     };
     let of_roughness = roughness.map_or([0.0; 2], |of| {
@@ -198,8 +223,14 @@ fn unsuitable_profile(workers: &Workers<'_>, place: Place, preload: f64) -> Opti
         let profile = scene.with(|scene| {
             scene.material = Material::effective(modulus);
             let closing = (closing != 1.0).then_some(closing * work);
-            let strength = Strength::Work { opening: work, closing };
-            scene.adhesion = scene.adhesion.map(|adhesion| Adhesion { strength, ..adhesion });
+            let strength = Strength::Work {
+                opening: work,
+                closing,
+            };
+            scene.adhesion = scene.adhesion.map(|adhesion| Adhesion {
+                strength,
+                ..adhesion
+            });
             scene.loading = vec![Move::ToForce(preload), Move::ToSeparation];
             scene.set_seed(seed_of(workers.specimen.scene, line));
         });
@@ -224,7 +255,10 @@ fn of_instrument(
         if one != other && (one / other).ln().abs() > SAME_STIFFNESS {
             let [one, other] = [one, other].map(|stiffness| format_quantity(stiffness, "N/m"));
             return refused(
-                format!("{name}: a loading stiffness of {other}, and of {one} in {}", curves[0].0),
+                format!(
+                    "{name}: a loading stiffness of {other}, and of {one} in {}",
+                    curves[0].0
+                ),
                 "curves of one instrument",
             );
         }
@@ -242,14 +276,22 @@ fn check(
         return refused("no curve", "one or more curves");
     }
     if scene.seed().is_none() {
-        let allowed = "a scene with random roughness; without --profiles a scene whose profile is known";
-        return refused("--profiles: the profile of the scene is not random", allowed);
+        let allowed =
+            "a scene with random roughness; without --profiles a scene whose profile is known";
+        return refused(
+            "--profiles: the profile of the scene is not random",
+            allowed,
+        );
     }
     if scene.numerics.solver != Solver::Exact {
-        let found = "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
+        let found =
+            "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
         return refused(found, "numerics.solver = Exact");
     }
-    for (name, error) in [("--height-error", options.height_error), ("--hurst-error", options.hurst_error)] {
+    for (name, error) in [
+        ("--height-error", options.height_error),
+        ("--hurst-error", options.hurst_error),
+    ] {
         if let Some(error) = error.filter(|error| !(0.0..=MOST_ERROR).contains(error)) {
             return refused(format!("{name} {error}"), format!("from 0 to {MOST_ERROR}"));
         }
@@ -257,17 +299,26 @@ fn check(
     let states_errors = options.height_error.or(options.hurst_error).is_some();
     if states_errors && !matches!(scene.roughness, Some(Roughness::SelfAffine { .. })) {
         let found = "errors of the roughness, which is measured";
-        return refused(found, "roughness: SelfAffine(…), or no --height-error and --hurst-error");
+        return refused(
+            found,
+            "roughness: SelfAffine(…), or no --height-error and --hurst-error",
+        );
     }
     if options.lines < FEWEST_LINES {
-        return refused(format!("--profiles {}", options.lines), format!("at least {FEWEST_LINES}"));
+        return refused(
+            format!("--profiles {}", options.lines),
+            format!("at least {FEWEST_LINES}"),
+        );
     }
     for (index, (name, curve)) in curves.iter().enumerate() {
         let same = |(_, other): &&(String, MeasuredCurve)| {
             other.force == curve.force && other.displacement == curve.displacement
         };
         if let Some((other, _)) = curves[..index].iter().find(same) {
-            return refused(format!("{name}: the same curve as {other}"), "each curve once");
+            return refused(
+                format!("{name}: the same curve as {other}"),
+                "each curve once",
+            );
         }
     }
     Ok(())
@@ -278,15 +329,24 @@ mod tests {
     use super::*;
     use crate::ensemble::specimens::{curve, document, scene};
 
-    const OPTIONS: EnsembleOptions =
-        EnsembleOptions { lines: 16, is_modulus_free: false, height_error: None, hurst_error: None };
+    const OPTIONS: EnsembleOptions = EnsembleOptions {
+        lines: 16,
+        is_modulus_free: false,
+        height_error: None,
+        hurst_error: None,
+    };
 
     fn found(
         curves: &[(String, MeasuredCurve)],
         scene: &Scene,
         options: EnsembleOptions,
     ) -> Result<EnsembleFit, ExperimentError> {
-        fit_ensemble(curves, &document(scene), &options, Control::default().on_threads(1))
+        fit_ensemble(
+            curves,
+            &document(scene),
+            &options,
+            Control::default().on_threads(1),
+        )
     }
 
     /// Rough spheres of 1024 springs; the work of adhesion of the curve with number `foreign` is a fifth.
@@ -297,8 +357,14 @@ mod tests {
         let one = |seed: u64| {
             let share = if foreign == Some(seed) { 0.2 } else { 1.0 };
             let adhesion = Some(Adhesion::by_work(0.05 * share));
-            let scene = Scene { adhesion, ..scene.clone() };
-            (format!("place {seed}"), curve(&mut simulation, &scene, 40 + seed, 0.01))
+            let scene = Scene {
+                adhesion,
+                ..scene.clone()
+            };
+            (
+                format!("place {seed}"),
+                curve(&mut simulation, &scene, 40 + seed, 0.01),
+            )
         };
         let curves = (0..count).map(one).collect();
         (scene, curves)
@@ -308,50 +374,112 @@ mod tests {
     #[test]
     fn the_work_of_adhesion_is_found_and_a_foreign_place_named() {
         let (scene, all) = curves(12, Some(5));
-        let fit = found(&all, &scene, EnsembleOptions { lines: 64, ..OPTIONS }).unwrap();
-        let foreign: Vec<&str> =
-            fit.curves.iter().filter(|curve| curve.foreign).map(|curve| curve.name.as_str()).collect();
+        let fit = found(
+            &all,
+            &scene,
+            EnsembleOptions {
+                lines: 64,
+                ..OPTIONS
+            },
+        )
+        .unwrap();
+        let foreign: Vec<&str> = fit
+            .curves
+            .iter()
+            .filter(|curve| curve.foreign)
+            .map(|curve| curve.name.as_str())
+            .collect();
         assert_eq!(foreign, ["place 5"]);
-        let others: Vec<_> = all.iter().filter(|(name, _)| name != "place 5").cloned().collect();
+        let others: Vec<_> = all
+            .iter()
+            .filter(|(name, _)| name != "place 5")
+            .cloned()
+            .collect();
         let fit = found(&others, &scene, OPTIONS).unwrap();
         let IntervalEstimate { low, high, .. } = fit.work;
-        assert!(low < 0.05 && 0.05 < high && high / low < 2.5, "{:?}", fit.work);
-        assert!(fit.described && !fit.at_end_of_table && fit.preload_scatter.is_none(), "{fit:?}");
-        assert!((fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12 && fit.shares.roughness == 0.0);
+        assert!(
+            low < 0.05 && 0.05 < high && high / low < 2.5,
+            "{:?}",
+            fit.work
+        );
+        assert!(
+            fit.described && !fit.at_end_of_table && fit.preload_scatter.is_none(),
+            "{fit:?}"
+        );
+        assert!(
+            (fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12
+                && fit.shares.roughness == 0.0
+        );
         // More height needs more adhesion.
         let shifts = fit.roughness.unwrap();
         assert!((0.3..3.0).contains(&shifts.work_by_height), "{shifts:?}");
-        let other = Scene { adhesion: Some(Adhesion::by_work(0.3)), ..scene.clone() };
+        let other = Scene {
+            adhesion: Some(Adhesion::by_work(0.3)),
+            ..scene.clone()
+        };
         let three = Control::default().on_threads(3);
         let same = fit_ensemble(&others, &document(&other), &OPTIONS, three).unwrap();
         assert_eq!(same, fit);
-        let stated = EnsembleOptions { height_error: Some(0.1), hurst_error: Some(0.0), ..OPTIONS };
+        let stated = EnsembleOptions {
+            height_error: Some(0.1),
+            hurst_error: Some(0.0),
+            ..OPTIONS
+        };
         let wider = found(&others, &scene, stated).unwrap();
         let added = NORMAL * 0.1 * shifts.work_by_height;
-        assert!((wider.work.half_width() - fit.work.half_width().hypot(added)).abs() < 0.02 * added);
+        assert!(
+            (wider.work.half_width() - fit.work.half_width().hypot(added)).abs() < 0.02 * added
+        );
     }
 
     /// Curves without adhesion give an upper bound of γ and no other number that depends on it.
     #[test]
     fn curves_without_adhesion_have_an_upper_bound_of_it() {
         let (scene, _) = curves(0, None);
-        let bare = Scene { adhesion: Some(Adhesion::by_work(1e-8)), ..scene.clone() };
+        let bare = Scene {
+            adhesion: Some(Adhesion::by_work(1e-8)),
+            ..scene.clone()
+        };
         let mut simulation = Simulation::default();
-        let all: Vec<_> =
-            (0..4).map(|seed| (seed.to_string(), curve(&mut simulation, &bare, 70 + seed, 0.01))).collect();
-        let fit = found(&all, &scene, EnsembleOptions { lines: 64, ..OPTIONS }).unwrap();
+        let all: Vec<_> = (0..4)
+            .map(|seed| {
+                (
+                    seed.to_string(),
+                    curve(&mut simulation, &bare, 70 + seed, 0.01),
+                )
+            })
+            .collect();
+        let fit = found(
+            &all,
+            &scene,
+            EnsembleOptions {
+                lines: 64,
+                ..OPTIONS
+            },
+        )
+        .unwrap();
         let most = fit.work_at_most.unwrap();
         assert!((1e-5..0.03).contains(&most), "{most:e}");
-        assert_eq!((fit.work.low, fit.work.high, fit.roughness), (0.0, most, None));
+        assert_eq!(
+            (fit.work.low, fit.work.high, fit.roughness),
+            (0.0, most, None)
+        );
         assert!(fit.work.value <= most && fit.prospects.is_empty() && fit.at_end_of_table);
-        assert!((fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12, "{:?}", fit.shares);
+        assert!(
+            (fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12,
+            "{:?}",
+            fit.shares
+        );
     }
 
     /// A profile that is shorter than the contact is named.
     #[test]
     fn a_contact_that_fills_its_profile_is_named() {
         let (scene, all) = curves(2, None);
-        assert_eq!(found(&all, &scene, OPTIONS).unwrap().unsuitable_profile, None);
+        assert_eq!(
+            found(&all, &scene, OPTIONS).unwrap().unsuitable_profile,
+            None
+        );
         let mut short = scene.clone();
         short.length = 2e-5;
         let fit = found(&all, &short, OPTIONS).unwrap();
@@ -361,7 +489,10 @@ mod tests {
     #[test]
     fn curves_that_cannot_be_compared_are_refused() {
         let (scene, all) = curves(2, None);
-        let smooth = Scene { roughness: None, ..scene.clone() };
+        let smooth = Scene {
+            roughness: None,
+            ..scene.clone()
+        };
         let turned = all[0].1.segment.partition_point(|segment| *segment == 0);
         let cut = |from: usize, to: usize| {
             let mut curve = all[0].1.clone();
@@ -371,31 +502,61 @@ mod tests {
             curve.segment = curve.segment[from..to].to_vec();
             vec![("cut".to_owned(), curve)]
         };
-        let few = EnsembleOptions { lines: 8, ..OPTIONS };
+        let few = EnsembleOptions {
+            lines: 8,
+            ..OPTIONS
+        };
         let twice = vec![all[0].clone(), ("again".to_owned(), all[0].1.clone())];
         for (result, said) in [
-            (found(&all, &smooth, OPTIONS), "the profile of the scene is not random"),
+            (
+                found(&all, &smooth, OPTIONS),
+                "the profile of the scene is not random",
+            ),
             (found(&[], &scene, OPTIONS), "no curve"),
             (found(&all, &scene, few), "--profiles 8"),
-            (found(&twice, &scene, OPTIONS), "again: the same curve as place 0"),
+            (
+                found(&twice, &scene, OPTIONS),
+                "again: the same curve as place 0",
+            ),
             (
                 found(&cut(0, turned + 120), &scene, OPTIONS),
                 "cut: the retraction ends before contact is lost",
             ),
-            (found(&cut(turned, 2 * turned), &scene, OPTIONS), "cut: no approach and retraction"),
+            (
+                found(&cut(turned, 2 * turned), &scene, OPTIONS),
+                "cut: no approach and retraction",
+            ),
         ] {
             let error = result.unwrap_err().to_string();
-            assert!(error.contains(said) && error.contains("allowed: "), "{said}: {error}");
+            assert!(
+                error.contains(said) && error.contains("allowed: "),
+                "{said}: {error}"
+            );
         }
-        let wrong = |error| EnsembleOptions { height_error: Some(error), ..OPTIONS };
+        let wrong = |error| EnsembleOptions {
+            height_error: Some(error),
+            ..OPTIONS
+        };
         for error in [-0.1, 0.6, f64::NAN, f64::INFINITY] {
             let refused = found(&all, &scene, wrong(error)).unwrap_err().to_string();
             assert!(refused.contains("allowed: from 0 to 0.5"), "{refused}");
         }
-        let none = fit_ensemble(&all, &document(&scene), &OPTIONS, Control::default().on_threads(0));
-        assert_eq!(none.unwrap_err().to_string(), "0 threads; allowed: at least one");
-        let stopped =
-            fit_ensemble(&all, &document(&scene), &OPTIONS, Control::default().stopped_by(&|| true));
+        let none = fit_ensemble(
+            &all,
+            &document(&scene),
+            &OPTIONS,
+            Control::default().on_threads(0),
+        );
+        assert_eq!(
+            none.unwrap_err().to_string(),
+            "0 threads; allowed: at least one"
+        );
+        let stopped = fit_ensemble(
+            &all,
+            &document(&scene),
+            &OPTIONS,
+            Control::default().stopped_by(&|| true),
+        );
         assert!(matches!(stopped, Err(ExperimentError::Run(_))));
     }
 }

@@ -35,28 +35,45 @@ impl Learned {
     pub fn from(curves: &[(u64, Described, [f64; 2])]) -> Self {
         let standard = (0..SUMMARIES + 1)
             .map_while(|index| {
-                let of: Option<Vec<f64>> = curves.iter().map(|curve| curve.1.values().nth(index)).collect();
+                let of: Option<Vec<f64>> = curves
+                    .iter()
+                    .map(|curve| curve.1.values().nth(index))
+                    .collect();
                 let of = of?;
                 let mean = mean(&of);
                 Some((mean, standard_deviation(&of, mean).max(f64::MIN_POSITIVE)))
             })
             .collect();
-        let of_parameter =
-            |index: usize| mean(&curves.iter().map(|curve| curve.2[index]).collect::<Vec<f64>>());
+        let of_parameter = |index: usize| {
+            mean(
+                &curves
+                    .iter()
+                    .map(|curve| curve.2[index])
+                    .collect::<Vec<f64>>(),
+            )
+        };
         let centre = [of_parameter(0), of_parameter(1)];
-        let mut learned = Learned { standard, halves: [Vec::new(), Vec::new()], centre };
+        let mut learned = Learned {
+            standard,
+            halves: [Vec::new(), Vec::new()],
+            centre,
+        };
         learned.halves = [0, 1].map(|half| learned.coefficients(curves, half));
         learned
     }
 
     fn coefficients(&self, curves: &[(u64, Described, [f64; 2])], half: u64) -> Vec<[f64; 2]> {
         let columns = self.terms(&curves[0].1).len();
-        let (mut products, mut right) = (vec![0.0; columns * columns], [0, 1].map(|_| vec![0.0; columns]));
+        let (mut products, mut right) = (
+            vec![0.0; columns * columns],
+            [0, 1].map(|_| vec![0.0; columns]),
+        );
         for (_, described, parameters) in curves.iter().filter(|curve| curve.0 % 2 == half) {
             let terms = self.terms(described);
             for (row, one) in terms.iter().enumerate() {
                 let sums = products[row * columns..][..=row].iter_mut();
-                sums.zip(&terms).for_each(|(sum, other)| *sum += one * other);
+                sums.zip(&terms)
+                    .for_each(|(sum, other)| *sum += one * other);
                 for (parameter, sums) in right.iter_mut().enumerate() {
                     sums[row] += one * (parameters[parameter] - self.centre[parameter]);
                 }
@@ -64,20 +81,25 @@ impl Learned {
         }
         let on_diagonal = |index: usize| index * (columns + 1);
         let trace: f64 = (0..columns).map(|index| products[on_diagonal(index)]).sum();
-        (0..columns).for_each(|index| products[on_diagonal(index)] += RIDGE * trace / columns as f64);
-        let Some(factor) = Cholesky::new(products, columns) else { return vec![[0.0; 2]; columns] };
+        (0..columns)
+            .for_each(|index| products[on_diagonal(index)] += RIDGE * trace / columns as f64);
+        let Some(factor) = Cholesky::new(products, columns) else {
+            return vec![[0.0; 2]; columns];
+        };
         let [work, modulus] = right.map(|right| factor.solve(right));
-        work.into_iter().zip(modulus).map(<[f64; 2]>::from).collect()
+        work.into_iter()
+            .zip(modulus)
+            .map(<[f64; 2]>::from)
+            .collect()
     }
 
     /// Returns 1, the standardised summaries and all their products.
     fn terms(&self, described: &Described) -> Vec<f64> {
         let standardised = described.values().zip(&self.standard);
         let all: Vec<f64> = std::iter::once(1.0)
-            .chain(
-                standardised
-                    .map(|(value, (mean, deviation))| ((value - mean) / deviation).clamp(-LARGEST, LARGEST)),
-            )
+            .chain(standardised.map(|(value, (mean, deviation))| {
+                ((value - mean) / deviation).clamp(-LARGEST, LARGEST)
+            }))
             .collect();
         (0..all.len())
             .flat_map(|one| (0..=one).map(move |other| (one, other)))
@@ -87,7 +109,11 @@ impl Learned {
 
     fn by_half(&self, terms: &[f64], half: usize) -> [f64; 2] {
         let sum = |parameter: usize| {
-            terms.iter().zip(&self.halves[half]).map(|(term, of)| term * of[parameter]).sum::<f64>()
+            terms
+                .iter()
+                .zip(&self.halves[half])
+                .map(|(term, of)| term * of[parameter])
+                .sum::<f64>()
         };
         [self.centre[0] + sum(0), self.centre[1] + sum(1)]
     }
@@ -117,7 +143,10 @@ mod tests {
         let mut generator = ChaCha8Rng::seed_from_u64(1);
         let mut random = || {
             let summaries: Summaries = std::array::from_fn(|_| generator.random_range(-1.0..1.0));
-            Described { summaries, preload: Some(generator.random_range(5.0..6.0)) }
+            Described {
+                summaries,
+                preload: Some(generator.random_range(5.0..6.0)),
+            }
         };
         let parameters = |of: &Described| {
             let [one, other, third] = [of.summaries[0], of.summaries[4], of.preload.unwrap()];
@@ -128,7 +157,11 @@ mod tests {
                 let of = random();
                 // The lines of one half are off by 1: the other half does not learn it.
                 let [work, modulus] = parameters(&of);
-                (index % 16, of, [work + f64::from(u8::from(index % 2 == 0)), modulus])
+                (
+                    index % 16,
+                    of,
+                    [work + f64::from(u8::from(index % 2 == 0)), modulus],
+                )
             })
             .collect();
         let learned = Learned::from(&curves);
@@ -140,7 +173,10 @@ mod tests {
             (learned.of_curve(&of), [work + 0.5, modulus]),
         ] {
             assert!(
-                found.iter().zip(expected).all(|(one, other)| (one - other).abs() < 0.01),
+                found
+                    .iter()
+                    .zip(expected)
+                    .all(|(one, other)| (one - other).abs() < 0.01),
                 "{found:?} {expected:?}"
             );
         }

@@ -29,9 +29,10 @@ impl Measured {
         let mut branches = Vec::with_capacity(curves.len());
         for (name, curve) in curves {
             let of = Branches::of(curve).map_err(|error| match error {
-                ExperimentError::Refused { found, allowed } => {
-                    ExperimentError::Refused { found: format!("{name}: {found}"), allowed }
-                }
+                ExperimentError::Refused { found, allowed } => ExperimentError::Refused {
+                    found: format!("{name}: {found}"),
+                    allowed,
+                },
                 error => error,
             })?;
             if of.preload() <= of.noise {
@@ -42,14 +43,20 @@ impl Measured {
             }
             branches.push(of);
         }
-        let noise = median(&mut branches.iter().map(|of| of.noise).collect::<Vec<_>>()).unwrap_or_default();
+        let noise =
+            median(&mut branches.iter().map(|of| of.noise).collect::<Vec<_>>()).unwrap_or_default();
         let is_alike = |of: &Branches| (of.noise / noise).ln().abs() < ONE_NOISE.ln();
         if branches.iter().all(is_alike) {
             branches.iter_mut().for_each(|of| of.noise = noise);
         }
         let preloads: Vec<f64> = branches.iter().map(Branches::preload).collect();
         let average = mean(&preloads);
-        let by_noise = mean(&branches.iter().map(Branches::preload_error).collect::<Vec<_>>());
+        let by_noise = mean(
+            &branches
+                .iter()
+                .map(Branches::preload_error)
+                .collect::<Vec<_>>(),
+        );
         let scatter = standard_deviation(&preloads, average);
         let differ = curves.len() > 1 && scatter > DIFFERENT * by_noise;
         let preload_of = |index: usize| if differ { preloads[index] } else { average };
@@ -57,17 +64,35 @@ impl Measured {
         let summaries = branches.iter().enumerate().map(of).collect();
         let of = |(index, branches): (usize, &Branches)| Protocol::of(branches, preload_of(index));
         let protocols = branches.iter().enumerate().map(of).collect();
-        Ok(Measured { protocols, preload_scatter: differ.then(|| scatter / average), preloads, summaries })
+        Ok(Measured {
+            protocols,
+            preload_scatter: differ.then(|| scatter / average),
+            preloads,
+            summaries,
+        })
     }
 
     pub fn mean(&self) -> Mean {
-        let of = |index: usize| mean(&self.summaries.iter().map(|of| of[index]).collect::<Vec<_>>());
-        Mean { summaries: std::array::from_fn(of), curves: self.summaries.len() }
+        let of = |index: usize| {
+            mean(
+                &self
+                    .summaries
+                    .iter()
+                    .map(|of| of[index])
+                    .collect::<Vec<_>>(),
+            )
+        };
+        Mean {
+            summaries: std::array::from_fn(of),
+            curves: self.summaries.len(),
+        }
     }
 
     /// Returns the summaries of a curve, with its preload if the preloads differ.
     pub fn described(&self, summaries: Summaries, curve: usize) -> Described {
-        let preload = self.preload_scatter.map(|_| self.protocols[curve % self.protocols.len()].preload.ln());
+        let preload = self
+            .preload_scatter
+            .map(|_| self.protocols[curve % self.protocols.len()].preload.ln());
         Described { summaries, preload }
     }
 }

@@ -60,7 +60,11 @@ impl Body {
         });
         scene.material = Material::effective(1e6);
         scene.adhesion = Some(Adhesion::by_work(work));
-        scene.loading_stiffness = if matches!(self, Body::Flat) { None } else { Some(30.0) };
+        scene.loading_stiffness = if matches!(self, Body::Flat) {
+            None
+        } else {
+            Some(30.0)
+        };
         scene.loading = vec![Move::ToForce(1e-5), Move::ToSeparation];
         scene.numerics.points = 512;
         scene
@@ -90,7 +94,12 @@ impl Specimen {
             ..given.clone()
         };
         let noise = 0.005 * 4.0_f64.powf(random());
-        Specimen { given, truth, noise, curves: CURVES[number as usize % CURVES.len()] }
+        Specimen {
+            given,
+            truth,
+            noise,
+            curves: CURVES[number as usize % CURVES.len()],
+        }
     }
 
     fn work(&self) -> f64 {
@@ -107,10 +116,14 @@ impl Specimen {
         scene.numerics.samples = SAMPLES;
         scene.set_seed(seed);
         let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
-        let outcome = simulation.run(&scene.checked().unwrap(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = simulation
+            .run(&scene.checked().unwrap(), &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         let branch = |number: usize| -> Vec<(f64, f64)> {
             let points = outcome.history.legs[number].curve.iter();
-            points.map(|point| (point.indentation + point.force / stiffness, point.force)).collect()
+            points
+                .map(|point| (point.indentation + point.force / stiffness, point.force))
+                .collect()
         };
         let pressed = ascending(branch(0));
         let mirrored = |(displacement, force): &(f64, f64)| (-displacement, *force);
@@ -122,7 +135,11 @@ impl Specimen {
         let (mut displacements, mut forces) = (Vec::new(), Vec::new());
         for (index, noise) in noise.iter().enumerate().take(2 * POINTS) {
             let is_pressed = index < POINTS;
-            let at = displacement(if is_pressed { index } else { 2 * POINTS - 1 - index });
+            let at = displacement(if is_pressed {
+                index
+            } else {
+                2 * POINTS - 1 - index
+            });
             let force = match is_pressed {
                 true => interpolated(&pressed, at, [0.0, pressed[pressed.len() - 1].1]),
                 false => interpolated(&pulled, -at, [pulled[0].1, 0.0]),
@@ -130,7 +147,10 @@ impl Specimen {
             displacements.push(at);
             forces.push(force + noise);
         }
-        let options = CurveOptions { negate: Some(Negate::None), ..CurveOptions::default() };
+        let options = CurveOptions {
+            negate: Some(Negate::None),
+            ..CurveOptions::default()
+        };
         MeasuredCurve::from_columns(&displacements, &forces, &options).unwrap()
     }
 
@@ -138,10 +158,22 @@ impl Specimen {
     fn fit(&self, number: u64, lines: u64) -> EnsembleFit {
         let mut simulation = Simulation::default();
         let seeds = (0..self.curves).map(|index| FIRST_SEED + 97 * (1000 * number + index));
-        let curves: Vec<_> =
-            seeds.map(|seed| (seed.to_string(), self.curve(&mut simulation, seed))).collect();
-        let options = EnsembleOptions { lines, is_modulus_free: true, height_error: None, hurst_error: None };
-        fit_ensemble(&curves, &document(&self.given), &options, Control::default().on_threads(2)).unwrap()
+        let curves: Vec<_> = seeds
+            .map(|seed| (seed.to_string(), self.curve(&mut simulation, seed)))
+            .collect();
+        let options = EnsembleOptions {
+            lines,
+            is_modulus_free: true,
+            height_error: None,
+            hurst_error: None,
+        };
+        fit_ensemble(
+            &curves,
+            &document(&self.given),
+            &options,
+            Control::default().on_threads(2),
+        )
+        .unwrap()
     }
 }
 
@@ -185,7 +217,11 @@ impl Tally {
     fn text(&self) -> String {
         let count = self.errors.len() as f64;
         let mean = self.errors.iter().sum::<f64>() / count;
-        let square = self.errors.iter().map(|error| (error - mean).powi(2)).sum::<f64>();
+        let square = self
+            .errors
+            .iter()
+            .map(|error| (error - mean).powi(2))
+            .sum::<f64>();
         let error = (square / (count - 1.0) / count).sqrt();
         let half_width = self.half_widths / count;
         let held = self.held;
@@ -195,13 +231,19 @@ impl Tally {
 
 /// Fits specimens of a body, each with its number of curves, and asserts that nearly all intervals hold the truth.
 fn check(body: Body) {
-    let effort = std::env::var("TEST_EFFORT").ok().and_then(|effort| effort.parse().ok());
+    let effort = std::env::var("TEST_EFFORT")
+        .ok()
+        .and_then(|effort| effort.parse().ok());
     let count = effort.unwrap_or(4).clamp(4, SPECIMENS);
     let mut tallies = [Tally::default(), Tally::default()];
     for number in 0..count {
         let specimen = Specimen::new(body, number);
         let fit = specimen.fit(number, 64);
-        assert!(fit.work.low < fit.work.value && fit.work.value < fit.work.high, "{:?}", fit.work);
+        assert!(
+            fit.work.low < fit.work.value && fit.work.value < fit.work.high,
+            "{:?}",
+            fit.work
+        );
         assert!(fit.modulus.low < fit.modulus.value && fit.modulus.value < fit.modulus.high);
         tallies[0].add(fit.work, specimen.work());
         tallies[1].add(fit.modulus, specimen.modulus());
@@ -221,7 +263,11 @@ fn check(body: Body) {
     }
     for (tally, name) in tallies.iter().zip(["γ", "E*"]) {
         println!("{body:?}, {name}: {}", tally.text());
-        assert!(count < SPECIMENS || tally.held >= LEAST_HELD, "{name}: {}", tally.text());
+        assert!(
+            count < SPECIMENS || tally.held >= LEAST_HELD,
+            "{name}: {}",
+            tally.text()
+        );
     }
 }
 
@@ -249,10 +295,16 @@ fn both_intervals_hold_the_truth_of_three_bodies() {
     for body in [Body::Cone, Body::Sphere, Body::Flat] {
         let specimen = Specimen::new(body, 0);
         let fit = specimen.fit(0, 32);
-        for (found, truth) in [(fit.work, specimen.work()), (fit.modulus, specimen.modulus())] {
+        for (found, truth) in [
+            (fit.work, specimen.work()),
+            (fit.modulus, specimen.modulus()),
+        ] {
             let IntervalEstimate { value, low, high } = found;
             assert!(low < truth && truth < high, "{body:?}: {found:?} {truth:e}");
-            assert!(low < value && value < high && high / low > 1.004, "{body:?}: {found:?}");
+            assert!(
+                low < value && value < high && high / low > 1.004,
+                "{body:?}: {found:?}"
+            );
         }
     }
 }
@@ -263,10 +315,18 @@ fn both_intervals_hold_the_truth_of_three_bodies() {
 fn computed_curves_have_the_summaries_of_measured_ones() {
     const LINES: u64 = 32;
     for body in [Body::Cone, Body::Sphere, Body::Flat] {
-        let specimen = Specimen { noise: 0.003, ..Specimen::new(body, 0) };
+        let specimen = Specimen {
+            noise: 0.003,
+            ..Specimen::new(body, 0)
+        };
         let truth = specimen.truth.clone().checked().unwrap();
         let mut simulation = Simulation::default();
-        let curve = |line: u64| (line.to_string(), specimen.curve(&mut simulation, seed_of(&truth, line)));
+        let curve = |line: u64| {
+            (
+                line.to_string(),
+                specimen.curve(&mut simulation, seed_of(&truth, line)),
+            )
+        };
         let measured = Measured::of(&(0..LINES).map(curve).collect::<Vec<_>>()).unwrap();
         let table = super::computed::Specimen {
             scene: &truth,
@@ -275,12 +335,21 @@ fn computed_curves_have_the_summaries_of_measured_ones() {
             protocols: &measured.protocols,
             stop: &|| false,
         };
-        let [range, modulus] = [(specimen.work() / specimen.modulus()).ln(), specimen.modulus().ln()];
-        let computed = |line: u64| table.curves(&mut simulation, line, &[range], &[modulus]).unwrap()[0];
+        let [range, modulus] = [
+            (specimen.work() / specimen.modulus()).ln(),
+            specimen.modulus().ln(),
+        ];
+        let computed = |line: u64| {
+            table
+                .curves(&mut simulation, line, &[range], &[modulus])
+                .unwrap()[0]
+        };
         let computed: Vec<Summaries> = (0..LINES).map(computed).collect();
         for (index, name) in NAMES.into_iter().enumerate() {
             let pairs = computed.iter().zip(&measured.summaries);
-            let differences: Vec<f64> = pairs.map(|(one, other)| other[index] - one[index]).collect();
+            let differences: Vec<f64> = pairs
+                .map(|(one, other)| other[index] - one[index])
+                .collect();
             let values: Vec<f64> = computed.iter().map(|summaries| summaries[index]).collect();
             let scatter = standard_deviation(&values, mean(&values));
             let difference = mean(&differences);

@@ -28,11 +28,16 @@ pub(crate) fn placed(
     known: Option<f64>,
 ) -> Result<Place, ExperimentError> {
     let target = measured.mean().summaries;
-    let of_roughness = governing.amplitude.map_or(0.0, |of| of.rms_height * of.rms_gradient);
+    let of_roughness = governing
+        .amplitude
+        .map_or(0.0, |of| of.rms_height * of.rms_gradient);
     let largest = of_roughness.max(f64::MIN_POSITIVE).ln();
     let modulus = governing.effective_modulus.ln();
     let width = |index: usize| (NODES[index] - 1) as f64 * STEPS[index];
-    let (mut low, mut soft) = (largest - HIGHEST_KAPPA.powi(2).ln(), modulus - 0.5 * width(1));
+    let (mut low, mut soft) = (
+        largest - HIGHEST_KAPPA.powi(2).ln(),
+        modulus - 0.5 * width(1),
+    );
     let variance = 1.0 / measured.summaries.len() as f64 + 1.0 / LINES as f64;
     for last in (0..MOST_MOVES).rev() {
         let ranges = nodes(low, STEPS[0], NODES[0]);
@@ -52,13 +57,18 @@ pub(crate) fn placed(
         let within = |axis: &[f64]| {
             let fine = FINE_STEPS * (axis.len() - 1);
             let (first, last) = (axis[0], axis[axis.len() - 1]);
-            (0..=fine).map(move |index| first + (last - first) * index as f64 / fine.max(1) as f64).collect()
+            (0..=fine)
+                .map(move |index| first + (last - first) * index as f64 / fine.max(1) as f64)
+                .collect()
         };
         let (ranges, moduli): (Vec<f64>, Vec<f64>) = (within(&table.ranges), within(&table.moduli));
-        let places =
-            ranges.iter().flat_map(|&range| moduli.iter().map(move |&modulus| Place { range, modulus }));
+        let places = ranges
+            .iter()
+            .flat_map(|&range| moduli.iter().map(move |&modulus| Place { range, modulus }));
         let misfits = places.map(|place| (misfit(place), place));
-        let Some((_, best)) = misfits.min_by(|one, other| one.0.total_cmp(&other.0)) else { break };
+        let Some((_, best)) = misfits.min_by(|one, other| one.0.total_cmp(&other.0)) else {
+            break;
+        };
         let is_at_end = |axis: &[f64], at: f64, step: f64| {
             axis.len() > 1 && (at - axis[0]).min(axis[axis.len() - 1] - at) < 0.5 * step
         };
@@ -76,5 +86,8 @@ pub(crate) fn placed(
             soft = best.modulus - 0.5 * width(1);
         }
     }
-    Ok(Place { range: low, modulus })
+    Ok(Place {
+        range: low,
+        modulus,
+    })
 }

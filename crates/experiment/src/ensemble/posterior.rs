@@ -43,12 +43,20 @@ impl IntervalEstimate {
     }
 
     pub(crate) fn known(value: f64) -> Self {
-        IntervalEstimate { value, low: value, high: value }
+        IntervalEstimate {
+            value,
+            low: value,
+            high: value,
+        }
     }
 
     /// Returns the estimate of a parameter that has an upper bound only.
     pub(crate) fn at_most(self, most: f64) -> Self {
-        IntervalEstimate { value: self.value.min(most), low: 0.0, high: most }
+        IntervalEstimate {
+            value: self.value.min(most),
+            low: 0.0,
+            high: most,
+        }
     }
 
     /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural logarithm.
@@ -114,10 +122,22 @@ impl Likelihood {
     /// The grid begins with the whole table. It is cut to the values that have a probability, and widened where the
     /// probability does not end, until no value of a parameter has much of the probability.
     pub fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
-        let observed = Observed { prediction, variance: 1.0 / curves + 1.0 / self.lines };
+        let observed = Observed {
+            prediction,
+            variance: 1.0 / curves + 1.0 / self.lines,
+        };
         let [low, high] = self.ranges;
         let [soft, hard] = self.moduli;
-        let whole = [Extent { low: low + soft, high: high + hard }, Extent { low: soft, high: hard }];
+        let whole = [
+            Extent {
+                low: low + soft,
+                high: high + hard,
+            },
+            Extent {
+                low: soft,
+                high: hard,
+            },
+        ];
         let mut extents = whole;
         let mut posterior = self.on_grid(&observed, extents);
         for _ in 1..MOST_GRIDS {
@@ -137,7 +157,13 @@ impl Likelihood {
         let mut weights = Vec::with_capacity(axes[0].len() * axes[1].len());
         for work in &axes[0] {
             for modulus in &axes[1] {
-                weights.push(self.logarithm(observed, Place { range: work - modulus, modulus: *modulus }));
+                weights.push(self.logarithm(
+                    observed,
+                    Place {
+                        range: work - modulus,
+                        modulus: *modulus,
+                    },
+                ));
             }
         }
         let largest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -147,7 +173,12 @@ impl Likelihood {
             sum += *weight;
         }
         weights.iter_mut().for_each(|weight| *weight /= sum);
-        Posterior { axes, weights, ranges: self.ranges, moduli: self.moduli }
+        Posterior {
+            axes,
+            weights,
+            ranges: self.ranges,
+            moduli: self.moduli,
+        }
     }
 
     /// Returns the logarithm of the probability density, up to a constant. A power in place of an exponential allows for the
@@ -175,7 +206,9 @@ impl Extent {
         if self.width() == 0.0 {
             return vec![self.low];
         }
-        (0..=CELLS).map(|index| self.low + self.width() * index as f64 / CELLS as f64).collect()
+        (0..=CELLS)
+            .map(|index| self.low + self.width() * index as f64 / CELLS as f64)
+            .collect()
     }
 }
 
@@ -185,7 +218,11 @@ impl Posterior {
         let moduli = self.axes[1].len();
         let mut sums = vec![0.0; self.axes[axis].len()];
         for (index, weight) in self.weights.iter().enumerate() {
-            let value = if axis == 0 { index / moduli } else { index % moduli };
+            let value = if axis == 0 {
+                index / moduli
+            } else {
+                index % moduli
+            };
             sums[value] += weight;
         }
         sums
@@ -196,7 +233,10 @@ impl Posterior {
     fn extent(&self, axis: usize, whole: Extent) -> Extent {
         let values = &self.axes[axis];
         let last = values.len() - 1;
-        let present = Extent { low: values[0], high: values[last] };
+        let present = Extent {
+            low: values[0],
+            high: values[last],
+        };
         if last == 0 {
             return present;
         }
@@ -207,25 +247,44 @@ impl Posterior {
         let grows_below = first_present == 0 && present.low > whole.low;
         let grows_above = last_present == last && present.high < whole.high;
         if grows_below || grows_above {
-            let low = if grows_below { present.low - present.width() } else { present.low };
-            let high = if grows_above { present.high + present.width() } else { present.high };
-            return Extent { low: low.max(whole.low), high: high.min(whole.high) };
+            let low = if grows_below {
+                present.low - present.width()
+            } else {
+                present.low
+            };
+            let high = if grows_above {
+                present.high + present.width()
+            } else {
+                present.high
+            };
+            return Extent {
+                low: low.max(whole.low),
+                high: high.min(whole.high),
+            };
         }
         let most = probabilities.iter().copied().fold(0.0, f64::max);
         if most <= MOST_AT_VALUE || present.width() < LEAST_STEP * CELLS as f64 {
             return present;
         }
         let first = first_present.saturating_sub(MARGIN);
-        Extent { low: values[first], high: values[(last_present + MARGIN).min(last)] }
+        Extent {
+            low: values[first],
+            high: values[(last_present + MARGIN).min(last)],
+        }
     }
 
     /// Returns the most probable place.
     pub fn best(&self) -> Place {
         let weights = self.weights.iter().enumerate();
-        let most = weights.max_by(|one, other| one.1.total_cmp(other.1)).map_or(0, |(index, _)| index);
+        let most = weights
+            .max_by(|one, other| one.1.total_cmp(other.1))
+            .map_or(0, |(index, _)| index);
         let moduli = self.axes[1].len();
         let [work, modulus] = [self.axes[0][most / moduli], self.axes[1][most % moduli]];
-        Place { range: work - modulus, modulus }
+        Place {
+            range: work - modulus,
+            modulus,
+        }
     }
 
     /// Returns γ in J/m² for the parameter 0, and E* in Pa for the parameter 1.
@@ -241,7 +300,9 @@ impl Posterior {
     pub fn most_work(&self) -> f64 {
         let densities = self.along(0);
         let largest = densities.iter().copied().fold(0.0, f64::max);
-        let last = densities.iter().rposition(|density| *density >= NOT_EXCLUDED * largest);
+        let last = densities
+            .iter()
+            .rposition(|density| *density >= NOT_EXCLUDED * largest);
         self.axes[0][last.unwrap_or(densities.len() - 1)].exp()
     }
 
@@ -261,11 +322,17 @@ impl Posterior {
             return 0.0;
         }
         let [work, modulus] = [self.mean(|work, _| work), self.mean(|_, modulus| modulus)];
-        let variances =
-            [self.mean(|other, _| (other - work).powi(2)), self.mean(|_, other| (other - modulus).powi(2))];
+        let variances = [
+            self.mean(|other, _| (other - work).powi(2)),
+            self.mean(|_, other| (other - modulus).powi(2)),
+        ];
         let covariance = self.mean(|one, other| (one - work) * (other - modulus));
         let scale = (variances[0] * variances[1]).sqrt();
-        if scale > 0.0 { (covariance / scale).clamp(-1.0, 1.0) } else { 0.0 }
+        if scale > 0.0 {
+            (covariance / scale).clamp(-1.0, 1.0)
+        } else {
+            0.0
+        }
     }
 
     /// Returns the ends of the table beyond which the parameters may lie.
@@ -277,9 +344,20 @@ impl Posterior {
             End::LowModulus => hard > soft && modulus < soft + EDGE,
             End::HighModulus => hard > soft && modulus > hard - EDGE,
         };
-        let mut ends = vec![End::LowRange, End::HighRange, End::LowModulus, End::HighModulus];
+        let mut ends = vec![
+            End::LowRange,
+            End::HighRange,
+            End::LowModulus,
+            End::HighModulus,
+        ];
         ends.retain(|end| {
-            self.mean(|work, modulus| if is_near(work, modulus, *end) { 1.0 } else { 0.0 }) > MOST_AT_END
+            self.mean(|work, modulus| {
+                if is_near(work, modulus, *end) {
+                    1.0
+                } else {
+                    0.0
+                }
+            }) > MOST_AT_END
         });
         ends
     }
@@ -288,14 +366,22 @@ impl Posterior {
 /// Returns the value below which a parameter lies with the probability `share`. The density is linear between the values of
 /// the axis, at which it is in proportion to `probabilities`.
 fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
-    let cells = || probabilities.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+    let cells = || {
+        probabilities
+            .windows(2)
+            .map(|ends| 0.5 * (ends[0] + ends[1]))
+    };
     let mut rest = share * cells().sum::<f64>();
     for (index, cell) in cells().enumerate() {
         if rest <= cell {
             let [from, to] = [probabilities[index], probabilities[index + 1]];
             // The positive root of from·x + (to − from)·x²/2 = rest.
             let root = (from * from + 2.0 * (to - from) * rest).max(0.0).sqrt();
-            let part = if from + root > 0.0 { 2.0 * rest / (from + root) } else { 0.0 };
+            let part = if from + root > 0.0 {
+                2.0 * rest / (from + root)
+            } else {
+                0.0
+            };
             return values[index] + part.clamp(0.0, 1.0) * (values[index + 1] - values[index]);
         }
         rest -= cell;
@@ -310,10 +396,19 @@ mod tests {
 
     /// Learned values that are the parameters themselves, whose deviations over the profiles have this standard deviation and
     /// this correlation of ln γ and ln E*.
-    fn likelihood(deviation: f64, correlation: f64, known: Option<f64>, lines: usize) -> Likelihood {
+    fn likelihood(
+        deviation: f64,
+        correlation: f64,
+        known: Option<f64>,
+        lines: usize,
+    ) -> Likelihood {
         let axis = |count: u8, step: f64| (0..count).map(|at| step * f64::from(at) - 1.5).collect();
         let moduli = known.map_or_else(|| axis(7, 0.5), |modulus| vec![modulus]);
-        let mut table = Table { ranges: axis(16, 0.2), moduli, lines: Vec::new() };
+        let mut table = Table {
+            ranges: axis(16, 0.2),
+            moduli,
+            lines: Vec::new(),
+        };
         let places: Vec<Place> = table.places().collect();
         table.lines = vec![vec![[0.0; SUMMARIES]; places.len()]; lines];
         // Two uncorrelated values of each profile, of this standard deviation.
@@ -325,18 +420,30 @@ mod tests {
             if known.is_some() {
                 return [work + one, 0.0];
             }
-            [work + one, modulus + correlation * one + (1.0 - correlation * correlation).sqrt() * other]
+            [
+                work + one,
+                modulus + correlation * one + (1.0 - correlation * correlation).sqrt() * other,
+            ]
         });
         Likelihood::new(&table, &scatter, known)
     }
 
     /// Asserts that an interval of a parameter is that of a normal distribution.
     fn assert_normal(found: IntervalEstimate, mean: f64, error: f64) {
-        assert!(found.low < found.value && found.value < found.high, "{found:?}");
-        assert!((found.value.ln() - mean).abs() < 0.01 * error, "{found:?}: {mean} {error}");
+        assert!(
+            found.low < found.value && found.value < found.high,
+            "{found:?}"
+        );
+        assert!(
+            (found.value.ln() - mean).abs() < 0.01 * error,
+            "{found:?}: {mean} {error}"
+        );
         for (end, sign) in [(found.low, -1.0), (found.high, 1.0)] {
             let expected = mean + sign * 1.96 * error;
-            assert!((end.ln() - expected).abs() < 0.02 * error, "{found:?}: {mean} {error}");
+            assert!(
+                (end.ln() - expected).abs() < 0.02 * error,
+                "{found:?}: {mean} {error}"
+            );
         }
     }
 
@@ -359,7 +466,10 @@ mod tests {
                     );
                     let best = posterior.best();
                     let [work, modulus] = best.parameters();
-                    assert!((work - place).abs().max((modulus - 0.03).abs()) < 0.5 * error, "{best:?}");
+                    assert!(
+                        (work - place).abs().max((modulus - 0.03).abs()) < 0.5 * error,
+                        "{best:?}"
+                    );
                 }
                 let one = likelihood(deviation, 0.0, Some(0.3), 1000);
                 let posterior = one.posterior([place, 0.0], 8.0);
@@ -374,9 +484,15 @@ mod tests {
         // The density x over 0 to 2 has the distribution x²/4, and the density 2 − x that of its mirror image.
         for share in [0.0_f64, 0.01, 0.25, 0.3, 0.9, 1.0] {
             let rising = quantile(&[0.0, 1.0, 2.0], &[0.0, 1.0, 2.0], share);
-            assert!((rising - 2.0 * share.sqrt()).abs() < 1e-12, "{share}: {rising}");
+            assert!(
+                (rising - 2.0 * share.sqrt()).abs() < 1e-12,
+                "{share}: {rising}"
+            );
             let falling = quantile(&[0.0, 1.0, 2.0], &[2.0, 1.0, 0.0], share);
-            assert!((falling - (2.0 - 2.0 * (1.0 - share).sqrt())).abs() < 1e-7, "{share}: {falling}");
+            assert!(
+                (falling - (2.0 - 2.0 * (1.0 - share).sqrt())).abs() < 1e-7,
+                "{share}: {falling}"
+            );
         }
         assert_eq!(quantile(&[5.0], &[1.0], 0.5), 5.0);
     }
@@ -384,12 +500,16 @@ mod tests {
     /// A probability that the table cuts off, or that fills the whole table, has an interval within the table.
     #[test]
     fn intervals_end_with_the_table() {
-        for (deviation, work, modulus) in
-            [(30.0, 0.0, 0.0), (0.2, 4.0, 0.0), (0.01, -2.9, -1.6), (3.0, 0.0, -3.0)]
-        {
+        for (deviation, work, modulus) in [
+            (30.0, 0.0, 0.0),
+            (0.2, 4.0, 0.0),
+            (0.01, -2.9, -1.6),
+            (3.0, 0.0, -3.0),
+        ] {
             let posterior = likelihood(deviation, 0.5, None, 64).posterior([work, modulus], 2.0);
             assert!(!posterior.beyond().is_empty());
-            for (parameter, [least, most]) in [[-3.0_f64, 3.0], [-1.5, 1.5]].into_iter().enumerate() {
+            for (parameter, [least, most]) in [[-3.0_f64, 3.0], [-1.5, 1.5]].into_iter().enumerate()
+            {
                 let IntervalEstimate { value, low, high } = posterior.estimate(parameter);
                 assert!(
                     least <= low.ln() && low < value && value < high && high.ln() <= most,
@@ -402,12 +522,23 @@ mod tests {
     #[test]
     fn ends_of_the_table_are_named_and_errors_add_in_quadrature() {
         let likelihood = likelihood(0.2, 0.0, None, 64);
-        assert_eq!(likelihood.posterior([1.4, -0.1], 8.0).beyond(), [End::HighRange]);
-        assert_eq!(likelihood.posterior([0.0, -1.4], 8.0).beyond(), [End::HighRange, End::LowModulus]);
-        let widened =
-            IntervalEstimate { value: 1.0, low: (-0.3_f64).exp(), high: 0.4_f64.exp() }.widened(0.3);
+        assert_eq!(
+            likelihood.posterior([1.4, -0.1], 8.0).beyond(),
+            [End::HighRange]
+        );
+        assert_eq!(
+            likelihood.posterior([0.0, -1.4], 8.0).beyond(),
+            [End::HighRange, End::LowModulus]
+        );
+        let widened = IntervalEstimate {
+            value: 1.0,
+            low: (-0.3_f64).exp(),
+            high: 0.4_f64.exp(),
+        }
+        .widened(0.3);
         assert!(
-            (widened.low.ln() + 0.3_f64.hypot(0.3)).abs() < 1e-12 && (widened.high.ln() - 0.5).abs() < 1e-12
+            (widened.low.ln() + 0.3_f64.hypot(0.3)).abs() < 1e-12
+                && (widened.high.ln() - 0.5).abs() < 1e-12
         );
     }
 }

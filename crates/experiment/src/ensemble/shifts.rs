@@ -25,22 +25,37 @@ pub(crate) struct Shifts<'a> {
 impl Shifts<'_> {
     /// Returns the derivatives at a place, from `lines` random profiles; `None` for a measured roughness.
     pub fn at(&self, place: Place, lines: u64) -> Result<Option<RoughnessShifts>, ExperimentError> {
-        let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness else {
+        let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness
+        else {
             return Ok(None);
         };
         let step = HURST_STEP.min(0.5 * hurst).min(0.5 * (1.0 - hurst));
         let [work_by_height, modulus_by_height] =
             self.between(place, lines, HEIGHT_STEP, &|roughness, change| {
-                if let Roughness::SelfAffine { rms_height, rms_gradient, .. } = roughness {
-                    rms_height.iter_mut().chain(rms_gradient).for_each(|of| *of *= change.exp());
+                if let Roughness::SelfAffine {
+                    rms_height,
+                    rms_gradient,
+                    ..
+                } = roughness
+                {
+                    rms_height
+                        .iter_mut()
+                        .chain(rms_gradient)
+                        .for_each(|of| *of *= change.exp());
                 }
             })?;
-        let [work_by_hurst, modulus_by_hurst] = self.between(place, lines, step, &|roughness, change| {
-            if let Roughness::SelfAffine { hurst, .. } = roughness {
-                *hurst += change;
-            }
-        })?;
-        Ok(Some(RoughnessShifts { work_by_height, work_by_hurst, modulus_by_height, modulus_by_hurst }))
+        let [work_by_hurst, modulus_by_hurst] =
+            self.between(place, lines, step, &|roughness, change| {
+                if let Roughness::SelfAffine { hurst, .. } = roughness {
+                    *hurst += change;
+                }
+            })?;
+        Ok(Some(RoughnessShifts {
+            work_by_height,
+            work_by_hurst,
+            modulus_by_height,
+            modulus_by_hurst,
+        }))
     }
 
     /// Computes the derivatives of ln γ and ln E* with respect to a change of the roughness.
@@ -58,17 +73,26 @@ impl Shifts<'_> {
                 }
             });
             let scene = scene.map_err(RunError::from)?;
-            let others =
-                Workers { specimen: Specimen { scene: &scene, ..self.workers.specimen }, ..*self.workers };
+            let others = Workers {
+                specimen: Specimen {
+                    scene: &scene,
+                    ..self.workers.specimen
+                },
+                ..*self.workers
+            };
             let curves = others.curves(lines, &[place.range], &[place.modulus])?;
-            let of = |(line, curve): (usize, &Vec<_>)| self.compared.of_line(line, &curve[0], self.measured);
+            let of = |(line, curve): (usize, &Vec<_>)| {
+                self.compared.of_line(line, &curve[0], self.measured)
+            };
             let all: Vec<[f64; 2]> = curves.iter().enumerate().map(of).collect();
             let of = |index: usize| mean(&all.iter().map(|of| of[index]).collect::<Vec<_>>());
             Ok::<_, ExperimentError>([of(0), of(1)])
         };
         let [low, high] = [at(-step)?, at(step)?];
         // A model whose values are larger needs parameters that make them smaller again.
-        let shift = self.response.explain([0, 1].map(|index| low[index] - high[index]));
+        let shift = self
+            .response
+            .explain([0, 1].map(|index| low[index] - high[index]));
         Ok(shift.map(|shift| shift / (2.0 * step)))
     }
 }

@@ -36,7 +36,12 @@ pub(crate) type Summaries = [f64; SUMMARIES];
 /// displacement at first touch has no effect. Places between points are interpolated, because summaries that count points
 /// would change in steps with the parameters.
 pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
-    let Branches { approach, retraction, noise, .. } = branches;
+    let Branches {
+        approach,
+        retraction,
+        noise,
+        ..
+    } = branches;
     let backwards: Vec<Point> = approach.iter().rev().copied().collect();
     let range = retraction[0].0 - retraction[retraction.len() - 1].0;
     let spacing = range.abs() / retraction.len() as f64;
@@ -65,18 +70,27 @@ pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
 
 /// Integrates a function of the force over the displacement, J.
 fn work(branch: &[Point], of: impl Fn(f64) -> f64) -> f64 {
-    branch.windows(2).map(|pair| 0.5 * (of(pair[0].1) + of(pair[1].1)) * (pair[1].0 - pair[0].0)).sum()
+    branch
+        .windows(2)
+        .map(|pair| 0.5 * (of(pair[0].1) + of(pair[1].1)) * (pair[1].0 - pair[0].0))
+        .sum()
 }
 
 /// Returns the displacement in m at which the force first falls below a level; the last displacement if it never does.
 fn below(branch: &[Point], level: f64) -> f64 {
-    let next = branch.iter().position(|point| point.1 < level).unwrap_or(branch.len() - 1);
+    let next = branch
+        .iter()
+        .position(|point| point.1 < level)
+        .unwrap_or(branch.len() - 1);
     crossing(branch[next.saturating_sub(1)], branch[next], level)
 }
 
 /// Returns the displacement in m at which the magnitude of the force is above a level for the last time.
 fn loss(branch: &[Point], level: f64) -> f64 {
-    let last = branch.iter().rposition(|point| point.1.abs() > level).unwrap_or(0);
+    let last = branch
+        .iter()
+        .rposition(|point| point.1.abs() > level)
+        .unwrap_or(0);
     let next = (last + 1).min(branch.len() - 1);
     let size = |point: Point| (point.0, point.1.abs());
     crossing(size(branch[last]), size(branch[next]), level)
@@ -85,21 +99,34 @@ fn loss(branch: &[Point], level: f64) -> f64 {
 /// Returns the displacement between two points at which the force has a value.
 fn crossing(from: Point, to: Point, level: f64) -> f64 {
     let change = to.1 - from.1;
-    let share = if change == 0.0 { 1.0 } else { ((level - from.1) / change).clamp(0.0, 1.0) };
+    let share = if change == 0.0 {
+        1.0
+    } else {
+        ((level - from.1) / change).clamp(0.0, 1.0)
+    };
     from.0 + share * (to.0 - from.0)
 }
 
 /// Returns the largest tension in N and its displacement in m, from the parabola through neighbouring points.
 fn largest_tension(branch: &[Point]) -> (f64, f64) {
-    let smallest = branch.iter().enumerate().min_by(|one, other| one.1.1.total_cmp(&other.1.1));
+    let smallest = branch
+        .iter()
+        .enumerate()
+        .min_by(|one, other| one.1.1.total_cmp(&other.1.1));
     let index = smallest.map_or(0, |(index, _)| index);
     let at = branch[index];
-    let (Some(before), Some(after)) = (index.checked_sub(1).map(|one| branch[one]), branch.get(index + 1))
-    else {
+    let (Some(before), Some(after)) = (
+        index.checked_sub(1).map(|one| branch[one]),
+        branch.get(index + 1),
+    ) else {
         return (-at.1, at.0);
     };
     let bend = before.1 - 2.0 * at.1 + after.1;
-    let share = if bend > 0.0 { 0.5 * (before.1 - after.1) / bend } else { 0.0 };
+    let share = if bend > 0.0 {
+        0.5 * (before.1 - after.1) / bend
+    } else {
+        0.0
+    };
     (-at.1, at.0 + 0.5 * share * (after.0 - before.0))
 }
 
@@ -115,8 +142,16 @@ mod tests {
             .map(|at| (at, ramp(at, -100.0)))
             .filter(|at| at.0 < 0.0);
         let approach: Vec<Point> = approach.chain([(0.0, 100.0)]).collect();
-        let retraction = (0..=400).map(|at| -0.5 * f64::from(at)).map(|at| (at, ramp(at, -140.0))).collect();
-        Branches { approach, retraction, noise: 0.1, free: 50 }
+        let retraction = (0..=400)
+            .map(|at| -0.5 * f64::from(at))
+            .map(|at| (at, ramp(at, -140.0)))
+            .collect();
+        Branches {
+            approach,
+            retraction,
+            noise: 0.1,
+            free: 50,
+        }
     }
 
     #[test]
@@ -124,9 +159,14 @@ mod tests {
         let found = summaries(&sawtooth(), 100.0).map(f64::exp);
         // Forces, energies and distances; the floor of a tension is 3 noises, and a jump lies between two points.
         let least_work = 0.3 * (200.0 / 401.0) * 401.0_f64.sqrt();
-        let expected = [40.0, 810.0, 802.0, 50.0, 50.0, 100.0, 90.0, 140.0, 140.5, 0.3, least_work];
+        let expected = [
+            40.0, 810.0, 802.0, 50.0, 50.0, 100.0, 90.0, 140.0, 140.5, 0.3, least_work,
+        ];
         for ((found, expected), name) in found.into_iter().zip(expected).zip(NAMES) {
-            assert!((found / expected - 1.0).abs() < 0.01, "{name}: {found}, {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < 0.01,
+                "{name}: {found}, {expected}"
+            );
         }
     }
 

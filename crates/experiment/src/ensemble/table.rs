@@ -31,7 +31,9 @@ impl Workers<'_> {
         let worker = || {
             let mut simulation = Simulation::new(self.folder.to_path_buf());
             move |line: u64| {
-                let curves = self.specimen.curves(&mut simulation, line, ranges, moduli)?;
+                let curves = self
+                    .specimen
+                    .curves(&mut simulation, line, ranges, moduli)?;
                 let before = self.computed.fetch_add(curves.len(), Ordering::Relaxed);
                 (self.report)(before + curves.len());
                 Ok(curves)
@@ -43,7 +45,9 @@ impl Workers<'_> {
 
 /// Evenly spaced nodes.
 pub(crate) fn nodes(first: f64, step: f64, count: usize) -> Vec<f64> {
-    (0..count).map(|index| first + step * index as f64).collect()
+    (0..count)
+        .map(|index| first + step * index as f64)
+        .collect()
 }
 
 /// Grid of nodes, each with the summaries of the curves of all random profiles.
@@ -80,11 +84,20 @@ impl Table {
         moduli: Vec<f64>,
     ) -> Result<Self, ExperimentError> {
         let lines = workers.curves(lines, &ranges, &moduli)?;
-        Ok(Table { ranges, moduli, lines })
+        Ok(Table {
+            ranges,
+            moduli,
+            lines,
+        })
     }
 
     /// Adds `count` nodes at an end.
-    pub fn extend(&mut self, workers: &Workers<'_>, end: End, count: usize) -> Result<(), ExperimentError> {
+    pub fn extend(
+        &mut self,
+        workers: &Workers<'_>,
+        end: End,
+        count: usize,
+    ) -> Result<(), ExperimentError> {
         let axis = match end {
             End::LowRange | End::HighRange => &self.ranges,
             End::LowModulus | End::HighModulus => &self.moduli,
@@ -97,7 +110,11 @@ impl Table {
         let lines = self.lines.len() as u64;
         match end {
             End::LowRange | End::HighRange => {
-                let at = if end == End::LowRange { 0 } else { self.ranges.len() };
+                let at = if end == End::LowRange {
+                    0
+                } else {
+                    self.ranges.len()
+                };
                 let new = workers.curves(lines, &added, &self.moduli)?;
                 let start = at * self.moduli.len();
                 for (line, curves) in self.lines.iter_mut().zip(new) {
@@ -106,11 +123,17 @@ impl Table {
                 self.ranges.splice(at..at, added);
             }
             End::LowModulus | End::HighModulus => {
-                let at = if end == End::LowModulus { 0 } else { self.moduli.len() };
+                let at = if end == End::LowModulus {
+                    0
+                } else {
+                    self.moduli.len()
+                };
                 let new = workers.curves(lines, &self.ranges, &added)?;
                 for (line, curves) in self.lines.iter_mut().zip(new) {
                     let rows = line.chunks(self.moduli.len()).zip(curves.chunks(count));
-                    *line = rows.flat_map(|(old, new)| [&old[..at], new, &old[at..]].concat()).collect();
+                    *line = rows
+                        .flat_map(|(old, new)| [&old[..at], new, &old[at..]].concat())
+                        .collect();
                 }
                 self.moduli.splice(at..at, added);
             }
@@ -120,7 +143,11 @@ impl Table {
 
     /// Nodes in the order of the curves of a line.
     pub fn places(&self) -> impl Iterator<Item = Place> {
-        self.ranges.iter().flat_map(|&range| self.moduli.iter().map(move |&modulus| Place { range, modulus }))
+        self.ranges.iter().flat_map(|&range| {
+            self.moduli
+                .iter()
+                .map(move |&modulus| Place { range, modulus })
+        })
     }
 }
 
@@ -156,14 +183,28 @@ mod tests {
         };
         let (one, three) = (workers(1), workers(3));
         let mut grown = Table::new(&one, 3, nodes(-18.0, 0.5, 2), nodes(14.5, 0.5, 2)).unwrap();
-        for end in [End::LowRange, End::HighModulus, End::HighRange, End::LowModulus] {
+        for end in [
+            End::LowRange,
+            End::HighModulus,
+            End::HighRange,
+            End::LowModulus,
+        ] {
             grown.extend(&three, end, 1).unwrap();
         }
         assert_eq!(computed.load(Ordering::Relaxed), 3 * 16);
         let whole = Table::new(&three, 3, nodes(-18.5, 0.5, 4), nodes(14.0, 0.5, 4)).unwrap();
-        assert_eq!((&grown.ranges, &grown.moduli), (&whole.ranges, &whole.moduli));
+        assert_eq!(
+            (&grown.ranges, &grown.moduli),
+            (&whole.ranges, &whole.moduli)
+        );
         assert_eq!(grown.lines, whole.lines);
-        let stopped = Workers { specimen: Specimen { stop: &|| true, ..one.specimen }, ..one };
+        let stopped = Workers {
+            specimen: Specimen {
+                stop: &|| true,
+                ..one.specimen
+            },
+            ..one
+        };
         assert!(stopped.curves(1, &[-18.0], &[14.5]).is_err());
     }
 }

@@ -33,12 +33,18 @@ fn text_of(sample: Sample) -> String {
 /// areas or markers of this name, and at the end the name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
-    let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);
+    let classes = || {
+        charts
+            .iter()
+            .filter_map(Chart::map)
+            .flat_map(|map| &map.class_names)
+    };
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {
         let mut part: Vec<Text<'static>> = Vec::new();
-        let letter =
-            classes().find(|class| Label::plain(&class.name) == entry.name).and_then(|class| class.letter);
+        let letter = classes()
+            .find(|class| Label::plain(&class.name) == entry.name)
+            .and_then(|class| class.letter);
         for (ink, sample) in entry.samples {
             let text = match (sample, letter) {
                 (Sample::Line(..), Some(letter)) => letter.to_string(),

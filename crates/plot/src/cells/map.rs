@@ -21,7 +21,10 @@ pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec
     let value = |cell: u16| {
         let share = (f64::from(cell) + 0.5) / f64::from(cells);
         let at = axis.span.low + share * axis.span.width();
-        borders.partition_point(|border| *border <= at).clamp(1, values.len().max(1)) - 1
+        borders
+            .partition_point(|border| *border <= at)
+            .clamp(1, values.len().max(1))
+            - 1
     };
     (0..cells).map(value).collect()
 }
@@ -32,7 +35,13 @@ fn run(values: &[usize], cell: usize) -> Range<usize> {
     first(values[cell])..first(values[cell] + 1)
 }
 
-pub(super) fn draw(buffer: &mut Buffer, area: Rect, chart: &Chart, map: &HeatMap, style: &CellStyle<'_>) {
+pub(super) fn draw(
+    buffer: &mut Buffer,
+    area: Rect,
+    chart: &Chart,
+    map: &HeatMap,
+    style: &CellStyle<'_>,
+) {
     let columns = values_behind(&chart.x, &map.columns, area.width);
     let rows = values_behind(&chart.y, &map.rows, area.height);
     let cell = |column: usize, row: usize| rows[row] * map.columns.len() + columns[column];
@@ -40,7 +49,12 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, chart: &Chart, map: &HeatMap
         for (x, across) in (area.x..).zip(0..columns.len()) {
             let here = cell(across, up);
             let value = map.values.get(here).copied().flatten();
-            let class = map.classes.get(here).copied().flatten().and_then(|class| map.class_names.get(class));
+            let class = map
+                .classes
+                .get(here)
+                .copied()
+                .flatten()
+                .and_then(|class| map.class_names.get(class));
             let (mut symbol, looks) = match (value, style.colours) {
                 (None, _) => (" ", Style::new()),
                 (Some(value), Colours::None) => {
@@ -49,19 +63,28 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, chart: &Chart, map: &HeatMap
                 }
                 (Some(value), colours) => {
                     let ground = map.colour(value);
-                    (" ", Style::new().bg(colours.colour(ground)).fg(colours.colour(ink_on(ground))))
+                    (
+                        " ",
+                        Style::new()
+                            .bg(colours.colour(ground))
+                            .fg(colours.colour(ink_on(ground))),
+                    )
                 }
             };
             let (wide, high) = (run(&columns, across), run(&rows, up));
             let is_wide = wide.len() >= WITH_LETTER;
             let is_end = !is_wide || across == wide.start || across + 1 == wide.end;
-            let is_middle = across == wide.start + wide.len() / 2 && up == high.start + high.len() / 2;
+            let is_middle =
+                across == wide.start + wide.len() / 2 && up == high.start + high.len() / 2;
             let mut letter = [0; 4];
             if across + 1 < columns.len() && crosses(map, here, cell(across + 1, up)) {
                 symbol = "▕";
             } else if up > 0 && is_end && crosses(map, here, cell(across, up - 1)) {
                 symbol = "▁";
-            } else if let Some(Class { letter: Some(of_class), .. }) = class
+            } else if let Some(Class {
+                letter: Some(of_class),
+                ..
+            }) = class
                 && value.is_some()
                 && is_wide
                 && is_middle
@@ -79,9 +102,13 @@ fn step(share: f64) -> usize {
 }
 
 fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
-    let Some(contour) = &map.contour else { return false };
+    let Some(contour) = &map.contour else {
+        return false;
+    };
     let below = |cell: usize| Some(contour.field.get(cell).copied().flatten()? < contour.level);
-    below(cell).zip(below(other)).is_some_and(|(here, there)| here != there)
+    below(cell)
+        .zip(below(other))
+        .is_some_and(|(here, there)| here != there)
 }
 
 /// Returns the colour scale of a heat map as texts with styles, to be written one after the other. The scale has six numbers and,
@@ -92,11 +119,18 @@ pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Styl
     let steps = SHADES.len();
     let number = |step: usize| {
         let share = step as f64 / steps as f64;
-        let value = map.key.scale.number(map.key.span.low + share * map.key.span.width());
+        let value = map
+            .key
+            .scale
+            .number(map.key.span.low + share * map.key.span.width());
         format_rounded(value / divisor, 3, "")
     };
     // Without room for all numbers, only those at the ends are shown.
-    let all = (0..=steps).map(|step| number(step).chars().count()).sum::<usize>() + 5 * steps <= columns;
+    let all = (0..=steps)
+        .map(|step| number(step).chars().count())
+        .sum::<usize>()
+        + 5 * steps
+        <= columns;
     let mut parts = vec![(number(0), Style::new())];
     for (step, character) in SHADES.into_iter().enumerate() {
         let colour = map.shades.at((step as f64 + 0.5) / steps as f64);

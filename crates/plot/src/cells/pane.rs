@@ -56,7 +56,14 @@ pub fn split(area: Rect) -> (Rect, Option<Rect>) {
         return (area, None);
     }
     let width = area.width - BESIDE;
-    (Rect { width, ..area }, Some(Rect { x: area.x + width, width: BESIDE, ..area }))
+    (
+        Rect { width, ..area },
+        Some(Rect {
+            x: area.x + width,
+            width: BESIDE,
+            ..area
+        }),
+    )
 }
 
 /// Number of places along a curve at which its name may stand.
@@ -65,40 +72,70 @@ const NAMED_AT: usize = 19;
 /// Shares of a curve at which its name may stand, from the middle to both ends.
 fn shares() -> impl Iterator<Item = f64> {
     let step = 0.5 / (NAMED_AT as f64 + 1.0);
-    (0..NAMED_AT).map(move |place| 0.5 + if place % 2 == 0 { -1.0 } else { 1.0 } * step * place as f64)
+    (0..NAMED_AT)
+        .map(move |place| 0.5 + if place % 2 == 0 { -1.0 } else { 1.0 } * step * place as f64)
 }
 
 /// Returns the name of each entry of the legend with the points where it may be written, and the entry.
 fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<(Name, Entry)> {
-    let named = legend(std::slice::from_ref(chart), style).into_iter().filter_map(|entry| {
-        let text = entry.last()?.content.trim().to_owned();
-        let layers = chart.layers.iter().filter(|layer| layer.name.to_string() == text);
-        let ink = layers.clone().next()?.ink;
-        let points: Vec<_> = layers.flat_map(|layer| layer.shape.points()).collect();
-        let last = points.len().checked_sub(1);
-        let at = shares().filter_map(|share| Some(points[(share * last? as f64) as usize]));
-        Some((Name { at: at.collect(), texts: vec![text], ink }, entry))
-    });
+    let named = legend(std::slice::from_ref(chart), style)
+        .into_iter()
+        .filter_map(|entry| {
+            let text = entry.last()?.content.trim().to_owned();
+            let layers = chart
+                .layers
+                .iter()
+                .filter(|layer| layer.name.to_string() == text);
+            let ink = layers.clone().next()?.ink;
+            let points: Vec<_> = layers.flat_map(|layer| layer.shape.points()).collect();
+            let last = points.len().checked_sub(1);
+            let at = shares().filter_map(|share| Some(points[(share * last? as f64) as usize]));
+            Some((
+                Name {
+                    at: at.collect(),
+                    texts: vec![text],
+                    ink,
+                },
+                entry,
+            ))
+        });
     named.collect()
 }
 
 impl PaneChart {
     /// Creates a pane with this chart alone, without further charts and texts.
     pub fn new(chart: Chart) -> PaneChart {
-        PaneChart { chart, names: Vec::new(), beside: None, below: None, contact: ContactRow::default() }
+        PaneChart {
+            chart,
+            names: Vec::new(),
+            beside: None,
+            below: None,
+            contact: ContactRow::default(),
+        }
     }
 
     /// Divides an area of the screen among the charts of the pane. Returns the place of the main chart [`Self::chart`], and the area
     /// of the chart [`Self::beside`] on its right; `None` if this chart is missing or has no room.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
-        let (left, right) = if self.beside.is_some() { split(area) } else { (area, None) };
-        let left = Rect { height: left.height - self.rows_below(area), ..left };
+        let (left, right) = if self.beside.is_some() {
+            split(area)
+        } else {
+            (area, None)
+        };
+        let left = Rect {
+            height: left.height - self.rows_below(area),
+            ..left
+        };
         (self.scaled(left, &self.chart), right)
     }
 
     /// Divides an area between a plot and its scales, with a row for the signs of contact if there are any.
     fn scaled(&self, area: Rect, chart: &Chart) -> CellPlot {
-        if self.has_signs(area) { CellPlot::above(area, chart, 1) } else { CellPlot::within(area, chart) }
+        if self.has_signs(area) {
+            CellPlot::above(area, chart, 1)
+        } else {
+            CellPlot::within(area, chart)
+        }
     }
 
     fn has_signs(&self, area: Rect) -> bool {
@@ -108,15 +145,25 @@ impl PaneChart {
     /// Returns the number of rows of the chart below.
     fn rows_below(&self, area: Rect) -> u16 {
         let has_room = self.below.is_some() && area.height >= WITH_BELOW;
-        if has_room { (area.height / 4).clamp(*BELOW.start(), *BELOW.end()) } else { 0 }
+        if has_room {
+            (area.height / 4).clamp(*BELOW.start(), *BELOW.end())
+        } else {
+            0
+        }
     }
 
     /// Draws the chart below under the columns of the plot. The ends of its vertical axis are on the left, and its name is
     /// shown if there is room.
     fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let height = self.rows_below(area);
-        let Some(below) = self.below.as_ref().filter(|_| height > 0) else { return };
-        let place = Rect { y: area.bottom() - height, height, ..plot };
+        let Some(below) = self.below.as_ref().filter(|_| height > 0) else {
+            return;
+        };
+        let place = Rect {
+            y: area.bottom() - height,
+            height,
+            ..plot
+        };
         // Numbers without a blank behind them if they need its column.
         let columns = usize::from(plot.x - area.x).saturating_sub(1);
         for row in (place.y..place.bottom()).filter(|_| columns > 0) {
@@ -139,11 +186,20 @@ impl PaneChart {
         cells.plot = place;
         cells.draw(buffer, below, style);
         let name = &below.y.name;
-        let x = place.right().saturating_sub(name.chars().count() as u16 + 1).max(place.x);
+        let x = place
+            .right()
+            .saturating_sub(name.chars().count() as u16 + 1)
+            .max(place.x);
         let is_blank = |x, y| matches!(buffer[(x, y)].symbol(), " " | "\u{2800}");
         let row = (place.y..place.bottom()).find(|y| (x..place.right()).all(|x| is_blank(x, *y)));
         if let Some(row) = row {
-            buffer.set_stringn(x, row, name, usize::from(place.width), (style.ink)(Ink::Quiet));
+            buffer.set_stringn(
+                x,
+                row,
+                name,
+                usize::from(place.width),
+                (style.ink)(Ink::Quiet),
+            );
         }
     }
 
@@ -156,7 +212,11 @@ impl PaneChart {
             place.draw_name(buffer, &self.chart, style, name);
         }
         let is_map = self.chart.map().is_some();
-        let names = if is_map { Vec::new() } else { names_of_layers(&self.chart, style) };
+        let names = if is_map {
+            Vec::new()
+        } else {
+            names_of_layers(&self.chart, style)
+        };
         let mut left_out = Vec::new();
         for (name, entry) in names {
             if !place.draw_name(buffer, &self.chart, style, &name) {
@@ -168,7 +228,11 @@ impl PaneChart {
             (plot.y..plot.bottom()).for_each(|y| {
                 buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));
             });
-            let right = Rect { x: right.x + 1, width: right.width - 1, ..right };
+            let right = Rect {
+                x: right.x + 1,
+                width: right.width - 1,
+                ..right
+            };
             // The label below has no row of its own.
             let height = right.height.min(MOST_BESIDE);
             let mut beside = self.scaled(Rect { height, ..right }, chart);
@@ -195,25 +259,48 @@ impl PaneChart {
 
     /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of the mark. The mark is then
     /// visible without colours.
-    fn point_at_mark(&self, place: &CellPlot, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
-        let marked = self.chart.layers.iter().rev().find(|layer| layer.ink == Ink::Cursor);
-        let Some(Shape::Curve { points, .. }) = marked.map(|layer| &layer.shape) else { return };
+    fn point_at_mark(
+        &self,
+        place: &CellPlot,
+        area: Rect,
+        style: &CellStyle<'_>,
+        buffer: &mut Buffer,
+    ) {
+        let marked = self
+            .chart
+            .layers
+            .iter()
+            .rev()
+            .find(|layer| layer.ink == Ink::Cursor);
+        let Some(Shape::Curve { points, .. }) = marked.map(|layer| &layer.shape) else {
+            return;
+        };
         let cell = points.first().and_then(|at| place.cell(&self.chart, *at));
         let Some((x, y)) = cell else { return };
         let (plot, style) = (place.plot, (style.ink)(Ink::Cursor));
-        for beside in [x.wrapping_sub(1), x + 1].into_iter().filter(|x| (plot.x..plot.right()).contains(x)) {
+        for beside in [x.wrapping_sub(1), x + 1]
+            .into_iter()
+            .filter(|x| (plot.x..plot.right()).contains(x))
+        {
             buffer[(beside, y)].set_symbol(" ");
         }
         let is_line = |cell: &Cell| ["─", "┬"].contains(&cell.symbol());
-        if let Some(cell) = buffer.cell_mut((x, plot.bottom())).filter(|cell| is_line(cell)) {
+        if let Some(cell) = buffer
+            .cell_mut((x, plot.bottom()))
+            .filter(|cell| is_line(cell))
+        {
             cell.set_symbol("▲").set_style(style);
         }
         let is_line = |cell: &Cell| ["│", "┤"].contains(&cell.symbol());
-        if let Some(cell) = buffer.cell_mut((plot.x.wrapping_sub(1), y)).filter(|cell| is_line(cell)) {
+        if let Some(cell) = buffer
+            .cell_mut((plot.x.wrapping_sub(1), y))
+            .filter(|cell| is_line(cell))
+        {
             cell.set_symbol("▶").set_style(style);
             // The number of the mark itself, in place of one that the row has too.
-            let number =
-                points.first().map_or_else(String::new, |at| format_rounded(at.1, 2, &self.chart.y.unit));
+            let number = points.first().map_or_else(String::new, |at| {
+                format_rounded(at.1, 2, &self.chart.y.unit)
+            });
             let columns = usize::from(plot.x.saturating_sub(area.x + 2));
             if number.chars().count() <= columns {
                 buffer.set_string(area.x, y, format!("{number:>columns$}"), style);

@@ -18,7 +18,10 @@ type Dot = (usize, usize);
 
 impl LayerShape<'_> {
     fn axes(&self) -> Axes<'_> {
-        Axes { x: &self.chart.x, y: &self.chart.y }
+        Axes {
+            x: &self.chart.x,
+            y: &self.chart.y,
+        }
     }
 
     fn paint(&self, painter: &mut Painter<'_, '_>, (x, y): Dot) {
@@ -28,7 +31,10 @@ impl LayerShape<'_> {
     fn lines(&self, painter: &mut Painter<'_, '_>, runs: &[Vec<Share>], stroke: Stroke) {
         let mut painted = 0_usize;
         for run in runs {
-            let dots: Vec<Dot> = run.iter().filter_map(|(x, y)| painter.get_point(*x, *y)).collect();
+            let dots: Vec<Dot> = run
+                .iter()
+                .filter_map(|(x, y)| painter.get_point(*x, *y))
+                .collect();
             for (index, dot) in dots.iter().enumerate() {
                 for dot in between(dots[index.saturating_sub(1)], *dot) {
                     if paints(stroke, painted) {
@@ -56,9 +62,16 @@ impl LayerShape<'_> {
             Ink::Quiet => column.is_multiple_of(2) && (column / 2 + row).is_multiple_of(4),
             _ => (column + row).is_multiple_of(2),
         };
-        let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
+        let Some((last, _)) = painter.get_point(1.0, 0.0) else {
+            return;
+        };
         // A zero on a logarithmic axis is far below the chart.
-        let share = |(x, y): &(f64, f64)| (self.chart.x.share(*x), self.chart.y.share(*y).clamp(-9.0, 9.0));
+        let share = |(x, y): &(f64, f64)| {
+            (
+                self.chart.x.share(*x),
+                self.chart.y.share(*y).clamp(-9.0, 9.0),
+            )
+        };
         let shares: Vec<(f64, f64)> = border.iter().map(share).collect();
         let ends = || shares.iter().zip(shares.iter().cycle().skip(1));
         for column in 0..=last {
@@ -71,8 +84,12 @@ impl LayerShape<'_> {
             crossings.sort_unstable_by(f64::total_cmp);
             for pair in crossings.chunks_exact(2) {
                 let row = |y: f64| painter.get_point(x, y.clamp(0.0, 1.0)).map(|(_, row)| row);
-                let (Some(low), Some(high)) = (row(pair[0]), row(pair[1])) else { continue };
-                (high..=low).filter(|y| is_shaded(column, *y)).for_each(|y| self.paint(painter, (column, y)));
+                let (Some(low), Some(high)) = (row(pair[0]), row(pair[1])) else {
+                    continue;
+                };
+                (high..=low)
+                    .filter(|y| is_shaded(column, *y))
+                    .for_each(|y| self.paint(painter, (column, y)));
             }
         }
     }
@@ -81,13 +98,25 @@ impl LayerShape<'_> {
 impl CanvasShape for LayerShape<'_> {
     fn draw(&self, painter: &mut Painter<'_, '_>) {
         match self.shape {
-            Shape::Curve { points, stroke: None, sign: Some(Sign::Point) } => self.points(painter, points),
-            Shape::Curve { points, stroke: Some(stroke), .. } => {
+            Shape::Curve {
+                points,
+                stroke: None,
+                sign: Some(Sign::Point),
+            } => self.points(painter, points),
+            Shape::Curve {
+                points,
+                stroke: Some(stroke),
+                ..
+            } => {
                 self.lines(painter, &self.axes().runs(points.iter().copied()), *stroke);
             }
             Shape::Band(points) => {
                 let upper = points.iter().rev().map(|(x, _, high)| (*x, *high));
-                let border: Vec<_> = points.iter().map(|(x, low, _)| (*x, *low)).chain(upper).collect();
+                let border: Vec<_> = points
+                    .iter()
+                    .map(|(x, low, _)| (*x, *low))
+                    .chain(upper)
+                    .collect();
                 self.inside(painter, &border);
             }
             Shape::Envelope { x, columns } => {
@@ -96,15 +125,23 @@ impl CanvasShape for LayerShape<'_> {
             Shape::Inside(border) => self.inside(painter, border),
             Shape::Boxes(boxes) => {
                 for ((left, right), (low, high)) in boxes {
-                    let dot = |point| self.axes().place(point).and_then(|(x, y)| painter.get_point(x, y));
-                    let (Some(from), Some(to)) = (dot((*left, *high)), dot((*right, *low))) else { continue };
+                    let dot = |point| {
+                        self.axes()
+                            .place(point)
+                            .and_then(|(x, y)| painter.get_point(x, y))
+                    };
+                    let (Some(from), Some(to)) = (dot((*left, *high)), dot((*right, *low))) else {
+                        continue;
+                    };
                     for y in from.1..=to.1 {
                         (from.0..=to.0).for_each(|x| self.paint(painter, (x, y)));
                     }
                 }
             }
             Shape::Upright(at) | Shape::Level(at) => {
-                let ends = self.axes().guide(*at, matches!(self.shape, Shape::Upright(_)));
+                let ends = self
+                    .axes()
+                    .guide(*at, matches!(self.shape, Shape::Upright(_)));
                 let runs = ends.map(Vec::from);
                 self.lines(painter, runs.as_slice(), Stroke::Sparse);
             }
@@ -130,6 +167,9 @@ fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
     let steps = dx.abs().max(dy.abs()).max(1.0) as usize;
     (1..=steps).map(move |step| {
         let share = step as f64 / steps as f64;
-        ((from.0 as f64 + dx * share).round() as usize, (from.1 as f64 + dy * share).round() as usize)
+        (
+            (from.0 as f64 + dx * share).round() as usize,
+            (from.1 as f64 + dy * share).round() as usize,
+        )
     })
 }

@@ -31,7 +31,9 @@ impl Colours {
         let level = |value: u8| value.saturating_sub(35) / 40;
         match self {
             Colours::None => Color::Reset,
-            Colours::Palette => Color::Indexed(16 + 36 * level(red) + 6 * level(green) + level(blue)),
+            Colours::Palette => {
+                Color::Indexed(16 + 36 * level(red) + 6 * level(green) + level(blue))
+            }
             Colours::All => Color::Rgb(red, green, blue),
         }
     }

@@ -51,7 +51,10 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
 }
 
 fn heading(chart: &Chart) -> Label {
-    chart.map().map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
+    chart.map().map_or_else(
+        || chart.y.label_with_unit(),
+        |map| map.key.label_with_unit(),
+    )
 }
 
 fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
@@ -62,13 +65,21 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
         let rows = rows.div_ceil(rows.div_ceil(MOST_ROWS)) * FEWEST_ROWS.div_ceil(rows);
         let left = area.width - CellPlot::within(area, chart).plot.width;
         let (room, values) = (usize::from(columns - left), map.columns.len().max(1));
-        let plot = if values > room { room } else { values * (room / values).min(WIDEST_CELL) };
+        let plot = if values > room {
+            room
+        } else {
+            values * (room / values).min(WIDEST_CELL)
+        };
         area.width = (plot as u16 + left).max(WITH_LEFT_SCALE.0);
         area.height = rows as u16;
         while usize::from(CellPlot::within(area, chart).plot.height) < rows {
             area.height += 1;
         }
-        push_words(text, &format!("↑ {}", chart.y.label_with_unit()), usize::from(columns));
+        push_words(
+            text,
+            &format!("↑ {}", chart.y.label_with_unit()),
+            usize::from(columns),
+        );
     }
     let mut buffer = Buffer::empty(area);
     let place = CellPlot::within(area, chart);
@@ -82,9 +93,10 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
         text.push('\n');
         let parts = map::key(map, usize::from(columns), style.colours);
         push_line(text, &parts);
-        for (axis, values, cells) in
-            [("across", &map.columns, place.plot.width), ("up", &map.rows, place.plot.height)]
-        {
+        for (axis, values, cells) in [
+            ("across", &map.columns, place.plot.width),
+            ("up", &map.rows, place.plot.height),
+        ] {
             if values.len() > usize::from(cells) {
                 let note = format!("{axis}: {cells} of {} values are shown", values.len());
                 push_words(text, &note, usize::from(columns));
@@ -97,7 +109,10 @@ fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellSty
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in legend(std::slice::from_ref(chart), style) {
         let part = Line::from(part);
-        match lines.last_mut().filter(|line| line.width() + 2 + part.width() <= columns) {
+        match lines
+            .last_mut()
+            .filter(|line| line.width() + 2 + part.width() <= columns)
+        {
             Some(line) => {
                 line.push_span("  ");
                 line.spans.extend(part.spans);
@@ -106,7 +121,14 @@ fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellSty
         }
     }
     for line in lines {
-        push_line(text, &line.spans.iter().map(|span| (&span.content, span.style)).collect::<Vec<_>>());
+        push_line(
+            text,
+            &line
+                .spans
+                .iter()
+                .map(|span| (&span.content, span.style))
+                .collect::<Vec<_>>(),
+        );
     }
 }
 
@@ -136,8 +158,15 @@ fn code(style: &Style) -> String {
         Some(Color::Indexed(index)) => Some(format!("{kind};5;{index}")),
         _ => None,
     };
-    let both: Vec<String> = parameters(38, style.fg).into_iter().chain(parameters(48, style.bg)).collect();
-    if both.is_empty() { String::new() } else { format!("\x1b[{}m", both.join(";")) }
+    let both: Vec<String> = parameters(38, style.fg)
+        .into_iter()
+        .chain(parameters(48, style.bg))
+        .collect();
+    if both.is_empty() {
+        String::new()
+    } else {
+        format!("\x1b[{}m", both.join(";"))
+    }
 }
 
 fn push_words(text: &mut String, words: &str, columns: usize) {
@@ -154,13 +183,21 @@ mod tests {
     #[test]
     fn colours_are_those_of_the_cube() {
         let line = |colours: Colours| {
-            let looks = Style::new().fg(colours.colour([255; 3])).bg(colours.colour([0; 3]));
+            let looks = Style::new()
+                .fg(colours.colour([255; 3]))
+                .bg(colours.colour([0; 3]));
             let mut text = String::new();
-            push_line(&mut text, &[("x", looks), (" ", looks), (" ", Style::new())]);
+            push_line(
+                &mut text,
+                &[("x", looks), (" ", looks), (" ", Style::new())],
+            );
             text
         };
         assert_eq!(line(Colours::Palette), "\x1b[38;5;231;48;5;16mx \x1b[0m\n");
-        assert_eq!(line(Colours::All), "\x1b[38;2;255;255;255;48;2;0;0;0mx \x1b[0m\n");
+        assert_eq!(
+            line(Colours::All),
+            "\x1b[38;2;255;255;255;48;2;0;0;0mx \x1b[0m\n"
+        );
         assert_eq!(line(Colours::None), "x\n");
     }
 }

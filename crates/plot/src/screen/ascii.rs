@@ -32,8 +32,12 @@ static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
         .flat_map(|(character, shapes)| shapes.iter().map(|shape| (*character, bits(shape))))
         .collect();
     std::array::from_fn(|pattern| {
-        let nearest = shapes.iter().min_by_key(|(_, shape)| (usize::from(*shape) ^ pattern).count_ones());
-        nearest.filter(|_| pattern != 0).map_or(' ', |(character, _)| *character)
+        let nearest = shapes
+            .iter()
+            .min_by_key(|(_, shape)| (usize::from(*shape) ^ pattern).count_ones());
+        nearest
+            .filter(|_| pattern != 0)
+            .map_or(' ', |(character, _)| *character)
     })
 });
 
@@ -58,12 +62,16 @@ const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {
-        let blanks = (1..row.len()).filter(|&at| row[at - 1].symbol() == "±" && row[at].symbol() == " ");
+        let blanks =
+            (1..row.len()).filter(|&at| row[at - 1].symbol() == "±" && row[at].symbol() == " ");
         for at in blanks.collect::<Vec<_>>() {
             row[at].set_char('-');
         }
         // A power of ten keeps its exponent: `1e5` for `10⁵`.
-        let is = |at: usize, signs: &str| row.get(at).is_some_and(|cell| signs.contains(cell.symbol()));
+        let is = |at: usize, signs: &str| {
+            row.get(at)
+                .is_some_and(|cell| signs.contains(cell.symbol()))
+        };
         let powers = (0..row.len()).filter(|&at| {
             is(at, "0")
                 && is(at + 1, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -75,8 +83,9 @@ pub fn to_ascii(buffer: &mut Buffer) {
             row[at].set_char('e');
         }
     }
-    let replaced: Vec<_> =
-        glyphs(buffer).map(|glyph| (glyph.column, glyph.row, glyph.width, of_glyph(&glyph))).collect();
+    let replaced: Vec<_> = glyphs(buffer)
+        .map(|glyph| (glyph.column, glyph.row, glyph.width, of_glyph(&glyph)))
+        .collect();
     let origin = buffer.area.as_position();
     for (column, row, width, character) in replaced {
         for column in column..column + width {
@@ -102,7 +111,9 @@ fn of_character(character: char) -> char {
     if let Some(dots) = dots(character) {
         return NEAREST[usize::from(dots)];
     }
-    let alike = ALIKE.split_whitespace().find(|alike| alike.contains(character));
+    let alike = ALIKE
+        .split_whitespace()
+        .find(|alike| alike.contains(character));
     alike.and_then(|alike| alike.chars().next()).unwrap_or('?')
 }
 
@@ -119,19 +130,28 @@ mod tests {
     fn no_dot_is_lost() {
         for (place, &character) in BRAILLE.iter().enumerate() {
             let plain = of_character(character);
-            assert!(plain.is_ascii_graphic() || plain == ' ', "{character} {plain:?}");
+            assert!(
+                plain.is_ascii_graphic() || plain == ' ',
+                "{character} {plain:?}"
+            );
             assert_eq!(plain == ' ', place == 0, "{character} {plain:?}");
         }
     }
 
     #[test]
     fn no_character_has_two_meanings() {
-        let mut all: Vec<char> = ALIKE.split_whitespace().flat_map(|alike| alike.chars().skip(1)).collect();
+        let mut all: Vec<char> = ALIKE
+            .split_whitespace()
+            .flat_map(|alike| alike.chars().skip(1))
+            .collect();
         let count = all.len();
         all.sort_unstable();
         all.dedup();
         assert_eq!(all.len(), count);
-        assert!(all.iter().all(|one| dots(*one).is_none() && of_character(*one) != '?'));
+        assert!(
+            all.iter()
+                .all(|one| dots(*one).is_none() && of_character(*one) != '?')
+        );
         assert_eq!(of_character('☃'), '?');
     }
 

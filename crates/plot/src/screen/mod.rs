@@ -18,7 +18,11 @@ struct Glyph<'a> {
 impl<'a> Glyph<'a> {
     /// Returns the symbol in the cell; a blank for a symbol without a width.
     fn symbol(&self) -> &'a str {
-        if self.cell.symbol().cell_width() == 0 { " " } else { self.cell.symbol() }
+        if self.cell.symbol().cell_width() == 0 {
+            " "
+        } else {
+            self.cell.symbol()
+        }
     }
 
     /// Returns the character in the cell; `None` if the symbol consists of several characters.
@@ -30,7 +34,12 @@ impl<'a> Glyph<'a> {
 
 /// Returns the symbols of a screen, row by row, without the cells covered by wide characters.
 fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
-    let Rect { x, y, width, height } = buffer.area;
+    let Rect {
+        x,
+        y,
+        width,
+        height,
+    } = buffer.area;
     (0..height).flat_map(move |row| {
         let mut next = 0;
         std::iter::from_fn(move || {
@@ -38,7 +47,12 @@ fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
             let cell = buffer.cell((x + column, y + row))?;
             let width = cell.symbol().cell_width().clamp(1, left);
             next += width;
-            Some(Glyph { column, row, width, cell })
+            Some(Glyph {
+                column,
+                row,
+                width,
+                cell,
+            })
         })
     })
 }
@@ -48,8 +62,13 @@ fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
 fn dots(character: char) -> Option<u8> {
     /// Braille numbers three dots down each side; the lowest row came later.
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
-    let pattern = u32::from(character).checked_sub(0x2800).and_then(|bits| u8::try_from(bits).ok())?;
-    let dots = PLACES.iter().enumerate().filter(|(bit, _)| pattern >> bit & 1 == 1);
+    let pattern = u32::from(character)
+        .checked_sub(0x2800)
+        .and_then(|bits| u8::try_from(bits).ok())?;
+    let dots = PLACES
+        .iter()
+        .enumerate()
+        .filter(|(bit, _)| pattern >> bit & 1 == 1);
     Some(dots.fold(0, |bits, (_, place)| bits | 1 << place))
 }
 
@@ -57,13 +76,17 @@ fn dots(character: char) -> Option<u8> {
 pub fn screen_text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {
-        let Some(row) = rows.get_mut(usize::from(glyph.row)) else { break };
+        let Some(row) = rows.get_mut(usize::from(glyph.row)) else {
+            break;
+        };
         match glyph.symbol() {
             " " => row.extend(std::iter::repeat_n(' ', usize::from(glyph.width))),
             symbol => row.push_str(symbol),
         }
     }
-    rows.iter().map(|row| row.trim_end().to_owned() + "\n").collect()
+    rows.iter()
+        .map(|row| row.trim_end().to_owned() + "\n")
+        .collect()
 }
 
 #[cfg(test)]
@@ -78,7 +101,10 @@ mod tests {
             (&["", ""], "\n\n"),
             (&[], ""),
         ] {
-            assert_eq!(screen_text(&Buffer::with_lines(rows.iter().copied())), expected);
+            assert_eq!(
+                screen_text(&Buffer::with_lines(rows.iter().copied())),
+                expected
+            );
         }
     }
 }

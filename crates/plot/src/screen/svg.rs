@@ -37,7 +37,9 @@ pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
     let mut svg = Svg::new(f64::from(width), f64::from(height), title);
     let ground = hex(palette.background);
-    svg.push(format_args!("<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>"));
+    svg.push(format_args!(
+        "<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>"
+    ));
     svg.push(format_args!(
         "<g transform=\"translate({MARGIN} {MARGIN})\" font-family=\"{FONTS}\" font-size=\"{FONT_SIZE}\" \
          xml:space=\"preserve\">"
@@ -45,16 +47,27 @@ pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     for ((kind, colour), path) in paths(buffer, palette) {
         let colour = hex(colour);
         let stroke = |width: f64, cap: &str| {
-            format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\"")
+            format!(
+                "fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\""
+            )
         };
         let looks = match kind {
-            Kind::Ground | Kind::Block => format!("fill=\"{colour}\" shape-rendering=\"crispEdges\""),
+            Kind::Ground | Kind::Block => {
+                format!("fill=\"{colour}\" shape-rendering=\"crispEdges\"")
+            }
             Kind::Line => stroke(1.2, "square"),
             Kind::Dots => stroke(2.8, "round"),
         };
         svg.push(format_args!("<path {looks} d=\"{path}\"/>"));
     }
-    for Word { column, row, cells, look: (colour, is_bold), letters } in words(buffer, palette) {
+    for Word {
+        column,
+        row,
+        cells,
+        look: (colour, is_bold),
+        letters,
+    } in words(buffer, palette)
+    {
         let [x, y] = [u32::from(column) * WIDTH, u32::from(row) * HEIGHT + BASE];
         let (long, colour, letters) = (u32::from(cells) * WIDTH, hex(colour), escaped(&letters));
         let bold = if is_bold { " font-weight=\"bold\"" } else { "" };
@@ -73,7 +86,10 @@ fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
         let (colour, ground) = colours(&glyph, palette);
         if ground != palette.background {
             let path = boxed(&glyph, u32::from(glyph.width) * WIDTH);
-            paths.entry((Kind::Ground, ground)).or_default().push_str(&path);
+            paths
+                .entry((Kind::Ground, ground))
+                .or_default()
+                .push_str(&path);
         }
         if let Some((kind, path)) = shape(&glyph) {
             paths.entry((kind, colour)).or_default().push_str(&path);
@@ -84,7 +100,10 @@ fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
 
 /// Returns the path around the left `width` px of the cells of a symbol.
 fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
-    let (x, y) = (u32::from(glyph.column) * WIDTH, u32::from(glyph.row) * HEIGHT);
+    let (x, y) = (
+        u32::from(glyph.column) * WIDTH,
+        u32::from(glyph.row) * HEIGHT,
+    );
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
 }
 
@@ -103,13 +122,24 @@ fn words(buffer: &Buffer, palette: &Palette) -> Vec<Word> {
     let mut words: Vec<Word> = Vec::new();
     for glyph in glyphs(buffer).filter(|glyph| glyph.symbol() != " " && shape(glyph).is_none()) {
         let (column, row, cells, letters) = (glyph.column, glyph.row, glyph.width, glyph.symbol());
-        let look = (colours(&glyph, palette).0, glyph.cell.modifier.contains(Modifier::BOLD));
+        let look = (
+            colours(&glyph, palette).0,
+            glyph.cell.modifier.contains(Modifier::BOLD),
+        );
         match words.last_mut() {
-            Some(word) if word.row == row && word.column + word.cells == column && word.look == look => {
+            Some(word)
+                if word.row == row && word.column + word.cells == column && word.look == look =>
+            {
                 word.cells += cells;
                 word.letters += letters;
             }
-            _ => words.push(Word { column, row, cells, look, letters: letters.to_owned() }),
+            _ => words.push(Word {
+                column,
+                row,
+                cells,
+                look,
+                letters: letters.to_owned(),
+            }),
         }
     }
     words
@@ -134,7 +164,9 @@ fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen LightYellow \
                         LightBlue LightMagenta LightCyan White";
     let name = colour.to_string();
-    ANSI.split(' ').position(|one| one == name).map_or(reset, |index| palette.ansi[index])
+    ANSI.split(' ')
+        .position(|one| one == name)
+        .map_or(reset, |index| palette.ansi[index])
 }
 
 /// Mixes two colours. `percent` is the share of the first colour.
@@ -148,23 +180,41 @@ fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
 /// Returns kind and path of a character that is drawn as a shape; `None` for a letter.
 fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
     /// Lines from the middle of the cell to the left, right, upper and lower edge, with the characters that have each line.
-    const ENDS: [(&str, &str); 4] =
-        [("─┐┘┤┬┴", "h-4"), ("─┌└├┬┴", "h4"), ("│└┘├┤┴", "v-8"), ("│┌┐├┤┬", "v8")];
+    const ENDS: [(&str, &str); 4] = [
+        ("─┐┘┤┬┴", "h-4"),
+        ("─┌└├┬┴", "h4"),
+        ("│└┘├┤┴", "v-8"),
+        ("│┌┐├┤┬", "v8"),
+    ];
     let character = glyph.character().filter(|_| glyph.width == 1)?;
-    let (x, y) = (u32::from(glyph.column) * WIDTH, u32::from(glyph.row) * HEIGHT);
+    let (x, y) = (
+        u32::from(glyph.column) * WIDTH,
+        u32::from(glyph.row) * HEIGHT,
+    );
     match character {
         '─'..='┴' => {
-            let ends = ENDS.iter().filter(|(characters, _)| characters.contains(character));
-            let path: String =
-                ends.map(|(_, end)| format!("M{} {}{end}", x + WIDTH / 2, y + HEIGHT / 2)).collect();
+            let ends = ENDS
+                .iter()
+                .filter(|(characters, _)| characters.contains(character));
+            let path: String = ends
+                .map(|(_, end)| format!("M{} {}{end}", x + WIDTH / 2, y + HEIGHT / 2))
+                .collect();
             Some((Kind::Line, path)).filter(|(_, path)| !path.is_empty())
         }
-        '█'..='▏' => Some((Kind::Block, boxed(glyph, WIDTH - (character as u32 - '█' as u32)))),
+        '█'..='▏' => Some((
+            Kind::Block,
+            boxed(glyph, WIDTH - (character as u32 - '█' as u32)),
+        )),
         _ => {
             // Bits row by row from the upper left, two across and four down.
-            let (bits, dot) = (dots(character)?, |bit: u32| (x + 2 + bit % 2 * 4, y + 2 + bit / 2 * 4));
+            let (bits, dot) = (dots(character)?, |bit: u32| {
+                (x + 2 + bit % 2 * 4, y + 2 + bit / 2 * 4)
+            });
             let set = (0..8).filter(|bit| bits >> bit & 1 == 1).map(dot);
-            Some((Kind::Dots, set.map(|(x, y)| format!("M{x} {y}h.1")).collect()))
+            Some((
+                Kind::Dots,
+                set.map(|(x, y)| format!("M{x} {y}h.1")).collect(),
+            ))
         }
     }
 }
@@ -183,28 +233,45 @@ mod tests {
         let svg = screen_svg(&buffer, &Palette::DARK, "");
         parsed(&svg);
         let inner = svg.split_once("\"preserve\">\n").unwrap().1;
-        inner.lines().filter(|line| !line.starts_with("</")).map(str::to_owned).collect()
+        inner
+            .lines()
+            .filter(|line| !line.starts_with("</"))
+            .map(str::to_owned)
+            .collect()
     }
 
     #[test]
     fn the_document_has_a_title_and_the_size_of_the_screen() {
-        let svg =
-            screen_svg(&Buffer::empty(Rect::new(5, 5, 120, 40)), &Palette::LIGHT, "κ < 6 & \"h\" > 0\u{1}");
+        let svg = screen_svg(
+            &Buffer::empty(Rect::new(5, 5, 120, 40)),
+            &Palette::LIGHT,
+            "κ < 6 & \"h\" > 0\u{1}",
+        );
         let (elements, text) = parsed(&svg);
         assert_eq!(text.trim(), "κ < 6 & \"h\" > 0\u{fffd}");
         assert!(
             elements[0].contains(r#"width="976" height="656" viewBox="0 0 976 656" role="img""#),
             "{svg}"
         );
-        assert_eq!(elements[2], r##"rect width="976" height="656" rx="6" fill="#ffffff""##);
+        assert_eq!(
+            elements[2],
+            r##"rect width="976" height="656" rx="6" fill="#ffffff""##
+        );
         assert_eq!(elements.len(), 4, "{svg}");
-        parsed(&super::screen_svg(&Buffer::empty(Rect::ZERO), &Palette::LIGHT, ""));
+        parsed(&super::screen_svg(
+            &Buffer::empty(Rect::ZERO),
+            &Palette::LIGHT,
+            "",
+        ));
     }
 
     #[test]
     fn letters_have_the_places_of_their_cells_and_their_looks() {
         let text = |x: u32, cells: u32, look: &str, letters: &str| {
-            format!(r#"<text x="{x}" y="12" textLength="{}" fill={look}>{letters}</text>"#, 8 * cells)
+            format!(
+                r#"<text x="{x}" y="12" textLength="{}" fill={look}>{letters}</text>"#,
+                8 * cells
+            )
         };
         let face = r##""#e1e6eb""##;
         let words = [text(8, 3, face, "a&lt;b"), text(48, 3, face, "漢c")];
@@ -212,7 +279,10 @@ mod tests {
         let bold = text(8, 1, r##""#ff6b3d" font-weight="bold""##, "x");
         assert_eq!(drawn("x", Style::new().bold().red()), [bold]);
         // Three fifths of the foreground over the background.
-        assert_eq!(drawn("x", Style::new().dim()), [text(8, 1, r##""#8d9297""##, "x")]);
+        assert_eq!(
+            drawn("x", Style::new().dim()),
+            [text(8, 1, r##""#8d9297""##, "x")]
+        );
         let ground = |colour: &str| {
             format!(r##"<path fill="{colour}" shape-rendering="crispEdges" d="M8 0h8v16h-8z"/>"##)
         };
@@ -223,17 +293,29 @@ mod tests {
 
     #[test]
     fn dots_blocks_and_lines_are_drawn_whatever_the_font() {
-        for (text, path) in
-            [("▌", "M8 0h4v16h-4z"), ("█", "M8 0h8v16h-8z"), ("┐", "M12 8h-4M12 8v8"), ("⡀", "M10 14h.1")]
-        {
-            assert!(drawn(text, Style::new()).concat().contains(&format!(" d=\"{path}\"/>")), "{text}");
+        for (text, path) in [
+            ("▌", "M8 0h4v16h-4z"),
+            ("█", "M8 0h8v16h-8z"),
+            ("┐", "M12 8h-4M12 8v8"),
+            ("⡀", "M10 14h.1"),
+        ] {
+            assert!(
+                drawn(text, Style::new())
+                    .concat()
+                    .contains(&format!(" d=\"{path}\"/>")),
+                "{text}"
+            );
         }
     }
 
     fn contrast(one: Rgb, other: Rgb) -> f64 {
         let light = |channel: u8| {
             let share = f64::from(channel) / 255.0;
-            if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+            if share <= 0.04045 {
+                share / 12.92
+            } else {
+                ((share + 0.055) / 1.055).powf(2.4)
+            }
         };
         let [one, other] = [one, other].map(|[red, green, blue]| {
             0.2126 * light(red) + 0.7152 * light(green) + 0.0722 * light(blue) + 0.05

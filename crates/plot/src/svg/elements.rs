@@ -34,7 +34,11 @@ pub(super) struct Pen {
 
 impl Pen {
     pub(super) fn solid(colour: Rgb, width: f64) -> Pen {
-        Pen { colour, width, stroke: Stroke::Solid }
+        Pen {
+            colour,
+            width,
+            stroke: Stroke::Solid,
+        }
     }
 
     fn attributes(self) -> String {
@@ -45,7 +49,11 @@ impl Pen {
             Stroke::DashDotted => " stroke-dasharray=\"8 2.5 1.5 2.5\"",
             Stroke::Sparse => " stroke-dasharray=\"1.5 4.5\"",
         };
-        format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(self.colour), px(self.width))
+        format!(
+            "stroke=\"{}\" stroke-width=\"{}\"{dashes}",
+            hex(self.colour),
+            px(self.width)
+        )
     }
 }
 
@@ -59,7 +67,9 @@ impl Svg {
     /// Begins a document of this width and height, in user units.
     pub fn new(width: f64, height: f64, title: &str) -> Svg {
         let (width, height, title) = (px(width), px(height), escaped(title));
-        let mut svg = Svg { text: String::new() };
+        let mut svg = Svg {
+            text: String::new(),
+        };
         svg.push(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>"
@@ -93,10 +103,13 @@ impl Svg {
 
     fn rect(&mut self, from: Place, to: Place, looks: &str) {
         // The ends are rounded, so that adjacent rectangles meet.
-        let length = |from: f64, to: f64| px((100.0 * to).round() / 100.0 - (100.0 * from).round() / 100.0);
+        let length =
+            |from: f64, to: f64| px((100.0 * to).round() / 100.0 - (100.0 * from).round() / 100.0);
         let (x, y) = (px(from.0), px(from.1));
         let (width, height) = (length(from.0, to.0), length(from.1, to.1));
-        self.push(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {looks}/>"));
+        self.push(format_args!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {looks}/>"
+        ));
     }
 
     pub(super) fn rectangle(&mut self, from: Place, to: Place, fill: Rgb) {
@@ -116,17 +129,25 @@ impl Svg {
 
     /// Draws straight lines with round ends, each given by its two ends.
     pub(super) fn pieces(&mut self, pieces: impl Iterator<Item = [Place; 2]>, pen: Pen) {
-        let piece =
-            |[from, to]: [Place; 2]| format!("M{} {}L{} {}", px(from.0), px(from.1), px(to.0), px(to.1));
+        let piece = |[from, to]: [Place; 2]| {
+            format!("M{} {}L{} {}", px(from.0), px(from.1), px(to.0), px(to.1))
+        };
         let (path, pen) = (pieces.map(piece).collect::<String>(), pen.attributes());
-        self.push(format_args!("<path d=\"{path}\" fill=\"none\" {pen} stroke-linecap=\"round\"/>"));
+        self.push(format_args!(
+            "<path d=\"{path}\" fill=\"none\" {pen} stroke-linecap=\"round\"/>"
+        ));
     }
 
     pub(super) fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
         let (points, fill) = (points(places), hex(fill));
-        let opacity =
-            if opacity < 1.0 { format!(" fill-opacity=\"{}\"", px(opacity)) } else { String::new() };
-        self.push(format_args!("<polygon points=\"{points}\" fill=\"{fill}\"{opacity}/>"));
+        let opacity = if opacity < 1.0 {
+            format!(" fill-opacity=\"{}\"", px(opacity))
+        } else {
+            String::new()
+        };
+        self.push(format_args!(
+            "<polygon points=\"{points}\" fill=\"{fill}\"{opacity}/>"
+        ));
     }
 
     /// Fills boxes, each given by its upper left and lower right corner; each is at least half a pixel wide and high. Boxes
@@ -134,21 +155,35 @@ impl Svg {
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
-            let (left, right, bottom) = (px(from.0), px(to.0.max(from.0 + 0.5)), px(to.1.max(from.1 + 0.5)));
+            let (left, right, bottom) = (
+                px(from.0),
+                px(to.0.max(from.0 + 0.5)),
+                px(to.1.max(from.1 + 0.5)),
+            );
             path += &format!("M{left} {}H{right}V{bottom}H{left}z", px(from.1));
         }
         let fill = hex(fill);
-        self.push(format_args!("<path d=\"{path}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>"));
+        self.push(format_args!(
+            "<path d=\"{path}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>"
+        ));
     }
 
     pub(super) fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
         let (x, y, radius, fill) = (px(at.0), px(at.1), px(radius), hex(fill));
         let pen = pen.map_or_else(String::new, |pen| format!(" {}", pen.attributes()));
-        self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"));
+        self.push(format_args!(
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"
+        ));
     }
 
     /// Writes labels below each other, the first at this position. Returns the height at which the next one would be.
-    pub(super) fn lines(&mut self, lines: &[Label], (x, y): Place, size: f64, anchor: Anchor) -> f64 {
+    pub(super) fn lines(
+        &mut self,
+        lines: &[Label],
+        (x, y): Place,
+        size: f64,
+        anchor: Anchor,
+    ) -> f64 {
         lines.iter().fold(y, |y, line| {
             self.label(line, (x, y), size, anchor);
             y + (1.4 * size).round()
@@ -177,9 +212,13 @@ fn with_minus(text: &str) -> String {
     let characters: Vec<char> = text.chars().collect();
     let is_minus = |at: usize| {
         let next = characters.get(at + 1).is_some_and(char::is_ascii_digit);
-        characters[at] == '-' && next && (at == 0 || [' ', '\u{a0}', '('].contains(&characters[at - 1]))
+        characters[at] == '-'
+            && next
+            && (at == 0 || [' ', '\u{a0}', '('].contains(&characters[at - 1]))
     };
-    (0..characters.len()).map(|at| if is_minus(at) { '−' } else { characters[at] }).collect()
+    (0..characters.len())
+        .map(|at| if is_minus(at) { '−' } else { characters[at] })
+        .collect()
 }
 
 /// Returns the parts of a label as elements within a text of this font size in px.
@@ -192,7 +231,10 @@ fn runs(label: &Label, size: f64) -> String {
         let text = with_minus(text);
         let is_blank = |character: char| [' ', '\u{a0}'].contains(&character);
         let inner = text.trim_matches(is_blank);
-        let before = text.chars().take_while(|character| is_blank(*character)).count();
+        let before = text
+            .chars()
+            .take_while(|character| is_blank(*character))
+            .count();
         elements += &blanks(before);
         if inner.is_empty() {
             continue;
@@ -221,7 +263,10 @@ fn runs(label: &Label, size: f64) -> String {
 }
 
 fn points(places: &[Place]) -> String {
-    let texts: Vec<String> = places.iter().map(|(x, y)| format!("{},{}", px(*x), px(*y))).collect();
+    let texts: Vec<String> = places
+        .iter()
+        .map(|(x, y)| format!("{},{}", px(*x), px(*y)))
+        .collect();
     texts.join(" ")
 }
 
@@ -229,7 +274,11 @@ fn points(places: &[Place]) -> String {
 fn px(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
 }
 
 /// Escapes text for XML. Characters that are invalid in XML become U+FFFD.
@@ -255,7 +304,9 @@ mod tests {
 
     #[test]
     fn indices_and_exponents_return_to_the_base_line() {
-        let label = Label::symbol("F_a,max").then(" < ").join(&Label::power_of_ten(-3));
+        let label = Label::symbol("F_a,max")
+            .then(" < ")
+            .join(&Label::power_of_ten(-3));
         assert_eq!(
             runs(&label, 10.0),
             "<tspan font-style=\"italic\">F</tspan><tspan dy=\"2.5\" font-size=\"7.2\">a,max</tspan>\
@@ -265,7 +316,13 @@ mod tests {
 
     #[test]
     fn lengths_are_short() {
-        assert_eq!([0.0, -0.001, 1.0, 2.345, -12.5, 120.0].map(px), ["0", "0", "1", "2.35", "-12.5", "120"]);
-        assert_eq!(escaped("a<&>\"\u{1}\u{ffff}é"), "a&lt;&amp;&gt;&quot;\u{fffd}\u{fffd}é");
+        assert_eq!(
+            [0.0, -0.001, 1.0, 2.345, -12.5, 120.0].map(px),
+            ["0", "0", "1", "2.35", "-12.5", "120"]
+        );
+        assert_eq!(
+            escaped("a<&>\"\u{1}\u{ffff}é"),
+            "a&lt;&amp;&gt;&quot;\u{fffd}\u{fffd}é"
+        );
     }
 }

@@ -41,7 +41,10 @@ impl Frame<'_> {
 
     /// Returns the position in the picture of a position in shares of the axes.
     pub(super) fn at(&self, (x, y): Share) -> Place {
-        (self.from.0 + x * self.width(), self.to.1 - y * self.height())
+        (
+            self.from.0 + x * self.width(),
+            self.to.1 - y * self.height(),
+        )
     }
 
     pub(super) fn place_of_coordinates(&self, (x, y): (f64, f64)) -> Place {
@@ -50,7 +53,11 @@ impl Frame<'_> {
     }
 
     pub(super) fn axis(&self, svg: &mut Svg, side: Side) {
-        let axis = if side == Side::Below { self.axes.x } else { self.axes.y };
+        let axis = if side == Side::Below {
+            self.axes.x
+        } else {
+            self.axes.y
+        };
         let ticks = axis.ticks(self.ticks(side));
         // Direction outwards from the frame, and the edge of the frame.
         let (outwards, edge) = match side {
@@ -62,22 +69,41 @@ impl Frame<'_> {
             let length = outwards * NUMBER * if label.is_some() { 0.43 } else { 0.23 };
             let (x, y) = self.place_of_coordinates((*at, *at));
             let (ends, place, anchor) = match side {
-                Side::Below => ([(x, edge), (x, edge + length)], (x, edge + 1.2 * NUMBER), Anchor::Middle),
-                Side::Left => ([(edge + length, y), (edge, y)], (edge - 0.7 * NUMBER, y), Anchor::Right),
-                Side::Right => ([(edge, y), (edge + length, y)], (edge + 0.7 * NUMBER, y), Anchor::Left),
+                Side::Below => (
+                    [(x, edge), (x, edge + length)],
+                    (x, edge + 1.2 * NUMBER),
+                    Anchor::Middle,
+                ),
+                Side::Left => (
+                    [(edge + length, y), (edge, y)],
+                    (edge - 0.7 * NUMBER, y),
+                    Anchor::Right,
+                ),
+                Side::Right => (
+                    [(edge, y), (edge + length, y)],
+                    (edge + 0.7 * NUMBER, y),
+                    Anchor::Left,
+                ),
             };
             svg.line(&ends, Pen::solid(TEXT, 1.0));
             if let Some(label) = label {
                 svg.label(label, place, NUMBER, anchor);
             }
         }
-        let length = if side == Side::Below { self.width() } else { self.height() };
+        let length = if side == Side::Below {
+            self.width()
+        } else {
+            self.height()
+        };
         let label = axis.label_within((length + LABEL) / LABEL);
         if !label.is_empty() {
             let middle = self.at((0.5, 0.5));
             let (place, anchor) = match side {
                 Side::Below => ((middle.0, edge + 2.9 * NUMBER), Anchor::Middle),
-                _ => ((edge + outwards * beside(&ticks), middle.1), Anchor::Upwards),
+                _ => (
+                    (edge + outwards * beside(&ticks), middle.1),
+                    Anchor::Upwards,
+                ),
             };
             svg.label(&label, place, LABEL, anchor);
         }
@@ -85,7 +111,11 @@ impl Frame<'_> {
 
     fn ticks(&self, side: Side) -> usize {
         // Wide charts have more ticks, low ones fewer.
-        let room = if side == Side::Below { self.width() / 55.0 } else { self.height() / 30.0 };
+        let room = if side == Side::Below {
+            self.width() / 55.0
+        } else {
+            self.height() / 30.0
+        };
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
     }
 
@@ -98,6 +128,10 @@ impl Frame<'_> {
 
 /// Returns the distance in px from a vertical axis to the middle of its label, beyond its widest number.
 fn beside(ticks: &[Tick]) -> f64 {
-    let widest = ticks.iter().filter_map(|tick| tick.label.as_ref()).map(Label::width).fold(0.0, f64::max);
+    let widest = ticks
+        .iter()
+        .filter_map(|tick| tick.label.as_ref())
+        .map(Label::width)
+        .fold(0.0, f64::max);
     (widest + 1.9) * NUMBER
 }

@@ -63,7 +63,14 @@ fn sample(svg: &mut Svg, entry: &Entry, (x, y): Place) {
             }
             Sample::Line(stroke, sign) => {
                 if let Some(stroke) = stroke {
-                    svg.line(&[(left, y), (left + part, y)], Pen { colour, width: 1.6, stroke: *stroke });
+                    svg.line(
+                        &[(left, y), (left + part, y)],
+                        Pen {
+                            colour,
+                            width: 1.6,
+                            stroke: *stroke,
+                        },
+                    );
                 }
                 if let Some(sign) = sign {
                     draw_sign(svg, *sign, (left + part / 2.0, y), SIGN, colour);
@@ -71,7 +78,11 @@ fn sample(svg: &mut Svg, entry: &Entry, (x, y): Place) {
             }
             Sample::Area | Sample::Solid => {
                 let (from, to) = ((left, y - 5.0), (left + part, y + 5.0));
-                let opacity = if *sample == Sample::Area { AREA_OPACITY } else { 1.0 };
+                let opacity = if *sample == Sample::Area {
+                    AREA_OPACITY
+                } else {
+                    1.0
+                };
                 svg.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, opacity);
             }
             Sample::Guide => svg.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide(*ink)),

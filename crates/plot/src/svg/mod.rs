@@ -78,21 +78,47 @@ impl Figure {
         let mut svg = Svg::default();
         let middle = width / 2.0;
         let wrapped = |label: &Label, size: f64| label.wrapped((width - 4.0 * MARGIN) / size);
-        let title = if self.untitled { Vec::new() } else { wrapped(&Label::plain(&self.title), TITLE) };
-        let first = if title.is_empty() && self.notes.is_empty() { 10.0 } else { 20.0 };
+        let title = if self.untitled {
+            Vec::new()
+        } else {
+            wrapped(&Label::plain(&self.title), TITLE)
+        };
+        let first = if title.is_empty() && self.notes.is_empty() {
+            10.0
+        } else {
+            20.0
+        };
         let mut y = svg.lines(&title, (middle, first), TITLE, Anchor::Middle);
         for note in &self.notes {
-            y = svg.lines(&wrapped(note, TEXT_SIZE), (middle, y), TEXT_SIZE, Anchor::Middle);
+            y = svg.lines(
+                &wrapped(note, TEXT_SIZE),
+                (middle, y),
+                TEXT_SIZE,
+                Anchor::Middle,
+            );
         }
         for (row, charts) in self.charts.chunks(rooms.len()).enumerate() {
             y = self.draw_row(&mut svg, row * rooms.len(), charts, (*size, rooms, y));
         }
-        y = legend::draw(&mut svg, &self.legend(), (middle, y + 2.0), width - 4.0 * MARGIN) + MARGIN;
-        let parameters: Vec<Label> =
-            self.parameters.iter().flat_map(|line| wrapped(line, TEXT_SIZE)).collect();
+        y = legend::draw(
+            &mut svg,
+            &self.legend(),
+            (middle, y + 2.0),
+            width - 4.0 * MARGIN,
+        ) + MARGIN;
+        let parameters: Vec<Label> = self
+            .parameters
+            .iter()
+            .flat_map(|line| wrapped(line, TEXT_SIZE))
+            .collect();
         if !parameters.is_empty() {
             let left = 2.0 * MARGIN;
-            let end = svg.lines(&parameters, (left, y + 2.0 * MARGIN), TEXT_SIZE, Anchor::Left) - MARGIN;
+            let end = svg.lines(
+                &parameters,
+                (left, y + 2.0 * MARGIN),
+                TEXT_SIZE,
+                Anchor::Left,
+            ) - MARGIN;
             svg.frame((MARGIN, y), (width - MARGIN, end), Pen::solid(TEXT, 0.8));
             y = end + MARGIN;
         }
@@ -104,8 +130,13 @@ impl Figure {
         let count = self.charts.len().max(1);
         let rooms = |columns: usize, size| -> Vec<(f64, f64)> {
             let charts = |column| self.charts.iter().skip(column).step_by(columns);
-            let wider = |one: (f64, f64), other: (f64, f64)| (one.0.max(other.0), one.1.max(other.1));
-            let room = |column| charts(column).map(|chart| rooms(chart, size)).fold((0.0, 0.0), wider);
+            let wider =
+                |one: (f64, f64), other: (f64, f64)| (one.0.max(other.0), one.1.max(other.1));
+            let room = |column| {
+                charts(column)
+                    .map(|chart| rooms(chart, size))
+                    .fold((0.0, 0.0), wider)
+            };
             (0..columns).map(room).collect()
         };
         let within = |columns: usize| {
@@ -114,14 +145,24 @@ impl Figure {
             for width in self.width.into_iter().chain(self.width) {
                 let across = (width - width_of(&rooms(columns, size), (0.0, 0.0))) / columns as f64;
                 let across = across.max(MARGIN);
-                let share = (self.size.1 / self.size.0).min(if columns < count { LOW } else { 1.0 });
+                let share =
+                    (self.size.1 / self.size.0).min(if columns < count { LOW } else { 1.0 });
                 size = (across, (across * share).max(across.min(SQUARE)));
             }
             // Each name on an axis has a line.
-            let names = self.charts.iter().map(|chart| chart.y.names.len()).max().unwrap_or(0);
+            let names = self
+                .charts
+                .iter()
+                .map(|chart| chart.y.names.len())
+                .max()
+                .unwrap_or(0);
             size.1 = size.1.max(NAME * names as f64);
             let rooms = rooms(columns, size);
-            Layout { width: self.width.unwrap_or_else(|| width_of(&rooms, size)), size, rooms }
+            Layout {
+                width: self.width.unwrap_or_else(|| width_of(&rooms, size)),
+                size,
+                rooms,
+            }
         };
         let fits = |layout: &Layout| match self.width {
             Some(_) => layout.size.0 >= LEAST,
@@ -141,43 +182,76 @@ impl Figure {
         (size, rooms, y): ((f64, f64), &[(f64, f64)], f64),
     ) -> f64 {
         let heading = |(index, (_, beside)): (usize, &(f64, f64))| {
-            self.heading(index).unwrap_or_default().wrapped((size.0 + beside - MARGIN) / LABEL)
+            self.heading(index)
+                .unwrap_or_default()
+                .wrapped((size.0 + beside - MARGIN) / LABEL)
         };
-        let headings: Vec<Vec<Label>> = (first..first + charts.len()).zip(rooms).map(heading).collect();
+        let headings: Vec<Vec<Label>> = (first..first + charts.len())
+            .zip(rooms)
+            .map(heading)
+            .collect();
         let lines = headings.iter().map(Vec::len).max().unwrap_or(0);
         let top = y + 18.0 * lines as f64 - if lines > 0 { 0.0 } else { 2.0 };
         let mut left = 0.0;
         for ((chart, heading), (before, beside)) in charts.iter().zip(&headings).zip(rooms) {
             left += before;
-            svg.lines(heading, (left, top - 18.0 * heading.len() as f64 + 6.0), LABEL, Anchor::Left);
+            svg.lines(
+                heading,
+                (left, top - 18.0 * heading.len() as f64 + 6.0),
+                LABEL,
+                Anchor::Left,
+            );
             draw_chart(svg, chart, (left, top), size);
             left += size.0 + beside;
         }
-        top + size.1 + BELOW + if self.charts.len() > first + charts.len() { 2.0 * MARGIN } else { 0.0 }
+        top + size.1
+            + BELOW
+            + if self.charts.len() > first + charts.len() {
+                2.0 * MARGIN
+            } else {
+                0.0
+            }
     }
 }
 
 /// Returns the width in px of charts of one size side by side.
 fn width_of(rooms: &[(f64, f64)], size: (f64, f64)) -> f64 {
-    rooms.iter().map(|(before, beside)| before + size.0 + beside).sum()
+    rooms
+        .iter()
+        .map(|(before, beside)| before + size.0 + beside)
+        .sum()
 }
 
 fn frame_of(chart: &Chart, from: Place, size: (f64, f64)) -> Frame<'_> {
-    Frame { from, to: (from.0 + size.0, from.1 + size.1), axes: Axes { x: &chart.x, y: &chart.y } }
+    Frame {
+        from,
+        to: (from.0 + size.0, from.1 + size.1),
+        axes: Axes {
+            x: &chart.x,
+            y: &chart.y,
+        },
+    }
 }
 
 /// Returns the frame of the colour scale on the right of its map.
 fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
     let left = chart.to.0 + FROM_MAP;
-    let axes = Axes { y: &map.key, ..chart.axes };
-    Frame { from: (left, chart.from.1), to: (left + BAR, chart.to.1), axes }
+    let axes = Axes {
+        y: &map.key,
+        ..chart.axes
+    };
+    Frame {
+        from: (left, chart.from.1),
+        to: (left + BAR, chart.to.1),
+        axes,
+    }
 }
 
 fn rooms(chart: &Chart, size: (f64, f64)) -> (f64, f64) {
     let frame = frame_of(chart, (0.0, 0.0), size);
-    let scale = chart
-        .map()
-        .map_or(0.0, |map| FROM_MAP + BAR + frame_of_colours(map, frame).room(Side::Right) + MARGIN);
+    let scale = chart.map().map_or(0.0, |map| {
+        FROM_MAP + BAR + frame_of_colours(map, frame).room(Side::Right) + MARGIN
+    });
     (frame.room(Side::Left) + MARGIN, BESIDE.max(scale))
 }
 
@@ -220,43 +294,82 @@ mod tests {
             axis(AxisScale::Logarithmic, -6.0, -3.0, "F_n", "N"),
         );
         let chart = Chart::new(d, force, layers);
-        Figure { size: (400.0, 300.0), ..Figure::of_chart("a < b & \u{1b}", chart) }
+        Figure {
+            size: (400.0, 300.0),
+            ..Figure::of_chart("a < b & \u{1b}", chart)
+        }
     }
 
     fn curve(points: &[(f64, f64)], ink: Ink, name: &str) -> Layer {
         let (stroke, sign) = (Some(Stroke::Dashed), Some(Sign::Dot));
-        Layer::new(Label::symbol(name), ink, Shape::Curve { points: points.to_vec(), stroke, sign })
+        Layer::new(
+            Label::symbol(name),
+            ink,
+            Shape::Curve {
+                points: points.to_vec(),
+                stroke,
+                sign,
+            },
+        )
     }
 
     #[test]
     fn points_and_ticks_lie_where_the_axes_say() {
-        let points = [(0.0, 1e-6), (2.5e-9, 1e-5), (5e-9, f64::NAN), (1e-8, 1e-3), (7.5e-9, 0.0)];
+        let points = [
+            (0.0, 1e-6),
+            (2.5e-9, 1e-5),
+            (5e-9, f64::NAN),
+            (1e-8, 1e-3),
+            (7.5e-9, 0.0),
+        ];
         let svg = small(vec![curve(&points, Ink::Series(0), "F_n")]).svg();
-        let frame = elements(&svg, "rect").into_iter().find(|rect| rect.contains("fill=\"none\"")).unwrap();
+        let frame = elements(&svg, "rect")
+            .into_iter()
+            .find(|rect| rect.contains("fill=\"none\""))
+            .unwrap();
         let corner = (attribute(&frame, "x"), attribute(&frame, "y"));
-        assert_eq!((attribute(&frame, "width"), attribute(&frame, "height")), (400.0, 300.0));
+        assert_eq!(
+            (attribute(&frame, "width"), attribute(&frame, "height")),
+            (400.0, 300.0)
+        );
         let circles = elements(&svg, "circle");
         // One for each point with coordinates, and one in the legend.
         assert_eq!(circles.len(), 4);
-        for (circle, (across, up)) in circles.iter().zip([(0.0, 0.0), (0.25, 1.0 / 3.0), (1.0, 1.0)]) {
+        for (circle, (across, up)) in
+            circles
+                .iter()
+                .zip([(0.0, 0.0), (0.25, 1.0 / 3.0), (1.0, 1.0)])
+        {
             let place = (corner.0 + 400.0 * across, corner.1 + 300.0 * (1.0 - up));
-            let off = (attribute(circle, "cx") - place.0, attribute(circle, "cy") - place.1);
-            assert!(off.0.abs() <= 0.005 && off.1.abs() <= 0.005, "{circle} {place:?}");
+            let off = (
+                attribute(circle, "cx") - place.0,
+                attribute(circle, "cy") - place.1,
+            );
+            assert!(
+                off.0.abs() <= 0.005 && off.1.abs() <= 0.005,
+                "{circle} {place:?}"
+            );
         }
         // Ticks below: labels at 0, 2, … 10 nm.
         let below = corner.1 + 300.0;
         for (number, share) in [("0", 0.0), ("2", 0.2), ("10", 1.0)] {
             let x = corner.0 + 400.0 * share;
-            let text = elements(&svg, "text")
-                .into_iter()
-                .find(|text| (attribute(text, "x") - x).abs() < 0.01 && attribute(text, "y") > below);
+            let text = elements(&svg, "text").into_iter().find(|text| {
+                (attribute(text, "x") - x).abs() < 0.01 && attribute(text, "y") > below
+            });
             let text = text.unwrap_or_else(|| panic!("no number at {x}"));
             assert!(svg.contains(&format!("<{text}>{number}<")), "{text}");
         }
         let words = parsed(&svg).1;
-        assert!(words.contains("d\u{a0}(nm)") && words.contains("Fn\u{a0}(mN)"), "{words}");
+        assert!(
+            words.contains("d\u{a0}(nm)") && words.contains("Fn\u{a0}(mN)"),
+            "{words}"
+        );
         assert!(words.contains("a < b & \\u{1b}"), "{words}");
-        assert_eq!(svg, small(vec![curve(&points, Ink::Series(0), "F_n")]).svg());
+        assert_eq!(
+            svg,
+            small(vec![curve(&points, Ink::Series(0), "F_n")]).svg()
+        );
     }
 
     #[test]
@@ -274,7 +387,11 @@ mod tests {
             curve(&points, inks[1], "G"),
             Layer::unnamed(Ink::Quiet, Shape::Level(1e-4)),
         ]);
-        let names: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
+        let names: Vec<String> = figure
+            .legend()
+            .iter()
+            .map(|entry| entry.name.to_string())
+            .collect();
         assert_eq!(names, ["F_n", "G", "confidence"]);
         let svg = figure.svg();
         let looks = |element: &String| element.split_once("fill=").unwrap().1.to_owned();
@@ -284,8 +401,12 @@ mod tests {
         assert_eq!(areas[..2], areas[2..]);
         for ink in inks {
             let colour = hex(ink.on_paper());
-            let lines = elements(&svg, "polyline").into_iter().filter(|line| line.contains(&colour));
-            let dashes = lines.filter(|line| line.contains("stroke-dasharray")).count();
+            let lines = elements(&svg, "polyline")
+                .into_iter()
+                .filter(|line| line.contains(&colour));
+            let dashes = lines
+                .filter(|line| line.contains("stroke-dasharray"))
+                .count();
             assert_eq!(dashes, 2, "a line and its sample");
         }
         // The end without a logarithm is at the bottom.
@@ -296,17 +417,33 @@ mod tests {
     #[test]
     fn charts_of_a_given_width_lie_apart_and_keep_their_letters() {
         let sizes = |svg: &str| {
-            let sizes = elements(svg, "text").into_iter().map(|text| attribute(&text, "font-size").to_bits());
+            let sizes = elements(svg, "text")
+                .into_iter()
+                .map(|text| attribute(&text, "font-size").to_bits());
             sizes.collect::<std::collections::BTreeSet<_>>()
         };
         let chart = small(Vec::new()).charts.remove(0);
-        for (count, width) in (1..=6).flat_map(|count| [189.0, 321.26, 642.52].map(|width| (count, width))) {
+        for (count, width) in
+            (1..=6).flat_map(|count| [189.0, 321.26, 642.52].map(|width| (count, width)))
+        {
             let charts = vec![chart.clone(); count];
-            let wide = Figure { charts, parameters: vec!["E".into()], ..small(Vec::new()) };
-            let narrow = Figure { width: Some(width), ..wide.clone() }.svg();
+            let wide = Figure {
+                charts,
+                parameters: vec!["E".into()],
+                ..small(Vec::new())
+            };
+            let narrow = Figure {
+                width: Some(width),
+                ..wide.clone()
+            }
+            .svg();
             assert_eq!(sizes(&narrow), sizes(&wide.svg()));
             let rects = elements(&narrow, "rect");
-            assert!((attribute(&rects[0], "width") - width).abs() < 0.01, "{}", rects[0]);
+            assert!(
+                (attribute(&rects[0], "width") - width).abs() < 0.01,
+                "{}",
+                rects[0]
+            );
             let frames: Vec<[f64; 4]> = rects
                 .iter()
                 .filter(|rect| rect.contains("stroke-width=\"1\""))
@@ -314,7 +451,10 @@ mod tests {
                 .collect();
             assert_eq!(frames.len(), count);
             for (index, [x, y, across, down]) in frames.iter().enumerate() {
-                assert!(*x > 0.0 && x + across < width && *across > 90.0 && *down >= LOWEST, "{frames:?}");
+                assert!(
+                    *x > 0.0 && x + across < width && *across > 90.0 && *down >= LOWEST,
+                    "{frames:?}"
+                );
                 let apart = |other: &[f64; 4]| x + across < other[0] || y + down < other[1];
                 assert!(frames[index + 1..].iter().all(apart), "{frames:?}");
             }
@@ -331,7 +471,10 @@ mod tests {
         let height = |figure: &Figure| attribute(&elements(&figure.svg(), "rect")[0], "height");
         for count in [1, 2, 4] {
             for asked in [400.0, 700.0] {
-                let figure = Figure { height: Some(asked), ..of(count) };
+                let figure = Figure {
+                    height: Some(asked),
+                    ..of(count)
+                };
                 let found = height(&figure);
                 let least = LOWEST * count as f64;
                 assert!(
@@ -342,15 +485,27 @@ mod tests {
         }
         assert!((height(&of(6)) - PAGE).abs() < 0.01 && height(&of(2)) < PAGE);
         let titled = of(1);
-        assert!(parsed(&titled.svg()).1.matches("a < b").count() == 2, "a title, and its name for readers");
-        let untitled = Figure { untitled: true, ..titled };
+        assert!(
+            parsed(&titled.svg()).1.matches("a < b").count() == 2,
+            "a title, and its name for readers"
+        );
+        let untitled = Figure {
+            untitled: true,
+            ..titled
+        };
         assert_eq!(parsed(&untitled.svg()).1.matches("a < b").count(), 1);
     }
 
     #[test]
     fn panels_are_chosen_by_their_letters() {
-        let heading = |heading: &str| Chart { heading: heading.into(), ..small(Vec::new()).charts.remove(0) };
-        let figure = Figure { charts: ["one", "two", "three"].map(heading).to_vec(), ..small(Vec::new()) };
+        let heading = |heading: &str| Chart {
+            heading: heading.into(),
+            ..small(Vec::new()).charts.remove(0)
+        };
+        let figure = Figure {
+            charts: ["one", "two", "three"].map(heading).to_vec(),
+            ..small(Vec::new())
+        };
         let words = |letters: &str| parsed(&figure.clone().with_panels(letters).unwrap().svg()).1;
         assert!(words("ca").contains("(a) three") && words("ca").contains("(b) one"));
         assert!(!words("b").contains("two"), "a single chart has no heading");

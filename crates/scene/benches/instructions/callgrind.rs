@@ -16,12 +16,16 @@ impl Profile {
 
     /// True if instructions are attributed to lines of this project, which requires line tables.
     pub fn has_line_tables(&self) -> bool {
-        self.lines.keys().any(|file| file.contains("scene/src/simulation/"))
+        self.lines
+            .keys()
+            .any(|file| file.contains("scene/src/simulation/"))
     }
 
     /// Files as named by the compiler, with the instructions of their lines.
     pub fn files(&self) -> impl Iterator<Item = (&str, &BTreeMap<u64, u64>)> {
-        self.lines.iter().map(|(file, lines)| (file.as_str(), lines))
+        self.lines
+            .iter()
+            .map(|(file, lines)| (file.as_str(), lines))
     }
 
     /// Reads the uncompressed output of callgrind. Inlined code is listed under the file of its source (`fi`, `fe`);
@@ -37,8 +41,14 @@ impl Profile {
                 of_call = true;
             } else if line.starts_with(|c: char| c.is_ascii_digit()) {
                 let mut numbers = line.split(' ').map(|number| number.parse::<u64>());
-                if let (false, Some(Ok(number)), Some(Ok(cost))) = (of_call, numbers.next(), numbers.next()) {
-                    *lines.entry(file.to_string()).or_default().entry(number).or_default() += cost;
+                if let (false, Some(Ok(number)), Some(Ok(cost))) =
+                    (of_call, numbers.next(), numbers.next())
+                {
+                    *lines
+                        .entry(file.to_string())
+                        .or_default()
+                        .entry(number)
+                        .or_default() += cost;
                 }
                 of_call = false;
             }
@@ -49,8 +59,11 @@ impl Profile {
 
 /// True if valgrind is installed.
 pub fn is_there() -> bool {
-    let version =
-        Command::new("valgrind").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    let version = Command::new("valgrind")
+        .arg("--version")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
     version.is_ok_and(|status| status.success())
 }
 
@@ -75,7 +88,9 @@ pub fn profile(arguments: &[&str], environment: &[(&str, &str)]) -> Profile {
     assert!(output.status.success(), "valgrind: {message}");
     let text = String::from_utf8_lossy(&std::fs::read(file).expect("a profile")).into_owned();
     let profile = Profile::parse(&text);
-    let stated = text.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
+    let stated = text
+        .lines()
+        .find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
     assert_eq!(Some(profile.total()), stated, "all counts are read");
     profile
 }

@@ -78,12 +78,18 @@ impl Case {
     /// All cases.
     pub fn all() -> Vec<Case> {
         let edges = [Edges::Grid, Edges::SubCell];
-        edges.into_iter().flat_map(|edges| Class::ALL.map(|class| Case { class, edges })).collect()
+        edges
+            .into_iter()
+            .flat_map(|edges| Class::ALL.map(|class| Case { class, edges }))
+            .collect()
     }
 
     /// Index among all cases.
     pub fn index(&self) -> usize {
-        Case::all().iter().position(|case| case == self).expect("one of all")
+        Case::all()
+            .iter()
+            .position(|case| case == self)
+            .expect("one of all")
     }
 
     /// Name in words.
@@ -121,14 +127,21 @@ impl Case {
         } else {
             format!("form: Paraboloid(radius: {RADIUS:e})")
         };
-        let adhesion =
-            if self.is_adhesive() { format!("(work: {WORK_OF_ADHESION:e})") } else { "None".into() };
+        let adhesion = if self.is_adhesive() {
+            format!("(work: {WORK_OF_ADHESION:e})")
+        } else {
+            "None".into()
+        };
         let loading = match self.class {
             Class::AdhesiveTouch => "ToTouch, ToSeparation".to_string(),
             _ if self.goes_back() => format!("ToForce({FORCE:e}), ToSeparation"),
             _ => format!("ToForce({FORCE:e})"),
         };
-        let observe = if self.is_observed() { "Fragments, HeightHistogram" } else { "" };
+        let observe = if self.is_observed() {
+            "Fragments, HeightHistogram"
+        } else {
+            ""
+        };
         let text = format!(
             "(version: 1, material: (effective_modulus: {EFFECTIVE_MODULUS:e}), length: {LENGTH:e}, {body}, \
              adhesion: {adhesion}, loading: [{loading}], observe: [{observe}], \

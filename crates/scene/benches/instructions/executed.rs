@@ -52,7 +52,10 @@ pub const EFFECTS: &[Effect] = &[
     },
     Effect {
         name: "histogram",
-        lines: Lines::Of(&[("crates/surface/src/line/rigid_line.rs", "pub fn new(heights: impl Iterator")]),
+        lines: Lines::Of(&[(
+            "crates/surface/src/line/rigid_line.rs",
+            "pub fn new(heights: impl Iterator",
+        )]),
         called_for: Case::is_observed,
         counted: |work| work.heights_binned,
     },
@@ -77,7 +80,8 @@ impl Effect {
             Lines::Packages(packages) => profile
                 .files()
                 .filter(|(file, _)| {
-                    file.split('/').any(|folder| packages.iter().any(|package| folder.starts_with(package)))
+                    file.split('/')
+                        .any(|folder| packages.iter().any(|package| folder.starts_with(package)))
                 })
                 .map(|(_, lines)| lines.values().sum::<u64>())
                 .sum(),
@@ -105,7 +109,9 @@ fn lines_of(file: &str, declared: &str) -> std::ops::RangeInclusive<u64> {
     let first = lines.iter().position(|line| line.contains(declared));
     let first = first.unwrap_or_else(|| panic!("{file} has no {declared}"));
     let indent = &lines[first][..lines[first].len() - lines[first].trim_start().len()];
-    let length =
-        lines[first..].iter().position(|line| *line == format!("{indent}}}")).expect("a closing brace");
+    let length = lines[first..]
+        .iter()
+        .position(|line| *line == format!("{indent}}}"))
+        .expect("a closing brace");
     first as u64 + 1..=(first + length) as u64 + 1
 }

@@ -2,8 +2,8 @@
 //! switches or memory of an earlier run.
 
 use super::cases::{
-    Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT, SAMPLES,
-    SEED, WORK_OF_ADHESION,
+    Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT,
+    SAMPLES, SEED, WORK_OF_ADHESION,
 };
 use asperity_contact::Move;
 use asperity_contact::motion::{Body, Leg, load_body};
@@ -38,18 +38,32 @@ pub fn kernel(case: &Case) -> Given {
         Class::RoughLoop | Class::AdhesiveLoop | Class::AdhesiveObserved => (rough(), &LOOP),
     };
     let (line, edges) = (&smooth_or_rough, case.edges);
-    let work = if case.is_adhesive() { WORK_OF_ADHESION } else { 0.0 };
+    let work = if case.is_adhesive() {
+        WORK_OF_ADHESION
+    } else {
+        0.0
+    };
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).expect("a finite line");
     let modulus = Modulus::effective(EFFECTIVE_MODULUS).expect("a modulus");
-    let contact = Contact::builder(&profile, modulus).work_of_adhesion(work).edges(edges).build();
+    let contact = Contact::builder(&profile, modulus)
+        .work_of_adhesion(work)
+        .edges(edges)
+        .build();
     let mut body = Body::new(&contact.expect("a contact"), SAMPLES);
     if !case.is_adhesive() {
         let history = load_body(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
-        return Given { history, ..Given::default() };
+        return Given {
+            history,
+            ..Given::default()
+        };
     }
-    let histogram =
-        case.is_observed().then(|| Histogram::new(line.heights(), line.lowest(), line.summit, BINS));
-    Given { histogram, ..adhesive(case, body, legs) }
+    let histogram = case
+        .is_observed()
+        .then(|| Histogram::new(line.heights(), line.lowest(), line.summit, BINS));
+    Given {
+        histogram,
+        ..adhesive(case, body, legs)
+    }
 }
 
 fn smooth() -> Line {
@@ -58,8 +72,15 @@ fn smooth() -> Line {
 }
 
 fn rough() -> Line {
-    let spectrum = SelfAffine { hurst: HURST, first: 1, last: LAST_MODE, roll_off_mode: 0.0 };
-    let unit = Synthesizer::default().synthesize(spectrum, SEED, POINTS, 0.0, Vec::new()).expect("a line");
+    let spectrum = SelfAffine {
+        hurst: HURST,
+        first: 1,
+        last: LAST_MODE,
+        roll_off_mode: 0.0,
+    };
+    let unit = Synthesizer::default()
+        .synthesize(spectrum, SEED, POINTS, 0.0, Vec::new())
+        .expect("a line");
     Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
 }
 
@@ -76,7 +97,14 @@ fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
     let history = history.expect("a loading within reach");
     let without_preload = match case.class {
         Class::AdhesivePressed => [None; 2],
-        _ => body.adhesion_without_preload().expect("a contact at first touch"),
+        _ => body
+            .adhesion_without_preload()
+            .expect("a contact at first touch"),
     };
-    Given { history, without_preload, histogram: None, fragments }
+    Given {
+        history,
+        without_preload,
+        histogram: None,
+        fragments,
+    }
 }

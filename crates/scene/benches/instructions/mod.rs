@@ -45,8 +45,12 @@ pub fn program(document: &Document) -> Outcome {
 
 /// Performs the task that the environment sets for a process under callgrind; `false` without a task.
 pub fn run_as_child() -> bool {
-    let Ok(asked) = std::env::var(CHILD) else { return false };
-    let mut words = asked.split(' ').map(|word| word.parse::<usize>().expect("an index"));
+    let Ok(asked) = std::env::var(CHILD) else {
+        return false;
+    };
+    let mut words = asked
+        .split(' ')
+        .map(|word| word.parse::<usize>().expect("an index"));
     let case = Case::all()[words.next().expect("a case")];
     let document = case.document();
     match What::ALL[words.next().expect("what to do")] {
@@ -62,15 +66,30 @@ pub fn assert_agree(case: &Case) {
     let (outcome, given) = (program(&case.document()), kernels::kernel(case));
     let what = case.name();
     let forces = |history: &History| -> Vec<u64> {
-        history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.force.to_bits()).collect()
+        history
+            .legs
+            .iter()
+            .flat_map(|leg| &leg.curve)
+            .map(|point| point.force.to_bits())
+            .collect()
     };
     assert_eq!(forces(&outcome.history), forces(&given.history), "{what}");
     assert_eq!(outcome.history.contacts, given.history.contacts, "{what}");
-    let without_preload = [outcome.first_touch_adhesion_force, outcome.zero_force_adhesion_force];
+    let without_preload = [
+        outcome.first_touch_adhesion_force,
+        outcome.zero_force_adhesion_force,
+    ];
     assert_eq!(without_preload, given.without_preload, "{what}");
     assert_eq!(outcome.histogram, given.histogram, "{what}");
     assert_eq!(outcome.fragments, given.fragments, "{what}");
-    assert!(outcome.history.legs.iter().all(|leg| leg.curve.iter().any(|point| point.springs > 0)), "{what}");
+    assert!(
+        outcome
+            .history
+            .legs
+            .iter()
+            .all(|leg| leg.curve.iter().any(|point| point.springs > 0)),
+        "{what}"
+    );
 }
 
 /// Counts of one case.
@@ -114,7 +133,13 @@ impl Report {
         let beyond = |profile: &Profile| profile.total() - nothing.total();
         let (counted, of_kernel) = (beyond(&program), beyond(&kernel));
         let work = self::program(&case.document()).history.work;
-        Report { case, program: counted, kernel: of_kernel, profile: program, work }
+        Report {
+            case,
+            program: counted,
+            kernel: of_kernel,
+            profile: program,
+            work,
+        }
     }
 
     /// Returns the instructions of the program divided by the instructions of the kernel.
@@ -140,14 +165,27 @@ impl Report {
             ));
         }
         for effect in EFFECTS {
-            let (wanted, instructions) = ((effect.called_for)(&self.case), effect.executed(&self.profile));
+            let (wanted, instructions) = (
+                (effect.called_for)(&self.case),
+                effect.executed(&self.profile),
+            );
             let counted = (effect.counted)(&self.work);
             if self.has_line_tables() && wanted != (instructions > 0) {
-                let called = if wanted { "called for" } else { "not called for" };
-                failures.push(format!("{name}: {} is {called}: {instructions} instructions", effect.name));
+                let called = if wanted {
+                    "called for"
+                } else {
+                    "not called for"
+                };
+                failures.push(format!(
+                    "{name}: {} is {called}: {instructions} instructions",
+                    effect.name
+                ));
             }
             if wanted != (counted > 0) {
-                failures.push(format!("{name}: the program counts {} {counted} times", effect.name));
+                failures.push(format!(
+                    "{name}: the program counts {} {counted} times",
+                    effect.name
+                ));
             }
         }
         failures
@@ -165,9 +203,17 @@ impl Report {
                 .filter(|effect| effect.executed(&report.profile) > 0)
                 .map(|effect| effect.name)
                 .collect();
-            let Report { case, program, kernel, .. } = report;
+            let Report {
+                case,
+                program,
+                kernel,
+                ..
+            } = report;
             let (name, ratio, executed) = (case.name(), report.ratio(), executed.join(", "));
-            let _ = writeln!(table, "{name:<48} {program:>14} {kernel:>14} {ratio:>8.4}  {executed}");
+            let _ = writeln!(
+                table,
+                "{name:<48} {program:>14} {kernel:>14} {ratio:>8.4}  {executed}"
+            );
         }
         table
     }

@@ -47,17 +47,27 @@ const PARTS: [Part; 3] = [Part::Line, Part::Loop, Part::Reversals];
 
 /// Performs the task that the environment sets for a process under callgrind; `false` without a task.
 pub fn run_as_child() -> bool {
-    let Ok(asked) = std::env::var(CHILD) else { return false };
+    let Ok(asked) = std::env::var(CHILD) else {
+        return false;
+    };
     let task: usize = asked.parse().expect("a number");
     let ((kappa, edges), part) = (BODIES[task / PARTS.len()], PARTS[task % PARTS.len()]);
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: SPRINGS as u64 / 4, roll_off_mode: 0.0 };
+    let spectrum = SelfAffine {
+        hurst: 0.7,
+        first: 1,
+        last: SPRINGS as u64 / 4,
+        roll_off_mode: 0.0,
+    };
     let rough = spectrum.heights(1, SPRINGS).expect("memory for the line");
     let line = Line::new(LENGTH, SPRINGS, None, Some(&rough), RMS_HEIGHT).expect("a finite line");
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).expect("a finite line");
     let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
     let work = RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa);
     let modulus = Modulus::effective(EFFECTIVE_MODULUS).expect("a modulus");
-    let contact = Contact::builder(&profile, modulus).work_of_adhesion(work).edges(edges).build();
+    let contact = Contact::builder(&profile, modulus)
+        .work_of_adhesion(work)
+        .edges(edges)
+        .build();
     let contact = contact.expect("a contact");
     let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
     let body = || Body::new(&contact, SAMPLES);
@@ -76,7 +86,9 @@ pub fn run_as_child() -> bool {
                 black_box(reversal);
                 Ok(())
             };
-            body().reversals(&turns, &[], &mut see).expect("reachable turning points");
+            body()
+                .reversals(&turns, &[], &mut see)
+                .expect("reachable turning points");
         }
     }
     true

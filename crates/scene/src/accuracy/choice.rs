@@ -28,9 +28,14 @@ const MOST_TRIED: u64 = 1 << 21;
 /// assert!(parse_tolerance("2").is_err());
 /// ```
 pub fn parse_tolerance(text: &str) -> Result<f64, String> {
-    let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
+    let allowed =
+        || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
     let tolerance = parse_quantity(text, "1").map_err(|_| allowed())?;
-    if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
+    if tolerance > 0.0 && tolerance < 1.0 {
+        Ok(tolerance)
+    } else {
+        Err(allowed())
+    }
 }
 
 /// Number of springs and edge model ([`Edges`]) with which the error of a scene stays within a tolerance, as found by
@@ -64,17 +69,40 @@ impl Choice {
 
     /// Returns the error of the chosen settings as an [`Estimate`].
     pub fn estimate(&self) -> Estimate {
-        let evidence =
-            if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
-        Estimate { target: self.target, error: self.error, near_step: false, evidence }
+        let evidence = if self.closed_form {
+            Evidence::ClosedForm
+        } else {
+            Evidence::Solutions(vec![self.finest])
+        };
+        Estimate {
+            target: self.target,
+            error: self.error,
+            near_step: false,
+            evidence,
+        }
     }
 
     /// Returns a sentence that states the chosen settings, their error and how the error was found.
     pub fn sentence(&self) -> String {
-        let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
+        let Choice {
+            tolerance,
+            target,
+            points,
+            edges,
+            error,
+            closed_form,
+            finest,
+        } = *self;
         let (points, target, edges) = (grouped(points), target.name(), edges.name());
-        let estimated = format!("estimated from solutions with up to {} springs", grouped(finest));
-        let from = if closed_form { "by the closed form" } else { &estimated };
+        let estimated = format!(
+            "estimated from solutions with up to {} springs",
+            grouped(finest)
+        );
+        let from = if closed_form {
+            "by the closed form"
+        } else {
+            &estimated
+        };
         format!(
             "{points} springs with edges {edges}: the fewest found to keep the {target} within {tolerance:e}; its \
              error is {error:.1e}, {from}."
@@ -111,12 +139,25 @@ pub enum ChoiceError {
 }
 
 fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
-    let Some(Choice { finest, error, target, points, edges, .. }) = best.as_deref() else {
+    let Some(Choice {
+        finest,
+        error,
+        target,
+        points,
+        edges,
+        ..
+    }) = best.as_deref()
+    else {
         return format!(
             "a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed"
         );
     };
-    let (finest, target, points, edges) = (grouped(*finest), target.name(), grouped(*points), edges.name());
+    let (finest, target, points, edges) = (
+        grouped(*finest),
+        target.name(),
+        grouped(*points),
+        edges.name(),
+    );
     format!(
         "a tolerance of {tolerance:e} is not reached with at most {finest} springs; what is reached is {error:.1e} of \
          the {target}, with {points} springs and edges {edges}"
@@ -158,7 +199,9 @@ pub fn choose(
     // The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Without
     // a closed form adhesion forces are also compared under half and twice the loads, and the estimated error of the finest
     // solution is added.
-    let most = allowed_points(scene).next().map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
+    let most = allowed_points(scene)
+        .next()
+        .map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
     let mut tried: Vec<[Solution; 2]> = Vec::new();
     let mut runs = Runs::new(folder, stop);
     let (mut refused, mut of_finest) = (None, None);
@@ -175,10 +218,13 @@ pub fn choose(
         if stop() {
             return Err(ChoiceError::Stopped);
         }
-        let Ok(solved) = solved.try_into() else { continue };
+        let Ok(solved) = solved.try_into() else {
+            continue;
+        };
         tried.push(solved);
         of_finest = None;
-        let is_enough = |error| judge(&tried, error, tolerance).filter(|choice| choice.error <= tolerance);
+        let is_enough =
+            |error| judge(&tried, error, tolerance).filter(|choice| choice.error <= tolerance);
         if is_enough(0.0).is_some() {
             of_finest = error_of_finest(scene, &mut runs, &tried);
             if let Some(choice) = of_finest.and_then(is_enough) {
@@ -190,13 +236,19 @@ pub fn choose(
         Some(error) if tried.is_empty() => return Err(error.into()),
         _ => of_finest = of_finest.or_else(|| error_of_finest(scene, &mut runs, &tried)),
     }
-    let best = of_finest.and_then(|error| judge(&tried, error, tolerance)).map(Box::new);
+    let best = of_finest
+        .and_then(|error| judge(&tried, error, tolerance))
+        .map(Box::new);
     Err(ChoiceError::Unreached { tolerance, best })
 }
 
 /// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and around
 /// them. The error is 0 if the scene has a closed form, and `None` if it is unknown.
-fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution; 2]]) -> Option<f64> {
+fn error_of_finest(
+    scene: &CheckedScene,
+    runs: &mut Runs<'_>,
+    tried: &[[Solution; 2]],
+) -> Option<f64> {
     let [finest, _] = tried.last()?;
     if finest.closed_form.is_some() {
         return Some(0.0);
@@ -208,22 +260,39 @@ fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution
 /// tolerance, it is the best whose error is confirmed. Returns `None` for too few solutions.
 fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choice> {
     let [finest, _] = tried.last()?;
-    let (target, reference, closed_form) =
-        (Target::of(finest), finest.reference(), finest.closed_form.is_some());
+    let (target, reference, closed_form) = (
+        Target::of(finest),
+        finest.reference(),
+        finest.closed_form.is_some(),
+    );
     let candidates = [0, 1].into_iter().filter_map(|index| {
-        let error = |pair: &[Solution; 2]| Some(target.difference(&pair[index], &reference)? + of_finest);
+        let error =
+            |pair: &[Solution; 2]| Some(target.difference(&pair[index], &reference)? + of_finest);
         let errors = tried.iter().map(error).collect::<Option<Vec<_>>>()?;
         let confirmed = errors.len().checked_sub(1 + REFINEMENTS)?;
         let within = first_within(errors.iter().copied().map(Some), tolerance);
         let largest = || errors[confirmed..].iter().copied().fold(0.0, f64::max);
-        let (place, error) = within.map_or_else(|| (confirmed, largest()), |place| (place, errors[place]));
+        let (place, error) =
+            within.map_or_else(|| (confirmed, largest()), |place| (place, errors[place]));
         let (points, edges, finest) = (tried[place][index].points, EDGES[index], finest.points);
-        Some(Choice { tolerance, target, points, edges, error, closed_form, finest })
+        Some(Choice {
+            tolerance,
+            target,
+            points,
+            edges,
+            error,
+            closed_form,
+            finest,
+        })
     });
     let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
     // The first of equal choices: edges between springs.
     let fewest = good.into_iter().min_by_key(|choice| choice.points);
-    fewest.or_else(|| others.into_iter().min_by(|one, other| one.error.total_cmp(&other.error)))
+    fewest.or_else(|| {
+        others
+            .into_iter()
+            .min_by(|one, other| one.error.total_cmp(&other.error))
+    })
 }
 
 #[cfg(test)]
@@ -237,21 +306,36 @@ mod tests {
             adhesion_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
             ..Solution::default()
         };
-        (0..count).map(|k| edges.map(|edges| solution(k, edges))).collect()
+        (0..count)
+            .map(|k| edges.map(|edges| solution(k, edges)))
+            .collect()
     }
 
     /// Gives each solution a closed form of 1 N.
     fn known(solutions: Vec<[Solution; 2]>) -> Vec<[Solution; 2]> {
-        let known = |solution| Solution { closed_form: Some(1.0), ..solution };
+        let known = |solution| Solution {
+            closed_form: Some(1.0),
+            ..solution
+        };
         solutions.into_iter().map(|pair| pair.map(known)).collect()
     }
 
     #[test]
     fn tolerances_are_numbers_or_per_cent() {
-        for (text, expected) in [("1e-3", 1e-3), ("0.1%", 1e-3), (" 10 % ", 0.1), ("0.5", 0.5)] {
-            assert!((parse_tolerance(text).unwrap() / expected - 1.0).abs() < 1e-15, "{text}");
+        for (text, expected) in [
+            ("1e-3", 1e-3),
+            ("0.1%", 1e-3),
+            (" 10 % ", 0.1),
+            ("0.5", 0.5),
+        ] {
+            assert!(
+                (parse_tolerance(text).unwrap() / expected - 1.0).abs() < 1e-15,
+                "{text}"
+            );
         }
-        for wrong in ["0", "-1", "1", "100%", "nan", "inf", "", "%", "1e-3 %%", "abc"] {
+        for wrong in [
+            "0", "-1", "1", "100%", "nan", "inf", "", "%", "1e-3 %%", "abc",
+        ] {
             assert!(parse_tolerance(wrong).is_err(), "{wrong}");
         }
     }
@@ -286,7 +370,9 @@ mod tests {
             solution.around = vec![Some(1.0)];
         }
         let chosen = |tried: &[[Solution; 2]]| {
-            judge(tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)).unwrap()
+            judge(tried, 0.0, 0.01)
+                .map(|choice| (choice.points, choice.edges))
+                .unwrap()
         };
         assert_eq!(chosen(&tried), (16, Edges::Grid));
         tried[0][1].around = vec![Some(1.07)];

@@ -49,7 +49,10 @@ impl Estimate {
     /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the estimate is for the force
     /// curve ([`Target::Curve`]).
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
-        let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
+        let force = outcome
+            .figures
+            .adhesion_force
+            .filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
@@ -117,7 +120,12 @@ pub fn estimate(
     let target = Target::of(&own);
     if let (Some(exact), Some(force)) = (own.closed_form, own.adhesion_force) {
         let error = relative_error(force, exact);
-        return Some(Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm });
+        return Some(Estimate {
+            target,
+            error,
+            near_step: false,
+            evidence: Evidence::ClosedForm,
+        });
     }
     // If one of the first two numbers of springs is too small for the shortest wave, the scene is solved with about 3/2 and
     // about 2 times as many springs as it has.
@@ -125,26 +133,45 @@ pub fn estimate(
     let mut solved = |scene: &CheckedScene| runs.solve(scene).ok();
     let others = others(&target.only(scene).ok()?, &mut solved)?;
     let difference = |solution: &Solution| {
-        Some(target.difference(solution, &own)?.max(target.difference(&own, solution)?))
+        Some(
+            target
+                .difference(solution, &own)?
+                .max(target.difference(&own, solution)?),
+        )
     };
-    let differences = others.each_ref().map(|(scene, solution)| (scene, difference(solution)));
+    let differences = others
+        .each_ref()
+        .map(|(scene, solution)| (scene, difference(solution)));
     let near_step = target == Target::AdhesionForce
         && differences.iter().any(|&(scene, step)| {
             let step = step.filter(|&step| step > STEP);
-            let mut near = NEAR.iter().filter_map(|&factor| difference(&solved(&loaded(scene, factor)?)?));
+            let mut near = NEAR
+                .iter()
+                .filter_map(|&factor| difference(&solved(&loaded(scene, factor)?)?));
             step.is_some_and(|step| near.any(|rest| rest < step / 3.0))
         });
     let error = FACTOR * differences[0].1?.max(differences[1].1?);
     let springs = others.iter().map(|(_, solution)| solution.points).collect();
-    Some(Estimate { target, error, near_step, evidence: Evidence::Solutions(springs) })
+    Some(Estimate {
+        target,
+        error,
+        near_step,
+        evidence: Evidence::Solutions(springs),
+    })
 }
 
 /// Estimates the errors of a solution with edges between springs, under the loads of the scene and around them.
-pub(super) fn own_errors(scene: &CheckedScene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
+pub(super) fn own_errors(
+    scene: &CheckedScene,
+    finest: &Solution,
+    runs: &mut Runs<'_>,
+) -> Option<Errors> {
     let scene = refined(scene, finest.points, Edges::SubCell).ok()?;
     let others = others(&scene, &mut |scene| runs.solve_around(scene).ok())?;
     let [one, other] = others.map(|(_, solution)| solution.errors(finest));
-    Some(array::from_fn(|index| Some(FACTOR * one[index]?.max(other[index]?))))
+    Some(array::from_fn(|index| {
+        Some(FACTOR * one[index]?.max(other[index]?))
+    }))
 }
 
 /// Solves a scene with two other numbers of springs and edges between springs. Returns `None` if they are not allowed or have
@@ -158,9 +185,13 @@ fn others(
         let points = apart_from(own.saturating_mul(times) / over);
         let is_other = points != own && (points < own) == (times < over);
         let is_allowed = is_other && (FEWEST..=MOST_SPRINGS).contains(&points);
-        refined(scene, points, Edges::SubCell).ok().filter(|_| is_allowed)
+        refined(scene, points, Edges::SubCell)
+            .ok()
+            .filter(|_| is_allowed)
     };
-    let (one, other) = OTHERS.into_iter().find_map(|[one, other]| Some((on(one)?, on(other)?)))?;
+    let (one, other) = OTHERS
+        .into_iter()
+        .find_map(|[one, other]| Some((on(one)?, on(other)?)))?;
     let (of_one, of_other) = (solved(&one)?, solved(&other)?);
     Some([(one, of_one), (other, of_other)])
 }
@@ -180,7 +211,10 @@ fn apart_from(least: u64) -> u64 {
     };
     let suits = |number: &u64| [3, 5, 7, 11, 13].iter().fold(*number, without) == 1;
     let factor = if least < MANY_SPRINGS { 1 } else { 2 };
-    (least.div_ceil(factor) | 1..).step_by(2).find(suits).map_or(least, |odd| factor * odd)
+    (least.div_ceil(factor) | 1..)
+        .step_by(2)
+        .find(suits)
+        .map_or(least, |odd| factor * odd)
 }
 
 #[cfg(test)]
@@ -199,42 +233,81 @@ mod tests {
     }
 
     fn with(scene: &str, fields: &[(&str, &str)]) -> Document {
-        let fields: Vec<_> =
-            fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let fields: Vec<_> = fields
+            .iter()
+            .map(|(path, value)| (path.to_string(), value.to_string()))
+            .collect();
         open(scene).unwrap().set_all(&fields).unwrap()
     }
 
     #[test]
     fn errors_have_one_digit_and_two_after_a_one() {
         let words = |target, error| {
-            Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm }.words()
+            Estimate {
+                target,
+                error,
+                near_step: false,
+                evidence: Evidence::ClosedForm,
+            }
+            .words()
         };
         let errors = [0.0042, 0.0104, 0.0148, 0.0096, 0.123, 1.5, 2.3e-5, 9e-6];
-        let texts = ["0.4 %", "1 %", "1.5 %", "1 %", "12 %", "> 100 %", "0.002 %", "< 0.001 %"];
+        let texts = [
+            "0.4 %",
+            "1 %",
+            "1.5 %",
+            "1 %",
+            "12 %",
+            "> 100 %",
+            "0.002 %",
+            "< 0.001 %",
+        ];
         for (error, text) in errors.into_iter().zip(texts) {
-            assert_eq!(words(Target::AdhesionForce, error), format!("grid ± {text}"), "{error}");
+            assert_eq!(
+                words(Target::AdhesionForce, error),
+                format!("grid ± {text}"),
+                "{error}"
+            );
         }
         assert_eq!(words(Target::Curve, 0.9), "grid ± 90 % of the curve");
     }
 
     #[test]
     fn a_closed_form_gives_the_error_itself() {
-        let document = with("jkr-sphere", &[("numerics.points", "1024"), ("numerics.edges", "Grid")]);
-        let Estimate { error, evidence, .. } = estimated(&document).unwrap();
+        let document = with(
+            "jkr-sphere",
+            &[("numerics.points", "1024"), ("numerics.edges", "Grid")],
+        );
+        let Estimate {
+            error, evidence, ..
+        } = estimated(&document).unwrap();
         let force = run(&document).figures.adhesion_force.unwrap();
         let expected = (force / (1.5 * std::f64::consts::PI * 0.05 * 1e-4) - 1.0).abs();
-        assert!(evidence == Evidence::ClosedForm && (error / expected - 1.0).abs() < 1e-9, "{error}");
+        assert!(
+            evidence == Evidence::ClosedForm && (error / expected - 1.0).abs() < 1e-9,
+            "{error}"
+        );
     }
 
     #[test]
     fn the_evidence_is_what_the_scene_allows() {
-        let evidence =
-            |fields: &[(&str, &str)]| estimated(&with("pressure-sensitive", fields)).map(|one| one.evidence);
+        let evidence = |fields: &[(&str, &str)]| {
+            estimated(&with("pressure-sensitive", fields)).map(|one| one.evidence)
+        };
         let solutions = |springs: &[u64]| Some(Evidence::Solutions(springs.to_vec()));
-        assert_eq!(evidence(&[("numerics.points", "8192")]), solutions(&[7203, 5577]));
+        assert_eq!(
+            evidence(&[("numerics.points", "8192")]),
+            solutions(&[7203, 5577])
+        );
         // 512 modes need 1024 springs.
-        assert_eq!(evidence(&[("numerics.points", "1024")]), solutions(&[1573, 2079]));
-        assert_eq!(evidence(&[("numerics.points", "1025")]), solutions(&[1573, 2079]));
+        assert_eq!(
+            evidence(&[("numerics.points", "1024")]),
+            solutions(&[1573, 2079])
+        );
+        assert_eq!(
+            evidence(&[("numerics.points", "1025")]),
+            solutions(&[1573, 2079])
+        );
         // Few odd numbers suit a transform: none between 27 and 33.
         let few = [("roughness.modes", "(1, 4)"), ("numerics.points", "33")];
         assert_eq!(evidence(&few), solutions(&[49, 75]));
@@ -248,14 +321,25 @@ mod tests {
         let truth = force(&on("131072", "Exact"));
         for solver in ["Exact", "Stepwise(step: 2e-9)", "Stepwise(step: 2e-8)"] {
             let document = on("512", solver);
-            let (stated, error) =
-                (estimated(&document).unwrap().error, relative_error(force(&document), truth));
-            assert!((1.0..10.0).contains(&(stated / error)), "{solver}: {stated} for {error}");
+            let (stated, error) = (
+                estimated(&document).unwrap().error,
+                relative_error(force(&document), truth),
+            );
+            assert!(
+                (1.0..10.0).contains(&(stated / error)),
+                "{solver}: {stated} for {error}"
+            );
         }
         // No tensile force: the curve; and nothing without a contact.
-        let bare = with("pressure-sensitive", &[("adhesion", "None"), ("numerics.points", "4096")]);
+        let bare = with(
+            "pressure-sensitive",
+            &[("adhesion", "None"), ("numerics.points", "4096")],
+        );
         assert_eq!(estimated(&bare).unwrap().target, Target::Curve);
         assert_eq!(estimated(&bare.set("loading", "[ToTouch]").unwrap()), None);
-        assert_eq!(estimate(bare.scene(), Path::new(""), &run(&bare), &|| true), None);
+        assert_eq!(
+            estimate(bare.scene(), Path::new(""), &run(&bare), &|| true),
+            None
+        );
     }
 }

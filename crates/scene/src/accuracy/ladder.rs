@@ -2,7 +2,9 @@
 //! the springs of the step before, with both edge models, and half the step of the stepwise solver.
 
 use super::estimate::own_errors;
-use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
+use super::solution::{
+    Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined,
+};
 use super::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 use crate::scene::checked::CheckedScene;
 use crate::scene::errors::SceneErrors;
@@ -66,20 +68,43 @@ pub fn measure(
     watch: &mut dyn FnMut(Progress<'_>),
 ) -> Result<CostTable, String> {
     let (begun, budget) = (Instant::now(), budget.as_secs_f64());
-    let left = || if stop() { 0.0 } else { budget - begun.elapsed().as_secs_f64() };
+    let left = || {
+        if stop() {
+            0.0
+        } else {
+            budget - begun.elapsed().as_secs_f64()
+        }
+    };
     let is_over = || left() <= 0.0;
     let transform_seconds = time_of_transform().unwrap_or(f64::NAN);
-    let table = CostTable { budget, transform_seconds, ..CostTable::default() };
-    let mut ladder = Ladder { scene, folder, is_over: &is_over, rungs: Vec::new(), table };
-    let refused = ladder.climb(&left, watch).map_err(|error| error.to_string())?;
+    let table = CostTable {
+        budget,
+        transform_seconds,
+        ..CostTable::default()
+    };
+    let mut ladder = Ladder {
+        scene,
+        folder,
+        is_over: &is_over,
+        rungs: Vec::new(),
+        table,
+    };
+    let refused = ladder
+        .climb(&left, watch)
+        .map_err(|error| error.to_string())?;
     let own = ladder.finest().and_then(|[finest, _]| {
         let mut runs = Runs::new(folder, &is_over);
         own_errors(&compared(scene).ok()?, finest, &mut runs)
     });
-    let springs = allowed_points(scene).next().unwrap_or(scene.numerics.points);
+    let springs = allowed_points(scene)
+        .next()
+        .unwrap_or(scene.numerics.points);
     match refused {
         _ if stop() => Err("the measurement was stopped".to_owned()),
-        _ if ladder.count(own) => Ok(CostTable { spent: begun.elapsed().as_secs_f64(), ..ladder.table }),
+        _ if ladder.count(own) => Ok(CostTable {
+            spent: begun.elapsed().as_secs_f64(),
+            ..ladder.table
+        }),
         Some(error) if ladder.rungs.is_empty() => Err(error.to_string()),
         _ => Err(format!(
             "the budget of {budget} s is spent before two solutions could be compared, of which the coarsest has \
@@ -109,7 +134,12 @@ impl Ladder<'_> {
         for points in allowed_points(self.scene) {
             let began = left();
             // The first two may take all of the time, so that a comparison is possible.
-            let mut goes_on = began > if self.finest().is_some() { LATER * took } else { 0.0 };
+            let mut goes_on = began
+                > if self.finest().is_some() {
+                    LATER * took
+                } else {
+                    0.0
+                };
             for (knob, setting, scene) in self.settings(points) {
                 let (named, rest) = match knob {
                     Knob::Step => (format_quantity(setting, "m"), "less"),
@@ -124,7 +154,9 @@ impl Ladder<'_> {
                     }
                 }
                 if !goes_on {
-                    self.table.left_out.push(format!("{}: {named} and {rest}", knob.name()));
+                    self.table
+                        .left_out
+                        .push(format!("{}: {named} and {rest}", knob.name()));
                 }
             }
             if !goes_on {
@@ -141,40 +173,75 @@ impl Ladder<'_> {
     /// Returns the settings with this number of springs. The step of the stepwise solver is halved from rung to rung, once
     /// the exact reference solution is known.
     fn settings(&self, points: u64) -> Vec<(Knob, f64, CheckedScene)> {
-        let of = |(knob, edges)| Some((knob, points as f64, refined(self.scene, points, edges).ok()?));
-        let springs = [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)].map(of);
+        let of = |(knob, edges)| {
+            Some((
+                knob,
+                points as f64,
+                refined(self.scene, points, edges).ok()?,
+            ))
+        };
+        let springs = [
+            (Knob::SubCellSprings, Edges::SubCell),
+            (Knob::GridSprings, Edges::Grid),
+        ]
+        .map(of);
         let step = || {
             let exact = self.exact()?;
             let at = exact.curve.iter().flatten().map(|point| point[0]);
-            let (low, high) =
-                at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (at.min(low), at.max(high)));
+            let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
+                (at.min(low), at.max(high))
+            });
             let halvings = self.rungs_of(Knob::Step).count() as i32;
             let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halvings);
             let scene = refined(self.scene, exact.points, Edges::Grid).ok()?;
-            let scene = scene.with(|scene| scene.numerics.solver = Solver::Stepwise { step }).ok()?;
+            let scene = scene
+                .with(|scene| scene.numerics.solver = Solver::Stepwise { step })
+                .ok()?;
             (low < high).then_some((Knob::Step, step, scene))
         };
         springs.into_iter().flatten().chain(step()).collect()
     }
 
-    fn rung(&self, knob: Knob, setting: f64, scene: &CheckedScene) -> Result<(Row, Solution), RunError> {
+    fn rung(
+        &self,
+        knob: Knob,
+        setting: f64,
+        scene: &CheckedScene,
+    ) -> Result<(Row, Solution), RunError> {
         let (mut runs, compared) = (Runs::new(self.folder, self.is_over), compared(scene)?);
         let is_step = knob == Knob::Step;
-        let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
+        let solution = if is_step {
+            runs.solve(&compared)?
+        } else {
+            runs.solve_around(&compared)?
+        };
         let seconds = self.time(scene).ok_or(ContactError::Interrupted)?;
         let transforms = Some(seconds.minimum / self.table.transform_seconds);
         let (springs, seconds, errors) = (solution.points, Some(seconds), [None; 4]);
-        Ok((Row { knob, setting, springs, seconds, transforms, errors }, solution))
+        Ok((
+            Row {
+                knob,
+                setting,
+                springs,
+                seconds,
+                transforms,
+                errors,
+            },
+            solution,
+        ))
     }
 
     /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused. Returns `None` if no time
     /// is left.
     fn time(&self, scene: &CheckedScene) -> Option<Timing> {
         let (began, mut seconds) = (Instant::now(), Vec::new());
-        while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
+        while seconds.is_empty()
+            || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
         {
             let clock = Instant::now();
-            let Ok(_) = Runs::new(self.folder, self.is_over).solve(scene) else { break };
+            let Ok(_) = Runs::new(self.folder, self.is_over).solve(scene) else {
+                break;
+            };
             seconds.push(clock.elapsed().as_secs_f64());
         }
         Timing::of(seconds)
@@ -186,13 +253,18 @@ impl Ladder<'_> {
 
     /// Returns the reference for steps: the exact solution with as many springs as the stepwise solver has.
     fn exact(&self) -> Option<&Solution> {
-        let mut exact = self.rungs_of(Knob::GridSprings).map(|(_, solution)| solution);
+        let mut exact = self
+            .rungs_of(Knob::GridSprings)
+            .map(|(_, solution)| solution);
         exact.find(|solution| solution.points >= STEPWISE_SPRINGS)
     }
 
     /// Returns the two finest solutions with edges between springs, the finest first.
     fn finest(&self) -> Option<[&Solution; 2]> {
-        let mut finer = self.rungs_of(Knob::SubCellSprings).rev().map(|(_, solution)| solution);
+        let mut finer = self
+            .rungs_of(Knob::SubCellSprings)
+            .rev()
+            .map(|(_, solution)| solution);
         Some([finer.next()?, finer.next()?])
     }
 
@@ -200,7 +272,9 @@ impl Ladder<'_> {
     /// the exact solution. The error of the reference itself is `own`, or twice the last differences. Returns false for fewer
     /// than two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
-        let Some([finest, last]) = self.finest() else { return false };
+        let Some([finest, last]) = self.finest() else {
+            return false;
+        };
         let twice = || last.errors(finest).map(|last| last.map(|last| 2.0 * last));
         let (mut errors, target) = (own.unwrap_or_else(twice), finest.reference());
         let closed_form = target.closed_form.is_some();
@@ -208,7 +282,12 @@ impl Ladder<'_> {
             errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
         // With few springs each of them is a jump, which is late by up to one distance of samples.
-        let late = [None, Some(1.0 / compared_samples(self.scene) as f64), None, None];
+        let late = [
+            None,
+            Some(1.0 / compared_samples(self.scene) as f64),
+            None,
+            None,
+        ];
         let mut rows: Vec<Row> = Vec::new();
         for knob in Knob::ALL {
             // The difference of the finest solution from itself is zero, which is not its error.
@@ -219,11 +298,19 @@ impl Ladder<'_> {
             for (row, solution) in self.rungs_of(knob) {
                 let before = rows.last().filter(|row| row.knob == knob);
                 let errors = resolved(solution.errors(target), floors, row.setting, before);
-                rows.push(Row { errors, ..row.clone() });
+                rows.push(Row {
+                    errors,
+                    ..row.clone()
+                });
             }
         }
         let (springs, adhesion_force) = (target.points, target.adhesion_force);
-        self.table.reference = CostReference { springs, adhesion_force, closed_form, errors };
+        self.table.reference = CostReference {
+            springs,
+            adhesion_force,
+            closed_form,
+            errors,
+        };
         self.table.rows = rows;
         true
     }
@@ -231,15 +318,26 @@ impl Ladder<'_> {
 
 /// Returns the errors of a setting where they exceed the errors of the reference, with orders of convergence relative to
 /// the row before.
-fn resolved(errors: Errors, floors: Errors, setting: f64, before: Option<&Row>) -> [Option<ErrorFigure>; 4] {
-    let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
+fn resolved(
+    errors: Errors,
+    floors: Errors,
+    setting: f64,
+    before: Option<&Row>,
+) -> [Option<ErrorFigure>; 4] {
+    let ratio = before.map_or(1.0, |row| {
+        (setting / row.setting).max(row.setting / setting)
+    });
     let coarse = before.map_or([None; 4], |row| row.errors);
     std::array::from_fn(|index| {
         let (error, floor) = (errors[index]?, floors[index].unwrap_or(0.0).max(ROUNDING));
         let resolved = error > floor;
         let coarse = coarse[index].filter(|coarse| coarse.resolved && resolved);
         let order = coarse.and_then(|coarse| observed_order(coarse.error, error, ratio));
-        Some(ErrorFigure { error: error.max(floor), resolved, order })
+        Some(ErrorFigure {
+            error: error.max(floor),
+            resolved,
+            order,
+        })
     })
 }
 
@@ -256,9 +354,14 @@ fn time_of_transform() -> Option<f64> {
     let mut points = transform.make_input_vec();
     let (mut modes, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
     let run = |_| {
-        points.iter_mut().enumerate().for_each(|(index, point)| *point = (index % 17) as f64);
+        points
+            .iter_mut()
+            .enumerate()
+            .for_each(|(index, point)| *point = (index % 17) as f64);
         let clock = Instant::now();
-        transform.process_with_scratch(&mut points, &mut modes, &mut scratch).ok()?;
+        transform
+            .process_with_scratch(&mut points, &mut modes, &mut scratch)
+            .ok()?;
         Some(clock.elapsed().as_secs_f64())
     };
     // The first run is not measured.

@@ -52,7 +52,11 @@ impl Solution {
     /// Returns this solution as a reference. An adhesion force in closed form replaces the computed one.
     pub(super) fn reference(&self) -> Solution {
         match self.closed_form {
-            Some(_) => Solution { adhesion_force: self.closed_form, around: Vec::new(), ..self.clone() },
+            Some(_) => Solution {
+                adhesion_force: self.closed_form,
+                around: Vec::new(),
+                ..self.clone()
+            },
             None => self.clone(),
         }
     }
@@ -63,10 +67,14 @@ impl Solution {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
         };
-        let around = self.around.iter().zip(&reference.around).map(|(&one, &other)| match (one, other) {
-            (Some(_), None) => f64::INFINITY,
-            _ => relative(one, other).unwrap_or(0.0),
-        });
+        let around = self
+            .around
+            .iter()
+            .zip(&reference.around)
+            .map(|(&one, &other)| match (one, other) {
+                (Some(_), None) => f64::INFINITY,
+                _ => relative(one, other).unwrap_or(0.0),
+            });
         let own = relative(self.adhesion_force, reference.adhesion_force);
         [
             own.map(|own| around.fold(own, f64::max)),
@@ -100,7 +108,11 @@ impl Target {
     }
 
     pub(super) fn of(solution: &Solution) -> Self {
-        if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
+        if solution.adhesion_force.is_some() {
+            Target::AdhesionForce
+        } else {
+            Target::Curve
+        }
     }
 
     /// Returns the scene reduced to what this quantity needs.
@@ -125,7 +137,11 @@ pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
 }
 
 /// Returns the scene with this number of springs, this edge model and the exact solver.
-pub(super) fn refined(scene: &CheckedScene, points: u64, edges: Edges) -> Result<CheckedScene, SceneErrors> {
+pub(super) fn refined(
+    scene: &CheckedScene,
+    points: u64,
+    edges: Edges,
+) -> Result<CheckedScene, SceneErrors> {
     scene.with(|scene| {
         let numerics = &mut scene.numerics;
         (numerics.points, numerics.edges, numerics.solver) = (points, edges, Solver::Exact);
@@ -144,13 +160,15 @@ pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> 
             }
         }
     };
-    scene.with(loaded).ok().filter(|other| other.loading != scene.loading)
+    scene
+        .with(loaded)
+        .ok()
+        .filter(|other| other.loading != scene.loading)
 }
 
 /// Returns true if a scene has target forces or indentations that [`loaded`] multiplies.
 pub(super) fn has_loads(scene: &Scene) -> bool {
-    let is_load =
-        |leg: &Move| matches!(leg, Move::ToForce(target) | Move::ToIndentation(target) if *target > 0.0);
+    let is_load = |leg: &Move| matches!(leg, Move::ToForce(target) | Move::ToIndentation(target) if *target > 0.0);
     scene.loading.iter().any(is_load)
 }
 
@@ -159,7 +177,10 @@ pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> 
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
     let allowed = |points| refined(scene, points, scene.numerics.edges).is_ok();
     // Skips numbers too small for the modes, then stops at those too large for the field.
-    powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
+    powers
+        .take(40)
+        .skip_while(move |&points| !allowed(points))
+        .take_while(move |&points| allowed(points))
 }
 
 /// Runs of scenes that reuse an unchanged profile.
@@ -179,8 +200,13 @@ impl<'a> Runs<'a> {
     pub(super) fn solve_around(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
         let mut solution = self.solve(scene)?;
         let scene = Target::of(&solution).only(scene)?;
-        let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
-        for scene in others.take_while(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
+        let others = AROUND
+            .into_iter()
+            .filter_map(|factor| loaded(&scene, factor));
+        for scene in others
+            .take_while(|_| solution.adhesion_force.is_some())
+            .collect::<Vec<_>>()
+        {
             solution.around.push(match self.solve(&scene) {
                 Err(error) if is_too_coarse(&error) => None,
                 other => other?.adhesion_force,
@@ -193,8 +219,15 @@ impl<'a> Runs<'a> {
 /// Returns true if memory or time did not suffice.
 pub(super) fn is_spent(error: &RunError) -> bool {
     use RunError::{Contact, OutOfMemory, Surface};
-    let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory { .. }));
-    is_short || matches!(error, Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted))
+    let is_short = matches!(
+        error,
+        OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory { .. })
+    );
+    is_short
+        || matches!(
+            error,
+            Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted)
+        )
 }
 
 /// Returns true if there are too few springs: none is under the body, or their contact does not reach the end of a stage.
@@ -228,7 +261,10 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
             let body = closed_form(form, modulus, work)?;
             let (radius, _) = body.force_controlled_pull_off();
             // An edge of the contact at the end of the profile is no longer the body's own.
-            (body.indentation(radius), length - 2.0 * outcome.line.spacing)
+            (
+                body.indentation(radius),
+                length - 2.0 * outcome.line.spacing,
+            )
         }
     };
     let legs = &outcome.history.legs;
@@ -237,7 +273,8 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let passes = pulled.first()?.start() >= pull_off && pulled.last()?.end_in_contact().is_none();
     // Lengths are sums with rounding errors.
     let is_inside = longest_contact(outcome) <= widest * (1.0 + 1e-9);
-    smooth_adhesion_force(form, length, modulus, [work; 2], f64::INFINITY).filter(|_| passes && is_inside)
+    smooth_adhesion_force(form, length, modulus, [work; 2], f64::INFINITY)
+        .filter(|_| passes && is_inside)
 }
 
 /// Number of indentations at which the forces of a loading stage are compared.
@@ -248,7 +285,11 @@ pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
 
 pub(super) fn force_curve(history: &History) -> ForceCurve {
     let points = |leg: &LegRecord| {
-        let mut points: Vec<_> = leg.curve.iter().map(|point| [point.indentation, point.force]).collect();
+        let mut points: Vec<_> = leg
+            .curve
+            .iter()
+            .map(|point| [point.indentation, point.force])
+            .collect();
         if leg.direction == Direction::Unloading {
             points.reverse();
         }
@@ -261,7 +302,11 @@ pub(super) fn force_curve(history: &History) -> ForceCurve {
 /// largest force of the reference. The largest of all stages counts. A jump that is late by a hundredth of the range of
 /// indentations counts a hundredth of its height. Returns `None` if the reference has no forces or another number of stages.
 pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f64> {
-    let largest = reference.iter().flatten().map(|point| point[1].abs()).fold(0.0, f64::max);
+    let largest = reference
+        .iter()
+        .flatten()
+        .map(|point| point[1].abs())
+        .fold(0.0, f64::max);
     if curve.len() != reference.len() || largest == 0.0 || largest.is_nan() {
         return None;
     }
@@ -272,14 +317,24 @@ pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f
         let sum: Option<f64> = (0..COMPARED).map(|index| apart(at(index))).sum();
         Some(sum? / COMPARED as f64 / largest)
     };
-    curve.iter().zip(reference).map(mean).try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
+    curve
+        .iter()
+        .zip(reference)
+        .map(mean)
+        .try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
 }
 
 /// Returns the force of a curve at an indentation, and beyond the ends the force at the end. Returns `None` without points.
 fn force(curve: &[[f64; 2]], at: f64) -> Option<f64> {
-    let above = curve.partition_point(|point| point[0] < at).min(curve.len().checked_sub(1)?);
+    let above = curve
+        .partition_point(|point| point[0] < at)
+        .min(curve.len().checked_sub(1)?);
     let ([low, before], [high, after]) = (curve[above.saturating_sub(1)], curve[above]);
-    let share = if high > low { ((at - low) / (high - low)).clamp(0.0, 1.0) } else { 1.0 };
+    let share = if high > low {
+        ((at - low) / (high - low)).clamp(0.0, 1.0)
+    } else {
+        1.0
+    };
     Some(before + share * (after - before))
 }
 
@@ -289,16 +344,24 @@ mod tests {
     use crate::scene::open::open;
 
     fn closed_form(scene: &str, overrides: &[(&str, &str)]) -> Option<f64> {
-        let overrides: Vec<_> =
-            overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let overrides: Vec<_> = overrides
+            .iter()
+            .map(|(path, value)| (path.to_string(), value.to_string()))
+            .collect();
         let document = open(scene).unwrap().set_all(&overrides).unwrap();
-        Runs::new(&document.resolve(""), &|| false).solve(document.scene()).unwrap().closed_form
+        Runs::new(&document.resolve(""), &|| false)
+            .solve(document.scene())
+            .unwrap()
+            .closed_form
     }
 
     #[test]
     fn closed_forms_are_given_where_they_hold() {
         let sphere = closed_form("jkr-sphere", &[]).unwrap();
-        assert!((sphere / (1.5 * PI * 0.05 * 1e-4) - 1.0).abs() < 1e-12, "{sphere}");
+        assert!(
+            (sphere / (1.5 * PI * 0.05 * 1e-4) - 1.0).abs() < 1e-12,
+            "{sphere}"
+        );
         assert!(closed_form("jkr-sphere", &[("loading", "[ToTouch, ToSeparation]")]).is_some());
         assert!(closed_form("kendall-punch", &[]).is_some());
         // Not pulled off, a profile that is too short, no adhesion, rough.
@@ -315,7 +378,10 @@ mod tests {
         assert_eq!(fewest("jkr-sphere"), Some(16));
         assert_eq!(fewest("pressure-sensitive"), Some(1024));
         assert_eq!(fewest("million-springs"), Some(1 << 19));
-        assert_eq!(allowed_points(open("jkr-sphere").unwrap().scene()).last(), Some(1 << 28));
+        assert_eq!(
+            allowed_points(open("jkr-sphere").unwrap().scene()).last(),
+            Some(1 << 28)
+        );
     }
 
     fn curve(points: &[[f64; 2]]) -> ForceCurve {

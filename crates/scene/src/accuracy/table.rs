@@ -56,7 +56,11 @@ impl Timing {
     /// Computes the shortest and the median time from the times of some runs in s. Returns `None` for an empty list.
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         let minimum = seconds.iter().copied().reduce(f64::min)?;
-        Some(Timing { minimum, median: median(&mut seconds)?, runs: seconds.len() })
+        Some(Timing {
+            minimum,
+            median: median(&mut seconds)?,
+            runs: seconds.len(),
+        })
     }
 }
 
@@ -134,7 +138,12 @@ impl CostTable {
     /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest
     /// contact length. The error of a force curve is its mean absolute difference from the force curve of the reference
     /// ([`CostReference`]) at equal indentations, divided by the largest absolute force of the reference.
-    pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
+    pub const QUANTITIES: [&str; 4] = [
+        "adhesion_force",
+        "curve",
+        "dissipated_energy",
+        "contact_length",
+    ];
 
     /// Returns the rows in which this setting is varied, from coarse to fine.
     pub fn rows_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Row> {
@@ -144,7 +153,11 @@ impl CostTable {
     /// Returns the main error of a row: the error of the adhesion force, or of the force curve if there is no tensile force.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
-        if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
+        if self.reference.adhesion_force.is_some() {
+            adhesion_force
+        } else {
+            curve
+        }
     }
 
     /// Returns true if the error of the adhesion force in each row with springs is the largest at half, once and twice the
@@ -159,7 +172,8 @@ impl CostTable {
     /// known, positive and finite.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
-        (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
+        (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite())
+            .then_some((seconds, figure))
     }
 
     /// Returns the coarsest row of a setting such that the [main error](Self::main_error) of this row and of all finer rows
@@ -179,9 +193,13 @@ impl CostTable {
             (Solver::Exact, Edges::Grid) => (Knob::GridSprings, numerics.points as f64),
             (Solver::Exact, Edges::SubCell) => (Knob::SubCellSprings, numerics.points as f64),
         };
-        let rows = self.rows_of(knob).filter(|row| knob != Knob::Step || row.springs == numerics.points);
-        let point =
-            |row: &Row| self.point(row).map(|(seconds, figure)| (row.setting.ln(), (seconds, figure.error)));
+        let rows = self
+            .rows_of(knob)
+            .filter(|row| knob != Knob::Step || row.springs == numerics.points);
+        let point = |row: &Row| {
+            self.point(row)
+                .map(|(seconds, figure)| (row.setting.ln(), (seconds, figure.error)))
+        };
         let mut rows: Vec<_> = rows.filter_map(point).collect();
         rows.sort_by(|one, other| one.0.total_cmp(&other.0));
         let at = setting.ln();
@@ -213,20 +231,34 @@ impl CostTable {
     /// either edge model, and how long the computation takes.
     pub fn answer(&self) -> Vec<String> {
         let of_force = self.reference.adhesion_force.is_some();
-        let what = if of_force { "the adhesion force" } else { "the force curve" };
+        let what = if of_force {
+            "the adhesion force"
+        } else {
+            "the force curve"
+        };
         let found = |knob: Knob, edges: &str, bound: f64| {
-            if let Some(Row { springs, seconds, .. }) = self.first_row_within(knob, bound) {
-                let time = seconds.map(|time| format!(", {}", format_rounded(time.minimum, 3, "s")));
+            if let Some(Row {
+                springs, seconds, ..
+            }) = self.first_row_within(knob, bound)
+            {
+                let time =
+                    seconds.map(|time| format!(", {}", format_rounded(time.minimum, 3, "s")));
                 let (springs, time) = (grouped(*springs), time.unwrap_or_default());
                 return format!("{springs} springs{time} with edges {edges}");
             }
-            let finest = self.rows_of(knob).next_back().map(|row| grouped(row.springs));
+            let finest = self
+                .rows_of(knob)
+                .next_back()
+                .map(|row| grouped(row.springs));
             let missed = |finest| format!("not found up to {finest} springs with edges {edges}");
             finest.map_or_else(|| format!("edges {edges} were not affordable"), missed)
         };
         let sentence = |(bound, percent): (f64, &str)| {
             let sub_cell = found(Knob::SubCellSprings, "SubCell", bound);
-            format!("{percent} of {what}: {sub_cell}; {}.", found(Knob::GridSprings, "Grid", bound))
+            format!(
+                "{percent} of {what}: {sub_cell}; {}.",
+                found(Knob::GridSprings, "Grid", bound)
+            )
         };
         TARGETS.map(sentence).into()
     }
@@ -239,7 +271,9 @@ pub(super) fn first_within(
     bound: f64,
 ) -> Option<usize> {
     let errors: Vec<_> = errors.collect();
-    let above = errors.iter().rposition(|error| error.is_none_or(|error| error.is_nan() || error > bound));
+    let above = errors
+        .iter()
+        .rposition(|error| error.is_none_or(|error| error.is_nan() || error > bound));
     let first = above.map_or(0, |above| above + 1);
     (first + REFINEMENTS < errors.len()).then_some(first)
 }
@@ -257,13 +291,17 @@ mod tests {
         assert_eq!(first(&[0.05, 0.0, 0.0], 0.1), Some(0));
         assert_eq!(first(&[], 0.1), None);
         assert_eq!(first(&[f64::NAN, 0.0, 0.0, 0.0], 0.1), Some(1));
-        assert_eq!(first_within([Some(0.0), Some(0.0), None].into_iter(), 0.1), None);
+        assert_eq!(
+            first_within([Some(0.0), Some(0.0), None].into_iter(), 0.1),
+            None
+        );
     }
 
     #[test]
     fn times_have_a_minimum_and_a_median() {
-        let of =
-            |times: &[f64]| Timing::of(times.to_vec()).map(|time| (time.minimum, time.median, time.runs));
+        let of = |times: &[f64]| {
+            Timing::of(times.to_vec()).map(|time| (time.minimum, time.median, time.runs))
+        };
         assert_eq!(of(&[]), None);
         assert_eq!(of(&[4.0, 1.0]), Some((1.0, 2.5, 2)));
         assert_eq!(of(&[4.0, 1.0, 2.0]), Some((1.0, 2.0, 3)));
@@ -276,22 +314,45 @@ mod tests {
             springs: setting as u64,
             seconds: Timing::of(vec![1e-6 * setting]),
             transforms: None,
-            errors: [Some(ErrorFigure { error, resolved: error > 1e-6, order: None }), None, None, None],
+            errors: [
+                Some(ErrorFigure {
+                    error,
+                    resolved: error > 1e-6,
+                    order: None,
+                }),
+                None,
+                None,
+                None,
+            ],
         };
         of.iter().map(row).collect()
     }
 
     fn table(rows: &[Vec<Row>]) -> CostTable {
-        let reference = CostReference { adhesion_force: Some(1.0), ..CostReference::default() };
-        CostTable { reference, rows: rows.concat(), ..CostTable::default() }
+        let reference = CostReference {
+            adhesion_force: Some(1.0),
+            ..CostReference::default()
+        };
+        CostTable {
+            reference,
+            rows: rows.concat(),
+            ..CostTable::default()
+        }
     }
 
     #[test]
     fn the_order_is_the_slope_of_resolved_errors() {
         let steps = [(1.0, 1.0), (0.5, 0.25), (0.25, 0.0625), (1e-6, 1e-7)];
-        let table = table(&[rows(Knob::Step, &steps), rows(Knob::GridSprings, &steps[..2])]);
+        let table = table(&[
+            rows(Knob::Step, &steps),
+            rows(Knob::GridSprings, &steps[..2]),
+        ]);
         assert!((table.order(Knob::Step).unwrap() - 2.0).abs() < 1e-12);
-        assert_eq!(table.order(Knob::GridSprings), None, "two rows are no order");
+        assert_eq!(
+            table.order(Knob::GridSprings),
+            None,
+            "two rows are no order"
+        );
     }
 
     #[test]
@@ -305,8 +366,16 @@ mod tests {
             (512.0, 1e-4),
             (1024.0, 1e-5),
         ];
-        let grid = [(16.0, 0.3), (2048.0, 0.009), (4096.0, 0.0045), (8192.0, 0.0009)];
-        let mut table = table(&[rows(Knob::SubCellSprings, &sub_cell), rows(Knob::GridSprings, &grid)]);
+        let grid = [
+            (16.0, 0.3),
+            (2048.0, 0.009),
+            (4096.0, 0.0045),
+            (8192.0, 0.0009),
+        ];
+        let mut table = table(&[
+            rows(Knob::SubCellSprings, &sub_cell),
+            rows(Knob::GridSprings, &grid),
+        ]);
         assert_eq!(
             table.answer(),
             [

@@ -52,16 +52,30 @@ impl Governing {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
             let unit = unit?;
-            let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
+            let Some(Roughness::SelfAffine {
+                rms_height,
+                rms_gradient,
+                ..
+            }) = scene.roughness
+            else {
                 return None;
             };
-            let rms_height = rms_height.or(rms_gradient.map(|gradient| gradient / unit.rms_gradient))?;
+            let rms_height =
+                rms_height.or(rms_gradient.map(|gradient| gradient / unit.rms_gradient))?;
             let amplitude = unit.scaled(rms_height);
-            Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
+            Some(Amplitude {
+                rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient),
+                ..amplitude
+            })
         });
         // A given κ yields γ = h⟨∇z⟩E*/κ², a given e_el/γ yields γ from e_el = E* h² q̄/4. Here q̄ is the mean wave number of the
         // roughness in rad/m, weighted by the squared amplitudes of the waves.
-        Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
+        Governing {
+            effective_modulus,
+            amplitude,
+            ..Governing::default()
+        }
+        .with_adhesion(scene.adhesion)
     }
 
     /// Returns the parameters for the same profile and modulus with another adhesion.
@@ -112,7 +126,8 @@ impl Governing {
     /// Returns the energy per area in J/m² whose ratio to the work of adhesion defines the parameter: h⟨∇z⟩E* for κ, e_el for
     /// e_el/γ. Returns `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
-        self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
+        self.amplitude
+            .map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
     /// Returns E* h L in N, the unit of force in Pohrt, Popov and Filippov (2012), with the rms height h and the length L of
@@ -145,15 +160,21 @@ impl Governing {
     /// of adhesion γ on opening, the effective modulus E* and the range z₀ of the attraction. Returns `None` without
     /// adhesion, and for bodies such as cones, which have no ρ.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
-        let (radius, work) = (curvature_radius(scene.form.as_ref(), self)?, self.adhesive_work()?);
+        let (radius, work) = (
+            curvature_radius(scene.form.as_ref(), self)?,
+            self.adhesive_work()?,
+        );
         let range = scene.adhesion?.attraction_range();
-        Some(tabor_number(radius, work, self.effective_modulus, range)).filter(|number| number.is_finite())
+        Some(tabor_number(radius, work, self.effective_modulus, range))
+            .filter(|number| number.is_finite())
     }
 }
 
 fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
     match parameter {
-        RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
+        RoughnessParameter::Kappa => {
+            amplitude.rms_height * amplitude.rms_gradient * effective_modulus
+        }
         RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(effective_modulus),
     }
 }
@@ -161,7 +182,8 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
 /// Returns the value of a parameter from its energy and the work of adhesion, both in J/m². Returns `None` if adhesion is so
 /// small that the value overflows.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
-    Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
+    Some(parameter.of_energy_over_work(energy / work))
+        .filter(|value| work > 0.0 && value.is_finite())
 }
 
 /// Returns the radius of curvature ρ of the summits in m; `None` for smooth flat bodies, cones and power laws.
@@ -172,13 +194,20 @@ fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64
 fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     // A flat face has the curvature of the flat end of a punch.
     let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
-    let of_roughness = governing.amplitude.map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
+    let of_roughness = governing
+        .amplitude
+        .map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
     Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
 }
 
 /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) (Tabor 1977) of a summit with the curvature radius ρ in m. The other
 /// arguments are the work of adhesion γ in J/m², the effective modulus E* in Pa and the range z₀ of the attraction in m.
-fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus: f64, range: f64) -> f64 {
+fn tabor_number(
+    curvature_radius: f64,
+    work_of_adhesion: f64,
+    effective_modulus: f64,
+    range: f64,
+) -> f64 {
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
@@ -200,14 +229,20 @@ impl SteepWaves {
 
     /// Returns the steep waves of a scene; `None` if the scene has no such waves or no adhesion.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
-        let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
+        let &Form::WavySphere {
+            radius,
+            amplitude,
+            wavelength,
+        } = scene.form.as_ref()?
+        else {
             return None;
         };
         let stretch = governing.adhesive_work()? / governing.effective_modulus;
         let ratio = wavelength.powi(2) / (amplitude * radius);
         let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);
         // Without a finite factor there is next to no adhesion.
-        (ratio < Self::LEAST_RATIO && jkr_factor.is_finite()).then_some(SteepWaves { ratio, jkr_factor })
+        (ratio < Self::LEAST_RATIO && jkr_factor.is_finite())
+            .then_some(SteepWaves { ratio, jkr_factor })
     }
 }
 
@@ -220,8 +255,12 @@ mod tests {
     use crate::simulation::stages::Simulation;
     use std::f64::consts::TAU;
 
-    const ROUGH: Option<Amplitude> =
-        Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 });
+    const ROUGH: Option<Amplitude> = Some(Amplitude {
+        rms_height: 3.0,
+        rms_gradient: 6.0,
+        rms_curvature: 15.0,
+        mean_wave_number: 0.5,
+    });
 
     /// The parameters of a scene with E* = 4 Pa and the given roughness and adhesion; `None` for no roughness.
     fn governing(amplitude: Option<&str>, adhesion: &str) -> Governing {
@@ -260,18 +299,31 @@ mod tests {
             ("rms_height: 3.0,", "(elastic_energy_ratio: 2.25)"),
             ("rms_gradient: 6.0,", "(elastic_energy_ratio: 2.25)"),
         ] {
-            assert_eq!(governing(Some(amplitude), adhesion), expected, "{amplitude} {adhesion}");
+            assert_eq!(
+                governing(Some(amplitude), adhesion),
+                expected,
+                "{amplitude} {adhesion}"
+            );
         }
     }
 
     #[test]
     fn a_smooth_line_has_no_kappa_and_no_work_is_no_adhesion() {
         let smooth = governing(None, "(work: 2.0)");
-        assert_eq!((smooth.adhesive_work(), smooth.kappa, smooth.amplitude), (Some(2.0), None, None));
+        assert_eq!(
+            (smooth.adhesive_work(), smooth.kappa, smooth.amplitude),
+            (Some(2.0), None, None)
+        );
         let none = governing(Some("rms_height: 3.0,"), "(work: 0.0)");
-        assert_eq!((none.work_of_adhesion, none.kappa, none.adhesive_work()), (Some(0.0), None, None));
+        assert_eq!(
+            (none.work_of_adhesion, none.kappa, none.adhesive_work()),
+            (Some(0.0), None, None)
+        );
         let without = governing(Some("rms_height: 3.0,"), "None");
-        assert_eq!((without.work_of_adhesion, without.kappa, without.amplitude), (None, None, ROUGH));
+        assert_eq!(
+            (without.work_of_adhesion, without.kappa, without.amplitude),
+            (None, None, ROUGH)
+        );
         // A parameter that overflows.
         assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
     }
@@ -285,8 +337,14 @@ mod tests {
             (changed.work_of_adhesion, changed.kappa)
         };
         assert_eq!(by(RoughnessParameter::Kappa, 3.0), (Some(8.0), Some(3.0)));
-        assert_eq!(by(RoughnessParameter::ElasticEnergyRatio, 0.5), (Some(9.0), Some(8.0_f64.sqrt())));
-        assert_eq!(base.with_adhesion(Some(Adhesion::by_work(8.0))).kappa, Some(3.0));
+        assert_eq!(
+            by(RoughnessParameter::ElasticEnergyRatio, 0.5),
+            (Some(9.0), Some(8.0_f64.sqrt()))
+        );
+        assert_eq!(
+            base.with_adhesion(Some(Adhesion::by_work(8.0))).kappa,
+            Some(3.0)
+        );
         assert_eq!(base.with_adhesion(None).kappa, None);
     }
 
@@ -297,8 +355,10 @@ mod tests {
     }
 
     fn set(document: &Document, fields: &[(&str, &str)]) -> Document {
-        let fields: Vec<_> =
-            fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let fields: Vec<_> = fields
+            .iter()
+            .map(|(path, value)| (path.to_string(), value.to_string()))
+            .collect();
         document.set_all(&fields).unwrap()
     }
 
@@ -335,7 +395,11 @@ mod tests {
         let fields = [("adhesion", "(work: 0.05)"), ("numerics.points", "4096")];
         let rough = set(&open("pressure-sensitive").unwrap(), &fields);
         let scene = rough.scene();
-        let Some(Roughness::SelfAffine { rms_height: Some(height), .. }) = scene.roughness else {
+        let Some(Roughness::SelfAffine {
+            rms_height: Some(height),
+            ..
+        }) = scene.roughness
+        else {
             panic!("no self-affine roughness with an rms height");
         };
         let spectrum = scene.spectrum().unwrap();
@@ -344,8 +408,14 @@ mod tests {
                 .map(|k| (k as f64).powf(power) * spectrum.relative_amplitude(k).powi(2))
                 .sum()
         };
-        let curvature = height * (TAU / scene.length).powi(2) * (squares(4.0) / squares(0.0)).sqrt();
-        let expected = tabor_number(2.0 / curvature, 0.05, scene.material.effective_modulus(), 0.3e-9);
+        let curvature =
+            height * (TAU / scene.length).powi(2) * (squares(4.0) / squares(0.0)).sqrt();
+        let expected = tabor_number(
+            2.0 / curvature,
+            0.05,
+            scene.material.effective_modulus(),
+            0.3e-9,
+        );
         assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);
         // A sphere with a radius far larger than that of the summits has almost no effect.
         let sphere = rough.set("form", "Paraboloid(radius: 10.0)").unwrap();

@@ -48,8 +48,14 @@ impl DisplacementCurve {
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
         let mut last: Option<DisplacementPoint> = None;
         for point in curve {
-            let CurvePoint { indentation, force, .. } = *point;
-            let next = DisplacementPoint { displacement: point.displacement(stiffness), indentation, force };
+            let CurvePoint {
+                indentation, force, ..
+            } = *point;
+            let next = DisplacementPoint {
+                displacement: point.displacement(stiffness),
+                indentation,
+                force,
+            };
             let (Some(from), Some(&reached)) = (last.replace(next), points.last()) else {
                 points.push(next);
                 continue;
@@ -61,11 +67,15 @@ impl DisplacementCurve {
             if behind[0] > 0.0 {
                 let share = behind[0] / (behind[0] - behind[1]);
                 let landing = from.towards(&next, share);
-                points.push(DisplacementPoint { displacement: reached.displacement, ..landing });
+                points.push(DisplacementPoint {
+                    displacement: reached.displacement,
+                    ..landing
+                });
             }
             points.push(next);
         }
-        let free = [curve.first(), curve.last()].map(|end| end.is_some_and(|point| point.springs == 0));
+        let free =
+            [curve.first(), curve.last()].map(|end| end.is_some_and(|point| point.springs == 0));
         DisplacementCurve { points, sign, free }
     }
 
@@ -76,12 +86,15 @@ impl DisplacementCurve {
 
     /// Returns the parts of the curve between the jumps of the body.
     pub fn steady_parts(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
-        self.points.chunk_by(|one, next| one.displacement != next.displacement)
+        self.points
+            .chunk_by(|one, next| one.displacement != next.displacement)
     }
 
     /// Returns the two points of each jump of the body: before the jump, and after it at the same displacement.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
-        self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
+        self.points
+            .windows(2)
+            .filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
     /// Returns the point of the curve at a displacement in m, at a jump the point before it. Beyond an end of the stage the
@@ -91,14 +104,24 @@ impl DisplacementCurve {
             return None;
         }
         let wanted = self.sign * displacement;
-        let place = self.points.partition_point(|point| self.sign * point.displacement < wanted);
+        let place = self
+            .points
+            .partition_point(|point| self.sign * point.displacement < wanted);
         let before = place.checked_sub(1).map(|before| self.points[before]);
-        let free = DisplacementPoint { displacement, indentation: displacement, force: 0.0 };
+        let free = DisplacementPoint {
+            displacement,
+            indentation: displacement,
+            force: 0.0,
+        };
         match (before, self.points.get(place)) {
             (_, Some(point)) if point.displacement == displacement => Some(*point),
             (Some(from), Some(to)) => {
-                let share = (displacement - from.displacement) / (to.displacement - from.displacement);
-                Some(DisplacementPoint { displacement, ..from.towards(to, share) })
+                let share =
+                    (displacement - from.displacement) / (to.displacement - from.displacement);
+                Some(DisplacementPoint {
+                    displacement,
+                    ..from.towards(to, share)
+                })
             }
             (before, _) => Some(free).filter(|_| self.free[usize::from(before.is_some())]),
         }
@@ -122,14 +145,20 @@ impl DisplacementPoint {
 /// indentation, F the force and k the `stiffness` in N/m.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
-    leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {
-        *reached = reached.max(sign * point.displacement(stiffness));
-        Some(sign * *reached)
-    })
+    leg.curve
+        .iter()
+        .scan(f64::NEG_INFINITY, move |reached, point| {
+            *reached = reached.max(sign * point.displacement(stiffness));
+            Some(sign * *reached)
+        })
 }
 
 fn sign_of(direction: Direction) -> f64 {
-    if direction == Direction::Loading { 1.0 } else { -1.0 }
+    if direction == Direction::Loading {
+        1.0
+    } else {
+        -1.0
+    }
 }
 
 /// Pull-off displacement and loop area of a loading by an instrument of finite stiffness.
@@ -152,7 +181,9 @@ impl InstrumentFigures {
         let smallest = |unloading: Branch| {
             let points = legs[unloading.stages].iter().flat_map(|leg| &leg.curve);
             let touching = points.filter(|point| point.springs > 0);
-            touching.map(|point| point.displacement(stiffness)).min_by(f64::total_cmp)
+            touching
+                .map(|point| point.displacement(stiffness))
+                .min_by(f64::total_cmp)
         };
         InstrumentFigures {
             stiffness,

@@ -32,27 +32,39 @@ impl Scene {
     /// # Ok::<(), asperity_scene::Error>(())
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
-        let unit = self.spectrum().map(|spectrum| spectrum.unit_amplitude(self.length));
+        let unit = self
+            .spectrum()
+            .map(|spectrum| spectrum.unit_amplitude(self.length));
         self.warnings_of(&Governing::of(self, unit, None), None)
     }
 
     /// Returns the premises that this scene does not meet, with its governing parameters and what is known of its measured
     /// surface.
-    pub(crate) fn warnings_of(&self, governing: &Governing, measured: Option<MeasuredFacts>) -> Vec<Warning> {
+    pub(crate) fn warnings_of(
+        &self,
+        governing: &Governing,
+        measured: Option<MeasuredFacts>,
+    ) -> Vec<Warning> {
         let adheres = governing.adhesive_work().is_some();
         let gradient = governing.amplitude.map(|amplitude| amplitude.rms_gradient);
-        let scan = measured.and_then(|facts| Warning::of_scan(facts.scan, self.length, facts.rms_heights));
+        let scan =
+            measured.and_then(|facts| Warning::of_scan(facts.scan, self.length, facts.rms_heights));
         let found = [
             self.heights_as_profile(),
-            governing.tabor_number(self).and_then(Warning::of_tabor_number),
+            governing
+                .tabor_number(self)
+                .and_then(Warning::of_tabor_number),
             gradient.and_then(|gradient| Warning::of_gradient(gradient, self.measured().is_some())),
             SteepWaves::of(self, governing)
                 .and_then(|waves| Warning::of_wave_ratio(waves.ratio, waves.jkr_factor)),
             self.falling_profile().filter(|_| adheres),
             scan,
             self.rounded_waves(),
-            self.long_waves(measured).and_then(Warning::of_long_waves).filter(|_| adheres),
-            self.springs_per_wave().and_then(Warning::of_springs_per_wave),
+            self.long_waves(measured)
+                .and_then(Warning::of_long_waves)
+                .filter(|_| adheres),
+            self.springs_per_wave()
+                .and_then(Warning::of_springs_per_wave),
         ];
         found.into_iter().flatten().collect()
     }
@@ -72,8 +84,11 @@ impl Scene {
 
     /// Returns a warning if the waves used differ from the wavelengths stated.
     fn rounded_waves(&self) -> Option<Warning> {
-        let Some(Roughness::SelfAffine { wavelengths: Some((longest, shortest)), modes: None, .. }) =
-            self.roughness
+        let Some(Roughness::SelfAffine {
+            wavelengths: Some((longest, shortest)),
+            modes: None,
+            ..
+        }) = self.roughness
         else {
             return None;
         };
@@ -100,7 +115,9 @@ impl Scene {
     /// Returns the number of springs on the shortest wave of a random roughness; `None` where it is not stated.
     fn springs_per_wave(&self) -> Option<f64> {
         match self.roughness.as_ref()? {
-            Roughness::SelfAffine { .. } => Some(self.numerics.points as f64 / self.spectrum()?.last as f64),
+            Roughness::SelfAffine { .. } => {
+                Some(self.numerics.points as f64 / self.spectrum()?.last as f64)
+            }
             Roughness::Measured(measured) => Some(measured.continue_to? / self.spacing()),
         }
     }

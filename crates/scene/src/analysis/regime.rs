@@ -44,8 +44,11 @@ impl Regime {
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
     /// All regimes: pressure-insensitive, pressure-sensitive and non-adhesive, in this order.
-    pub const ALL: [Regime; 3] =
-        [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
+    pub const ALL: [Regime; 3] = [
+        Regime::PressureInsensitive,
+        Regime::PressureSensitive,
+        Regime::NonAdhesive,
+    ];
 
     /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force.
     ///
@@ -98,7 +101,10 @@ impl Regime {
             Some(same) if same == self && self == Regime::NonAdhesive => name.to_owned(),
             Some(same) if same == self => format!("{name} (d=0, F=0)"),
             None => format!("{name} (d=0)"),
-            Some(other) => format!("{name} (d=0), {} (F=0)", other.name().trim_start_matches("pressure-")),
+            Some(other) => format!(
+                "{name} (d=0), {} (F=0)",
+                other.name().trim_start_matches("pressure-")
+            ),
         }
     }
 }
@@ -110,9 +116,18 @@ mod tests {
     #[test]
     fn a_regime_names_its_protocols() {
         let [insensitive, sensitive, non_adhesive] = Regime::ALL;
-        assert_eq!(non_adhesive.by_protocols(Some(non_adhesive)), "non-adhesive");
-        assert_eq!(sensitive.by_protocols(Some(sensitive)), "pressure-sensitive (d=0, F=0)");
-        assert_eq!(sensitive.by_protocols(Some(insensitive)), "pressure-sensitive (d=0), insensitive (F=0)");
+        assert_eq!(
+            non_adhesive.by_protocols(Some(non_adhesive)),
+            "non-adhesive"
+        );
+        assert_eq!(
+            sensitive.by_protocols(Some(sensitive)),
+            "pressure-sensitive (d=0, F=0)"
+        );
+        assert_eq!(
+            sensitive.by_protocols(Some(insensitive)),
+            "pressure-sensitive (d=0), insensitive (F=0)"
+        );
         assert_eq!(sensitive.by_protocols(None), "pressure-sensitive (d=0)");
     }
 
@@ -125,16 +140,40 @@ mod tests {
             (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
             // A twentieth of the smooth body's adhesion exists; slightly less has vanished.
             (Regime::VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
-            (Regime::VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0, sensitive),
+            (
+                Regime::VANISHING_SHARE.next_down(),
+                0.09,
+                1.0,
+                1.0,
+                sensitive,
+            ),
             (0.2, 0.1, 1.0, 4.0, insensitive),
             (0.19, 0.1, 1.0, 4.0, sensitive),
             (0.0, 0.0, 0.0, 0.0, non_adhesive),
             // A hundredth of the preload is negligible; slightly more is not.
             (0.0, Regime::NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
-            (0.0, Regime::NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0, sensitive),
+            (
+                0.0,
+                Regime::NEGLIGIBLE_COEFFICIENT.next_up(),
+                1.0,
+                1.0,
+                sensitive,
+            ),
             // Without a preload adhesion below a twentieth of the smooth body's is none; a twentieth is some.
-            (0.01, Regime::VANISHING_SHARE.next_down(), 0.0, 1.0, non_adhesive),
-            (0.01, Regime::VANISHING_SHARE.next_down(), -1.0, 1.0, non_adhesive),
+            (
+                0.01,
+                Regime::VANISHING_SHARE.next_down(),
+                0.0,
+                1.0,
+                non_adhesive,
+            ),
+            (
+                0.01,
+                Regime::VANISHING_SHARE.next_down(),
+                -1.0,
+                1.0,
+                non_adhesive,
+            ),
             (0.01, Regime::VANISHING_SHARE, 0.0, 1.0, sensitive),
             (0.3, 1.0, 0.0, 1.0, sensitive),
             (0.3, 1.0, -1.0, 1.0, sensitive),

@@ -58,8 +58,15 @@ mod tests {
         let below = 8;
         let reversal = |turn: usize| {
             let at = points[below + turn];
-            let forces = points[..=below + turn].iter().map(|&point| force(at, point)).collect();
-            let turn = CurvePoint { indentation: at, force: force(at, at), ..CurvePoint::default() };
+            let forces = points[..=below + turn]
+                .iter()
+                .map(|&point| force(at, point))
+                .collect();
+            let turn = CurvePoint {
+                indentation: at,
+                force: force(at, at),
+                ..CurvePoint::default()
+            };
             Reversal {
                 turn,
                 smallest: turn,
@@ -69,7 +76,11 @@ mod tests {
                 forces,
             }
         };
-        ReversalMap { reversals: (0..12).map(reversal).collect(), points, below }
+        ReversalMap {
+            reversals: (0..12).map(reversal).collect(),
+            points,
+            below,
+        }
     }
 
     #[test]

@@ -15,7 +15,11 @@ use super::text::ron_float;
 /// // κ² is the energy h⟨∇z⟩E* over the work of adhesion, e_el/γ the elastic energy itself.
 /// assert_eq!((kappa.energy_over_work(6.0), energy.energy_over_work(6.0)), (36.0, 6.0));
 /// ```
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
+#[cfg_attr(
+    feature = "clap",
+    derive(clap::ValueEnum),
+    value(rename_all = "snake_case")
+)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012), with rms height h, rms gradient ⟨∇z⟩, effective modulus E*
@@ -28,8 +32,10 @@ pub enum RoughnessParameter {
 
 impl RoughnessParameter {
     /// Both parameters, κ and e_el/γ.
-    pub const ALL: [RoughnessParameter; 2] =
-        [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
+    pub const ALL: [RoughnessParameter; 2] = [
+        RoughnessParameter::Kappa,
+        RoughnessParameter::ElasticEnergyRatio,
+    ];
 
     /// Returns the path of the parameter in a scene, such as `adhesion.kappa`.
     pub const fn path(self) -> &'static str {
@@ -51,7 +57,9 @@ impl RoughnessParameter {
 
     /// Returns the parameter with this [`name`](Self::name) or [`path`](Self::path); `None` if there is none.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|parameter| [parameter.name(), parameter.path()].contains(&name))
+        Self::ALL
+            .into_iter()
+            .find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
     /// Returns the ratio of an elastic energy per area to the work of adhesion at this value of the parameter. For κ the
@@ -112,7 +120,13 @@ impl Adhesion {
     /// assert_eq!((work.work(), work.closing_work(), work.parameter()), (Some(0.05), None, None));
     /// ```
     pub fn by_work(work: f64) -> Self {
-        Adhesion { strength: Strength::Work { opening: work, closing: None }, range: None }
+        Adhesion {
+            strength: Strength::Work {
+                opening: work,
+                closing: None,
+            },
+            range: None,
+        }
     }
 
     /// Returns an adhesion whose strength is given by this value of κ or e_el/γ.
@@ -124,17 +138,28 @@ impl Adhesion {
     /// assert_eq!((given.work(), given.parameter()), (None, Some((RoughnessParameter::Kappa, 6.0))));
     /// ```
     pub fn by_parameter(parameter: RoughnessParameter, value: f64) -> Self {
-        Adhesion { strength: Strength::Parameter(parameter, value), range: None }
+        Adhesion {
+            strength: Strength::Parameter(parameter, value),
+            range: None,
+        }
     }
 
     /// Returns the given work of adhesion γ on opening in J/m²; `None` if κ or e_el/γ is given instead.
     pub fn work(&self) -> Option<f64> {
-        if let Strength::Work { opening, .. } = self.strength { Some(opening) } else { None }
+        if let Strength::Work { opening, .. } = self.strength {
+            Some(opening)
+        } else {
+            None
+        }
     }
 
     /// Returns the given work of adhesion γ₁ on closing in J/m²; `None` if none is given.
     pub fn closing_work(&self) -> Option<f64> {
-        if let Strength::Work { closing, .. } = self.strength { closing } else { None }
+        if let Strength::Work { closing, .. } = self.strength {
+            closing
+        } else {
+            None
+        }
     }
 
     /// Returns true if a work of adhesion on closing is given.
@@ -153,12 +178,21 @@ impl Adhesion {
 
     /// Returns this adhesion with another work of adhesion on opening in J/m².
     pub fn with_work(self, work: f64) -> Self {
-        Adhesion { strength: Strength::Work { opening: work, closing: self.closing_work() }, ..self }
+        Adhesion {
+            strength: Strength::Work {
+                opening: work,
+                closing: self.closing_work(),
+            },
+            ..self
+        }
     }
 
     /// Returns this adhesion with its strength given by this value of κ or e_el/γ.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
-        Adhesion { strength: Strength::Parameter(parameter, value), ..self }
+        Adhesion {
+            strength: Strength::Parameter(parameter, value),
+            ..self
+        }
     }
 }
 
@@ -180,17 +214,24 @@ struct AdhesionText {
 
 impl From<Adhesion> for AdhesionText {
     fn from(Adhesion { strength, range }: Adhesion) -> Self {
-        let text = AdhesionText { range, ..AdhesionText::default() };
+        let text = AdhesionText {
+            range,
+            ..AdhesionText::default()
+        };
         match strength {
-            Strength::Work { opening, closing } => {
-                AdhesionText { work: Some(opening), closing_work: closing, ..text }
-            }
-            Strength::Parameter(RoughnessParameter::Kappa, value) => {
-                AdhesionText { kappa: Some(value), ..text }
-            }
-            Strength::Parameter(RoughnessParameter::ElasticEnergyRatio, value) => {
-                AdhesionText { elastic_energy_ratio: Some(value), ..text }
-            }
+            Strength::Work { opening, closing } => AdhesionText {
+                work: Some(opening),
+                closing_work: closing,
+                ..text
+            },
+            Strength::Parameter(RoughnessParameter::Kappa, value) => AdhesionText {
+                kappa: Some(value),
+                ..text
+            },
+            Strength::Parameter(RoughnessParameter::ElasticEnergyRatio, value) => AdhesionText {
+                elastic_energy_ratio: Some(value),
+                ..text
+            },
         }
     }
 }
@@ -199,7 +240,13 @@ impl TryFrom<AdhesionText> for Adhesion {
     type Error = String;
 
     fn try_from(text: AdhesionText) -> Result<Self, String> {
-        let AdhesionText { work, closing_work: closing, kappa, elastic_energy_ratio: ratio, range } = text;
+        let AdhesionText {
+            work,
+            closing_work: closing,
+            kappa,
+            elastic_energy_ratio: ratio,
+            range,
+        } = text;
         let strength = match (work, kappa, ratio) {
             (Some(opening), None, None) => Strength::Work { opening, closing },
             (None, ..) if closing.is_some() => {
@@ -208,13 +255,22 @@ impl TryFrom<AdhesionText> for Adhesion {
                 return Err(why.to_owned());
             }
             (None, Some(value), None) => Strength::Parameter(RoughnessParameter::Kappa, value),
-            (None, None, Some(value)) => Strength::Parameter(RoughnessParameter::ElasticEnergyRatio, value),
+            (None, None, Some(value)) => {
+                Strength::Parameter(RoughnessParameter::ElasticEnergyRatio, value)
+            }
             (None, None, None) => return Err("give work, kappa or elastic_energy_ratio".to_owned()),
             _ => {
-                let given = [("work", work), ("kappa", kappa), ("elastic_energy_ratio", ratio)];
-                let given = given.into_iter().filter_map(|(name, value)| Some((name, value?)));
-                let (names, choices): (Vec<_>, Vec<_>) =
-                    given.map(|(name, value)| (name, format!("({name}: {})", ron_float(value)))).unzip();
+                let given = [
+                    ("work", work),
+                    ("kappa", kappa),
+                    ("elastic_energy_ratio", ratio),
+                ];
+                let given = given
+                    .into_iter()
+                    .filter_map(|(name, value)| Some((name, value?)));
+                let (names, choices): (Vec<_>, Vec<_>) = given
+                    .map(|(name, value)| (name, format!("({name}: {})", ron_float(value))))
+                    .unzip();
                 let (names, choices) = (names.join(" and "), choices.join(" or "));
                 return Err(format!("{names} determine each other: give {choices}"));
             }

@@ -28,7 +28,11 @@ impl fmt::Display for Change {
 }
 
 fn symbol_or_name(field: &Field) -> &'static str {
-    if field.symbol.is_empty() { field.name } else { field.symbol }
+    if field.symbol.is_empty() {
+        field.name
+    } else {
+        field.symbol
+    }
 }
 
 /// Returns the value of a single field with its unit, and a choice in words: `50 mJ/m²`, `sub-cell`, `none`.
@@ -38,7 +42,9 @@ fn value_in_words(field: &Field, value: &str) -> String {
         _ if ["None", "[]"].contains(&value) => "none".to_owned(),
         Range::Choice(_) => choice_in_words(value),
         Range::Band(..) => value.trim_matches(['(', ')']).replace(", ", " to "),
-        _ => field.quantities(value, format_quantity).unwrap_or_else(words),
+        _ => field
+            .quantities(value, format_quantity)
+            .unwrap_or_else(words),
     }
 }
 
@@ -50,10 +56,16 @@ fn in_words(tree: &Tree, field: &Field) -> String {
     if inside.is_empty() {
         return value_in_words(field, &value);
     }
-    let given = inside.into_iter().filter(|field| tree.value(field).is_some());
-    let given: Vec<String> =
-        given.map(|field| format!("{} {}", symbol_or_name(field), in_words(tree, field))).collect();
-    let (choice, given) = (value.split('(').next().unwrap_or_default(), given.join(", "));
+    let given = inside
+        .into_iter()
+        .filter(|field| tree.value(field).is_some());
+    let given: Vec<String> = given
+        .map(|field| format!("{} {}", symbol_or_name(field), in_words(tree, field)))
+        .collect();
+    let (choice, given) = (
+        value.split('(').next().unwrap_or_default(),
+        given.join(", "),
+    );
     match (choice_in_words(choice), given) {
         (choice, given) if choice.is_empty() => given,
         (choice, given) if given.is_empty() => choice,
@@ -81,7 +93,11 @@ impl Document {
                 "loading" => changes.extend(changed_stages(scenes)),
                 _ => {
                     let [from, to] = [&here, &there].map(|tree| in_words(tree, field));
-                    changes.push(Change { name: symbol_or_name(field).to_owned(), from, to });
+                    changes.push(Change {
+                        name: symbol_or_name(field).to_owned(),
+                        from,
+                        to,
+                    });
                 }
             }
         }
@@ -92,7 +108,11 @@ impl Document {
 /// Returns the changed stages of two loadings, or both loadings where they are shorter.
 fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
     let [one, other] = scenes.map(|scene| &scene.loading);
-    let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);
+    let pairs = one
+        .iter()
+        .zip(other)
+        .enumerate()
+        .filter(|(_, (one, other))| one != other);
     let changes: Vec<Change> = pairs.map(change_of_stage).collect();
     let [from, to] = [one, other].map(|loading| loading_text(loading, format_quantity));
     // A change takes the room of its value and of some fourteen characters.
@@ -100,7 +120,11 @@ fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
     if one.len() == other.len() && length < 14 + from.len() {
         return changes;
     }
-    vec![Change { name: "loading".to_owned(), from, to }]
+    vec![Change {
+        name: "loading".to_owned(),
+        from,
+        to,
+    }]
 }
 
 fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
@@ -109,7 +133,11 @@ fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
         (Some((field, _)), Some((same, _))) if field == same => format!(" {}", field.symbol),
         _ => String::new(),
     };
-    Change { name: format!("stage {}{symbol}", index + 1), from, to }
+    Change {
+        name: format!("stage {}{symbol}", index + 1),
+        from,
+        to,
+    }
 }
 
 #[cfg(test)]
@@ -125,7 +153,11 @@ mod tests {
     fn changes_name_fields_with_both_values() {
         let scene = open("pressure-sensitive").unwrap();
         assert_eq!(changes(&scene, &scene), Vec::<String>::new());
-        let other = scene.set("roughness.hurst", "0.5").unwrap().set("title", "\"other\"").unwrap();
+        let other = scene
+            .set("roughness.hurst", "0.5")
+            .unwrap()
+            .set("title", "\"other\"")
+            .unwrap();
         assert_eq!(changes(&scene, &other), ["H 0.7 → 0.5"]);
         assert_eq!(changes(&other, &scene), ["H 0.5 → 0.7"]);
         let other = scene.set("roughness.seed", "12345678901").unwrap();
@@ -133,23 +165,33 @@ mod tests {
         let other = scene.set("loading.0.0", "2e-5").unwrap();
         assert_eq!(changes(&scene, &other), ["stage 1 F 10 µN → 20 µN"]);
         let other = scene.set("loading", "5 µN").unwrap();
-        assert_eq!(changes(&scene, &other), ["loading 10 µN, separation → 5 µN"]);
+        assert_eq!(
+            changes(&scene, &other),
+            ["loading 10 µN, separation → 5 µN"]
+        );
         let text = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
         let line = Document::parse(text, "test").unwrap();
         let profile = line.set("roughness.as_line", "true").unwrap();
         assert_eq!(changes(&line, &profile), ["profile as line false → true"]);
         assert_eq!(changes(&line, &line), Vec::<String>::new());
         let other = scene.set("material", "(effective_modulus: 3e6)").unwrap();
-        assert_eq!(changes(&scene, &other), ["material E 2 MPa, ν 0.5 → E* 3 MPa"]);
+        assert_eq!(
+            changes(&scene, &other),
+            ["material E 2 MPa, ν 0.5 → E* 3 MPa"]
+        );
         let other = scene.set("adhesion", "(work: 0.03)").unwrap();
         assert_eq!(changes(&scene, &other), ["adhesion κ 6 → γ 30 mJ/m²"]);
         let other = scene.set("form", "Paraboloid(radius: 1e-3)").unwrap();
         assert_eq!(changes(&scene, &other), ["form none → paraboloid (R 1 mm)"]);
         let smooth = scene.set_all(
-            &[("roughness", "None"), ("adhesion", "None")].map(|(path, value)| (path.into(), value.into())),
+            &[("roughness", "None"), ("adhesion", "None")]
+                .map(|(path, value)| (path.into(), value.into())),
         );
         let rough = "roughness none → self-affine (H 0.7, h 200 nm, k 4 to 512, seed 5)";
-        assert_eq!(changes(&smooth.unwrap(), &scene), [rough, "adhesion none → κ 6"]);
+        assert_eq!(
+            changes(&smooth.unwrap(), &scene),
+            [rough, "adhesion none → κ 6"]
+        );
         let other = scene.set("numerics.edges", "Grid").unwrap();
         assert_eq!(changes(&scene, &other), ["edges sub-cell → grid"]);
     }

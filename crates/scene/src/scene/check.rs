@@ -25,7 +25,11 @@ const MOST_SAMPLES: u64 = 1 << 24;
 
 /// Returns all errors of a scene in the order of its fields; none for a scene that can be computed.
 pub fn check(scene: &Scene) -> Vec<SceneError> {
-    let mut found = Found { scene, tree: Tree::of(scene), errors: Vec::new() };
+    let mut found = Found {
+        scene,
+        tree: Tree::of(scene),
+        errors: Vec::new(),
+    };
     for field in FIELDS {
         found.check_range(field);
         if field.path == "loading" {
@@ -42,14 +46,23 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
 
 /// Returns the invalid part of a text and what is allowed; `None` for a valid text.
 fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
-    let range = if let Range::Text { .. } = field.range { field.range } else { FILE_NAME };
-    let Range::Text { least, most, lines } = range else { return None };
+    let range = if let Range::Text { .. } = field.range {
+        field.range
+    } else {
+        FILE_NAME
+    };
+    let Range::Text { least, most, lines } = range else {
+        return None;
+    };
     // Control characters would reach the terminal of any reader of the scene.
     let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
     match (text.chars().find(forbidden), text.chars().count()) {
         (Some(c), _) => {
             let but = if lines { " but line breaks" } else { "" };
-            Some((format!("text with {c:?}"), format!("no control characters{but}")))
+            Some((
+                format!("text with {c:?}"),
+                format!("no control characters{but}"),
+            ))
         }
         (None, count) if count > most => Some((format!("{count} characters"), field.allowed())),
         (None, count) if count < least => Some((ron_string(text), field.allowed())),
@@ -63,13 +76,21 @@ const LIMIT_DIGITS: usize = 8;
 /// Returns the largest allowed number as text, rounded down.
 fn largest(value: f64) -> String {
     let near = round_to(value, LIMIT_DIGITS);
-    ron_float(if near > value { round_to(value * (1.0 - 1e-7), LIMIT_DIGITS) } else { near })
+    ron_float(if near > value {
+        round_to(value * (1.0 - 1e-7), LIMIT_DIGITS)
+    } else {
+        near
+    })
 }
 
 /// Returns the smallest allowed number as text, rounded up.
 fn smallest(value: f64) -> String {
     let near = round_to(value, LIMIT_DIGITS);
-    ron_float(if near < value { round_to(value * (1.0 + 1e-7), LIMIT_DIGITS) } else { near })
+    ron_float(if near < value {
+        round_to(value * (1.0 + 1e-7), LIMIT_DIGITS)
+    } else {
+        near
+    })
 }
 
 /// Errors that were found so far in a scene.
@@ -82,7 +103,9 @@ struct Found<'s> {
 impl Found<'_> {
     /// Returns true if an error of this field, or of a field inside it, was found.
     fn has(&self, path: &str) -> bool {
-        self.errors.iter().any(|error| is_within(&error.field, path))
+        self.errors
+            .iter()
+            .any(|error| is_within(&error.field, path))
     }
 
     /// Adds an error of the field `path` unless the condition is met or one of the fields `of` has an error already.
@@ -91,30 +114,44 @@ impl Found<'_> {
         if is_met || of.iter().any(|path| self.has(path)) {
             return;
         }
-        let here = FIELDS.iter().find(|field| field.path == path && self.tree.has(field));
+        let here = FIELDS
+            .iter()
+            .find(|field| field.path == path && self.tree.has(field));
         let here = here.filter(|field| self.tree.inside(field).is_empty());
-        let value = here.and_then(|field| self.tree.written(field)).unwrap_or_default();
+        let value = here
+            .and_then(|field| self.tree.written(field))
+            .unwrap_or_default();
         self.refuse(path, value, allowed, message);
     }
 
     fn refuse(&mut self, path: &str, value: String, allowed: &str, message: &str) {
         let [field, allowed, message] = [path, allowed, message].map(str::to_owned);
-        self.errors.push(SceneError { field, value, allowed, message, ..SceneError::default() });
+        self.errors.push(SceneError {
+            field,
+            value,
+            allowed,
+            message,
+            ..SceneError::default()
+        });
     }
 
     fn check_range(&mut self, field: &Field) {
-        let Some(value) = self.tree.value(field) else { return };
+        let Some(value) = self.tree.value(field) else {
+            return;
+        };
         let range = &field.range;
         let wrong = match (range, value) {
             (Range::Real(..), value) => {
                 (!value.as_f64().is_some_and(|value| range.contains(value))).then(|| written(value))
             }
-            (Range::Whole(..), value) => {
-                (!value.as_u64().is_some_and(|value| range.contains_whole(value))).then(|| written(value))
-            }
+            (Range::Whole(..), value) => (!value
+                .as_u64()
+                .is_some_and(|value| range.contains_whole(value)))
+            .then(|| written(value)),
             (Range::Band(..), Value::Array(ends)) => {
                 let ends: Vec<u64> = ends.iter().filter_map(Value::as_u64).collect();
-                let is_allowed = ends.is_sorted() && ends.iter().all(|end| range.contains_whole(*end));
+                let is_allowed =
+                    ends.is_sorted() && ends.iter().all(|end| range.contains_whole(*end));
                 (!is_allowed).then(|| format!("({}, {})", ends[0], ends[1]))
             }
             (Range::Wavelengths(..), Value::Array(ends)) => {
@@ -126,7 +163,11 @@ impl Found<'_> {
             (Range::List { least, most, .. }, Value::Array(list))
                 if !(*least..=*most).contains(&list.len()) =>
             {
-                Some(if list.is_empty() { "[]".to_owned() } else { format!("a list of {}", list.len()) })
+                Some(if list.is_empty() {
+                    "[]".to_owned()
+                } else {
+                    format!("a list of {}", list.len())
+                })
             }
             _ => None,
         };
@@ -135,8 +176,15 @@ impl Found<'_> {
             (Range::List { .. }, Value::Array(list)) if field.variant.is_some() => list,
             _ => &[],
         };
-        let wrong_texts: Vec<_> = texts.iter().filter_map(|text| wrong_text(field, text.as_str()?)).collect();
-        for (value, allowed) in wrong.map(|value| (value, field.allowed())).into_iter().chain(wrong_texts) {
+        let wrong_texts: Vec<_> = texts
+            .iter()
+            .filter_map(|text| wrong_text(field, text.as_str()?))
+            .collect();
+        for (value, allowed) in wrong
+            .map(|value| (value, field.allowed()))
+            .into_iter()
+            .chain(wrong_texts)
+        {
             self.refuse(field.path, value, &allowed, field.name);
         }
     }
@@ -154,7 +202,11 @@ impl Found<'_> {
     }
 
     fn check_material(&mut self) {
-        let Material { youngs_modulus, poisson_ratio, effective_modulus } = self.scene.material;
+        let Material {
+            youngs_modulus,
+            poisson_ratio,
+            effective_modulus,
+        } = self.scene.material;
         let wrong = match (effective_modulus, youngs_modulus, poisson_ratio) {
             (Some(_), None, None) | (None, Some(_), Some(_)) => "",
             (Some(_), ..) => {
@@ -166,19 +218,31 @@ impl Found<'_> {
         };
         self.require(wrong.is_empty(), &[], "material", "", wrong);
         let modulus = self.scene.material.effective_modulus();
-        let Some(field) = field("material.effective_modulus", None) else { return };
+        let Some(field) = field("material.effective_modulus", None) else {
+            return;
+        };
         if !field.range.contains(modulus) && !self.has("material") {
             let value = format!("E* = {}", ron_float(modulus));
-            self.refuse("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
+            self.refuse(
+                "material",
+                value,
+                &field.allowed(),
+                "effective modulus E/(1 − ν²)",
+            );
         }
     }
 
     fn check_form(&mut self) {
         let (scene, spacing) = (self.scene, self.scene.spacing());
-        let (Some(form), half) = (&scene.form, scene.length / 2.0) else { return };
+        let (Some(form), half) = (&scene.form, scene.length / 2.0) else {
+            return;
+        };
         let (body, grid) = (["form", "length"], ["form", "length", "numerics.points"]);
         if let Some(radius) = form.flat_end() {
-            let reason = format!("a punch is not wider than the line: at most length/2 = {}", largest(half));
+            let reason = format!(
+                "a punch is not wider than the line: at most length/2 = {}",
+                largest(half)
+            );
             self.require(radius <= half, &body, "form.radius", "", &reason);
             let reason = format!(
                 "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
@@ -189,27 +253,52 @@ impl Found<'_> {
         }
         if let Form::Table { unit, .. } = form {
             let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
-            self.require(is_unit, &["form"], "form.unit", Unit::ALLOWED, "unit of the table");
+            self.require(
+                is_unit,
+                &["form"],
+                "form.unit",
+                Unit::ALLOWED,
+                "unit of the table",
+            );
         }
         if let &Form::WavySphere { wavelength, .. } = form {
             let shortest = SPRINGS_PER_WAVE as f64 * spacing;
             let allowed = format!("at least {} m", smallest(shortest));
-            let reason =
-                format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
-            self.require(wavelength >= shortest, &grid, "form.wavelength", &allowed, &reason);
+            let reason = format!(
+                "a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves"
+            );
+            self.require(
+                wavelength >= shortest,
+                &grid,
+                "form.wavelength",
+                &allowed,
+                &reason,
+            );
         }
-        let (depth, waves) = (form.without_waves().mdr_profile(half), form.wave_depth(half));
+        let (depth, waves) = (
+            form.without_waves().mdr_profile(half),
+            form.wave_depth(half),
+        );
         // The first number of a form is its size; waves may be higher than their sphere.
         let is_size = |field: &&Field| match waves > depth {
             true => field.path == "form.amplitude",
             false => field.parent() == "form" && self.tree.has(field),
         };
-        let size = FIELDS.iter().find(is_size).map_or("form", |field| field.path);
+        let size = FIELDS
+            .iter()
+            .find(is_size)
+            .map_or("form", |field| field.path);
         let most = LEG_INDENTATION.range.ends().map_or(0.0, |(_, most)| most);
         let reason = format!(
             "the form is too steep: it exceeds the largest indentation ({most} m) within the length of the profile"
         );
-        self.require(LEG_INDENTATION.range.contains(depth + waves), &body, size, "", &reason);
+        self.require(
+            LEG_INDENTATION.range.contains(depth + waves),
+            &body,
+            size,
+            "",
+            &reason,
+        );
     }
 
     fn check_roughness(&mut self) {
@@ -217,7 +306,12 @@ impl Found<'_> {
         match &scene.roughness {
             None => {}
             &Some(Roughness::SelfAffine {
-                rms_height, rms_gradient, modes, wavelengths, roll_off, ..
+                rms_height,
+                rms_gradient,
+                modes,
+                wavelengths,
+                roll_off,
+                ..
             }) => {
                 self.check_waves(modes, wavelengths, roll_off);
                 let wrong = match (rms_height, rms_gradient) {
@@ -231,8 +325,19 @@ impl Found<'_> {
             }
             // A profile is one row or one column; several files have a common spectrum and no profile.
             Some(Roughness::Measured(measured)) => {
-                let Measured { unit, height_unit, further_files, opposite, row, column, .. } = measured;
-                for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
+                let Measured {
+                    unit,
+                    height_unit,
+                    further_files,
+                    opposite,
+                    row,
+                    column,
+                    ..
+                } = measured;
+                for (path, unit) in [
+                    ("roughness.unit", unit),
+                    ("roughness.height_unit", height_unit),
+                ] {
                     let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
                     self.require(is_unit, &[path], path, Unit::ALLOWED, "unit of the file");
                 }
@@ -240,7 +345,13 @@ impl Found<'_> {
                 let reason = "a profile is a row or a column: give one of them";
                 self.require(!has_both, &[], "roughness.column", "", reason);
                 let reason = "spectra of two faces add, their profiles do not: give as_line: false";
-                self.require(!as_line || opposite.is_none(), &[], "roughness.opposite", "", reason);
+                self.require(
+                    !as_line || opposite.is_none(),
+                    &[],
+                    "roughness.opposite",
+                    "",
+                    reason,
+                );
                 let reason = "several files have one spectrum, and no profile: give as_line: false";
                 self.require(
                     !as_line || further_files.is_empty(),
@@ -262,48 +373,81 @@ impl Found<'_> {
     ) {
         let (length, points) = (self.scene.length, self.scene.numerics.points);
         let most = points / 2;
-        let Some(spectrum) = self.scene.spectrum().filter(|_| modes.is_none() || wavelengths.is_none())
+        let Some(spectrum) = self
+            .scene
+            .spectrum()
+            .filter(|_| modes.is_none() || wavelengths.is_none())
         else {
-            let both =
-                "modes and wavelengths determine each other: give one of them and set the other to None";
+            let both = "modes and wavelengths determine each other: give one of them and set the other to None";
             let none = "give modes, in waves per length, or wavelengths (longest, shortest), in m";
             let reason = if modes.is_some() { both } else { none };
             return self.refuse("roughness", String::new(), "", reason);
         };
         let reason = format!("{points} springs carry no shorter wave");
         let (path, allowed) = match modes {
-            Some(_) => ("roughness.modes", format!("last mode at most points/2 = {most}")),
+            Some(_) => (
+                "roughness.modes",
+                format!("last mode at most points/2 = {most}"),
+            ),
             None => {
                 let shortest = smallest(length / most as f64);
-                ("roughness.wavelengths", format!("shortest at least two springs = {shortest} m"))
+                (
+                    "roughness.wavelengths",
+                    format!("shortest at least two springs = {shortest} m"),
+                )
             }
         };
-        let of = [path, "numerics.points", if modes.is_some() { path } else { "length" }];
+        let of = [
+            path,
+            "numerics.points",
+            if modes.is_some() { path } else { "length" },
+        ];
         self.require(spectrum.last <= most, &of, path, &allowed, &reason);
         let mode = |mode: u64| length / mode as f64;
-        let (longest, shortest) = wavelengths.unwrap_or((mode(spectrum.first), mode(spectrum.last)));
+        let (longest, shortest) =
+            wavelengths.unwrap_or((mode(spectrum.first), mode(spectrum.last)));
         let allowed = format!("longest at most length = {} m", largest(length));
         let reason = "a longer wave does not fit the profile";
         self.require(longest <= length, &[path, "length"], path, &allowed, reason);
         let allowed = format!("from {} to {} m", smallest(shortest), largest(longest));
         let is_met = roll_off.is_none_or(|wavelength| (shortest..=longest).contains(&wavelength));
         let (of, roll_off) = ([path, "roughness.roll_off", "length"], "roughness.roll_off");
-        self.require(is_met, &of, roll_off, &allowed, "a roll-off lies within the waves of the profile");
+        self.require(
+            is_met,
+            &of,
+            roll_off,
+            &allowed,
+            "a roll-off lies within the waves of the profile",
+        );
     }
 
     /// Checks that the work of adhesion on closing does not exceed the work on opening, and that a parameter has a roughness.
     fn check_adhesion(&mut self) {
-        let Some(Adhesion { strength, .. }) = self.scene.adhesion else { return };
+        let Some(Adhesion { strength, .. }) = self.scene.adhesion else {
+            return;
+        };
         match strength {
             // A spring that attaches with more energy than it detaches with would detach at once.
             Strength::Work { opening, closing } => {
-                let (path, allowed) = ("adhesion.closing_work", format!("0 to {} J/m²", largest(opening)));
+                let (path, allowed) = (
+                    "adhesion.closing_work",
+                    format!("0 to {} J/m²", largest(opening)),
+                );
                 let is_met = closing.is_none_or(|closing| closing <= opening);
-                self.require(is_met, &["adhesion"], path, &allowed, "at most adhesion.work");
+                self.require(
+                    is_met,
+                    &["adhesion"],
+                    path,
+                    &allowed,
+                    "at most adhesion.work",
+                );
             }
             Strength::Parameter(parameter, _) if self.scene.roughness.is_none() => {
                 let end = "there is none: give roughness, or adhesion by work";
-                let reason = format!("{} measures adhesion against roughness, and {end}", parameter.symbol());
+                let reason = format!(
+                    "{} measures adhesion against roughness, and {end}",
+                    parameter.symbol()
+                );
                 self.refuse(parameter.path(), String::new(), "", &reason);
             }
             Strength::Parameter(..) => {}
@@ -313,22 +457,27 @@ impl Found<'_> {
     fn check_loading(&mut self) {
         let (scene, mut is_separated) = (self.scene, true);
         for (index, stage) in scene.loading.iter().enumerate() {
-            let pulls = *stage == Move::ToSeparation || matches!(stage, Move::ToForce(force) if *force < 0.0);
+            let pulls = *stage == Move::ToSeparation
+                || matches!(stage, Move::ToForce(force) if *force < 0.0);
             if is_separated && pulls {
-                let reason = "cannot pull before contact: start with ToTouch, ToForce or ToIndentation";
+                let reason =
+                    "cannot pull before contact: start with ToTouch, ToForce or ToIndentation";
                 self.refuse(&format!("loading.{index}"), in_ron(stage), "", reason);
             }
             is_separated = *stage == Move::ToSeparation;
         }
         let (stages, numerics) = (scene.loading.len() as u64, scene.numerics);
         let allowed = format!("at most {}", MOST_SAMPLES / stages.max(1));
-        let reason =
-            format!("too many points: samples × loading stages ({stages}) must not exceed {MOST_SAMPLES}");
-        let (is_met, path) = (stages.saturating_mul(numerics.samples) <= MOST_SAMPLES, "numerics.samples");
+        let reason = format!(
+            "too many points: samples × loading stages ({stages}) must not exceed {MOST_SAMPLES}"
+        );
+        let (is_met, path) = (
+            stages.saturating_mul(numerics.samples) <= MOST_SAMPLES,
+            "numerics.samples",
+        );
         self.require(is_met, &[path, "loading"], path, &allowed, &reason);
         let is_met = numerics.solver == Solver::Exact || scene.loading_stiffness.is_none();
-        let reason =
-            "the stepwise solver moves the body itself: numerics.solver: Exact, or no loading_stiffness";
+        let reason = "the stepwise solver moves the body itself: numerics.solver: Exact, or no loading_stiffness";
         self.require(is_met, &[], "loading_stiffness", "", reason);
         let is_met = numerics.solver == Solver::Exact || numerics.edges == Edges::Grid;
         let reason = "the stepwise solver moves whole springs: edges: Grid";
@@ -358,9 +507,14 @@ mod tests {
     fn errors_with(sets: &str) -> Vec<String> {
         let sound = Document::from_scene(&sound(), "sound").unwrap();
         let pairs = sets.split("; ").filter_map(|set| set.split_once('='));
-        let pairs: Vec<_> = pairs.map(|(path, value)| (path.to_owned(), value.to_owned())).collect();
+        let pairs: Vec<_> = pairs
+            .map(|(path, value)| (path.to_owned(), value.to_owned()))
+            .collect();
         let errors = sound.set_all(&pairs).err();
-        errors.iter().flat_map(|errors| errors.iter().map(SceneError::what)).collect()
+        errors
+            .iter()
+            .flat_map(|errors| errors.iter().map(SceneError::what))
+            .collect()
     }
 
     #[test]
@@ -369,14 +523,32 @@ mod tests {
         let measured = "roughness=Measured(file: \"a.txt\", as_line: true";
         let waves = |pair: &str| format!("roughness.modes=None; roughness.wavelengths={pair}");
         for (sets, said) in [
-            ("material=(effective_modulus: 1e6, poisson_ratio: 0.5)", "effective_modulus replaces "),
-            ("material=(youngs_modulus: 1e6)", "requires poisson_ratio, which is missing"),
-            ("material=(poisson_ratio: 0.5)", "requires youngs_modulus, which is missing"),
+            (
+                "material=(effective_modulus: 1e6, poisson_ratio: 0.5)",
+                "effective_modulus replaces ",
+            ),
+            (
+                "material=(youngs_modulus: 1e6)",
+                "requires poisson_ratio, which is missing",
+            ),
+            (
+                "material=(poisson_ratio: 0.5)",
+                "requires youngs_modulus, which is missing",
+            ),
             ("material=()", "give youngs_modulus with poisson_ratio, or"),
             // Nearly −1: E* is enormous, though E and ν are in their ranges.
-            ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)", "material = E* = 5.0"),
-            ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999)", ""),
-            ("roughness.rms_gradient=0.1", "rms_height and rms_gradient determine each other"),
+            (
+                "material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)",
+                "material = E* = 5.0",
+            ),
+            (
+                "material=(youngs_modulus: 1e6, poisson_ratio: -0.999999)",
+                "",
+            ),
+            (
+                "roughness.rms_gradient=0.1",
+                "rms_height and rms_gradient determine each other",
+            ),
             (
                 "adhesion.kappa=2.0",
                 "adhesion: work and kappa determine each other: give (work: 0.05) or (kappa: 2.0)",
@@ -386,65 +558,148 @@ mod tests {
                 "adhesion=(kappa: 2.0, elastic_energy_ratio: 1.0)",
                 "kappa and elastic_energy_ratio determine each other: give (kappa: 2.0) or",
             ),
-            ("adhesion=()", "adhesion: give work, kappa or elastic_energy_ratio"),
+            (
+                "adhesion=()",
+                "adhesion: give work, kappa or elastic_energy_ratio",
+            ),
             ("adhesion=(work: 0.0)", ""),
-            ("adhesion=(kappa: 2.0); roughness=None", "κ measures adhesion against roughness"),
+            (
+                "adhesion=(kappa: 2.0); roughness=None",
+                "κ measures adhesion against roughness",
+            ),
             (no_amplitude, "roughness: the amplitude is missing"),
             ("adhesion.closing_work=0.05", ""),
-            ("adhesion.closing_work=0.0500001", "allowed: 0 to 0.05 J/m² (at most adhesion.work)"),
+            (
+                "adhesion.closing_work=0.0500001",
+                "allowed: 0 to 0.05 J/m² (at most adhesion.work)",
+            ),
             (
                 "adhesion.work=0.061234567890123; adhesion.closing_work=0.07",
                 "allowed: 0 to 0.061234562 J/m² (at most",
             ),
-            ("adhesion=(kappa: 2.0, closing_work: 0.0)", "closing_work requires adhesion.work"),
+            (
+                "adhesion=(kappa: 2.0, closing_work: 0.0)",
+                "closing_work requires adhesion.work",
+            ),
             ("numerics.points=1024", ""),
-            ("numerics.points=1023", "roughness.modes = (1, 512): allowed: last mode at most points/2 = 511"),
+            (
+                "numerics.points=1023",
+                "roughness.modes = (1, 512): allowed: last mode at most points/2 = 511",
+            ),
             ("roughness.modes=(5, 4)", "(5, 4): allowed: a pair"),
             ("roughness.modes=(0, 4)", "(0, 4): allowed: a pair"),
-            ("roughness.wavelengths=(1e-4, 1e-6)", "roughness: modes and wavelengths determine each other"),
-            ("roughness.modes=None", "roughness: give modes, in waves per length, or wavelengths (longest"),
+            (
+                "roughness.wavelengths=(1e-4, 1e-6)",
+                "roughness: modes and wavelengths determine each other",
+            ),
+            (
+                "roughness.modes=None",
+                "roughness: give modes, in waves per length, or wavelengths (longest",
+            ),
             (&waves("50 µm, 1 µm"), ""),
             (&waves("1 µm, 50 µm"), "longest ≥ shortest"),
-            (&waves("1 µm, 0 m"), "roughness.wavelengths = (1.0e-6, 0.0): allowed: a pair"),
-            (&waves("100 µm, 48 nm"), "allowed: shortest at least two springs = 4.8828125e-8 m"),
-            (&waves("100.1 µm, 1 µm"), "allowed: longest at most length = 1.0e-4 m"),
+            (
+                &waves("1 µm, 0 m"),
+                "roughness.wavelengths = (1.0e-6, 0.0): allowed: a pair",
+            ),
+            (
+                &waves("100 µm, 48 nm"),
+                "allowed: shortest at least two springs = 4.8828125e-8 m",
+            ),
+            (
+                &waves("100.1 µm, 1 µm"),
+                "allowed: longest at most length = 1.0e-4 m",
+            ),
             ("roughness.roll_off=1e-4", ""),
-            ("roughness.roll_off=1.1e-4", "roll_off = 1.1e-4: allowed: from 1.953125e-7 to 1.0e-4 m"),
+            (
+                "roughness.roll_off=1.1e-4",
+                "roll_off = 1.1e-4: allowed: from 1.953125e-7 to 1.0e-4 m",
+            ),
             (
                 &format!("{}; roughness.roll_off=60um", waves("50 µm, 1 µm")),
                 "allowed: from 1.0e-6 to 5.0e-5 m",
             ),
-            (&format!("{}; length=4e-5", waves("50 µm, 1 µm")), "allowed: longest at most length = 4.0e-5 m"),
-            ("form=Punch(radius: 5.1e-5)", "a punch is not wider than the line"),
+            (
+                &format!("{}; length=4e-5", waves("50 µm, 1 µm")),
+                "allowed: longest at most length = 4.0e-5 m",
+            ),
+            (
+                "form=Punch(radius: 5.1e-5)",
+                "a punch is not wider than the line",
+            ),
             // Below a quarter of the spacing the diameter is nearer to no cell than to one.
-            ("form=Punch(radius: 5.8e-9)", "no spring lies under the punch"),
+            (
+                "form=Punch(radius: 5.8e-9)",
+                "no spring lies under the punch",
+            ),
             ("form=Punch(radius: 6.4e-9)", ""),
-            ("form=WavySphere(radius: 1.0, amplitude: 1e-9, wavelength: 9e-8)", "at least 4 springs"),
-            ("length=10; form=Cone(angle: 1.570796)", "form.angle = 1.570796: the form is too steep"),
+            (
+                "form=WavySphere(radius: 1.0, amplitude: 1e-9, wavelength: 9e-8)",
+                "at least 4 springs",
+            ),
+            (
+                "length=10; form=Cone(angle: 1.570796)",
+                "form.angle = 1.570796: the form is too steep",
+            ),
             (
                 "length=1; form=WavySphere(radius: 1.0, amplitude: 1e6, wavelength: 0.1)",
                 "1.0e6: the form is too steep",
             ),
-            ("loading=[ToSeparation]", "loading.0 = ToSeparation: cannot pull before contact"),
-            ("loading=[ToForce(-1e-6)]", "loading.0 = ToForce(-1.0e-6): cannot pull"),
-            ("loading=[ToTouch, ToSeparation, ToForce(-1.0)]", "loading.2 = ToForce(-1.0): "),
-            ("loading=[ToForce(1.0), ToForce(-1e-6), ToSeparation, ToForce(0.0), ToZeroForce]", ""),
-            ("numerics.solver=Stepwise(step: 1e-9); numerics.edges=SubCell", "whole springs: edges: Grid"),
-            (&format!("{measured}, row: 1, column: 2)"), "a profile is a row or a column"),
-            (&format!("{measured}, opposite: \"b.txt\")"), "spectra of two faces add"),
-            (&format!("{measured}, further_files: [\"b.txt\"])"), "several files have one spectrum"),
-            (&format!("{measured}, unit: \"px\")"), "roughness.unit = \"px\": allowed: m, cm"),
+            (
+                "loading=[ToSeparation]",
+                "loading.0 = ToSeparation: cannot pull before contact",
+            ),
+            (
+                "loading=[ToForce(-1e-6)]",
+                "loading.0 = ToForce(-1.0e-6): cannot pull",
+            ),
+            (
+                "loading=[ToTouch, ToSeparation, ToForce(-1.0)]",
+                "loading.2 = ToForce(-1.0): ",
+            ),
+            (
+                "loading=[ToForce(1.0), ToForce(-1e-6), ToSeparation, ToForce(0.0), ToZeroForce]",
+                "",
+            ),
+            (
+                "numerics.solver=Stepwise(step: 1e-9); numerics.edges=SubCell",
+                "whole springs: edges: Grid",
+            ),
+            (
+                &format!("{measured}, row: 1, column: 2)"),
+                "a profile is a row or a column",
+            ),
+            (
+                &format!("{measured}, opposite: \"b.txt\")"),
+                "spectra of two faces add",
+            ),
+            (
+                &format!("{measured}, further_files: [\"b.txt\"])"),
+                "several files have one spectrum",
+            ),
+            (
+                &format!("{measured}, unit: \"px\")"),
+                "roughness.unit = \"px\": allowed: m, cm",
+            ),
             (
                 "roughness=Measured(file: \"a\", as_line: false, further_files: [\"\"])",
                 "further_files = \"\": ",
             ),
-            ("title=\"a\\nb\"", "title = text with '\\n': allowed: no control characters"),
+            (
+                "title=\"a\\nb\"",
+                "title = text with '\\n': allowed: no control characters",
+            ),
             ("notice=\"a\\nb\"", ""),
-            ("notice=\"\\u{1b}[2J\"", "allowed: no control characters but line breaks"),
+            (
+                "notice=\"\\u{1b}[2J\"",
+                "allowed: no control characters but line breaks",
+            ),
         ] {
             match (errors_with(sets).as_slice(), said) {
                 ([], "") => {}
-                ([error], said) if !said.is_empty() => assert!(error.contains(said), "{sets}: {error}"),
+                ([error], said) if !said.is_empty() => {
+                    assert!(error.contains(said), "{sets}: {error}")
+                }
                 (errors, _) => panic!("{sets}: {errors:?}"),
             }
         }

@@ -50,7 +50,11 @@ impl CheckedScene {
         origin: impl Fn(&SceneError) -> Origin,
     ) -> Result<CheckedScene, SceneErrors> {
         let mut errors = check(&scene);
-        for error in errors.iter_mut().take(MOST_LISTED).filter(|error| error.value == "NaN") {
+        for error in errors
+            .iter_mut()
+            .take(MOST_LISTED)
+            .filter(|error| error.value == "NaN")
+        {
             let written = text.and_then(|text| text.value(&error.field));
             error.value = written.map_or(take(&mut error.value), str::to_owned);
         }

@@ -11,7 +11,8 @@ use std::ffi::OsStr;
 /// assert_eq!(command, "asperity jkr-sphere --set 'form=Cone(angle: 0.1)'");
 /// ```
 pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -> String {
-    let set = |(path, value): &(String, String)| format!(" --set {}", quoted(format!("{path}={value}")));
+    let set =
+        |(path, value): &(String, String)| format!(" --set {}", quoted(format!("{path}={value}")));
     let sets: String = overrides.iter().map(set).collect();
     // A name that looks like an option comes after all options.
     if name.starts_with('-') {
@@ -53,10 +54,17 @@ mod tests {
         ] {
             assert_eq!(quoted(word), expected);
         }
-        let sets = [("form", "None"), ("title", "\"it's\"")].map(|(path, value)| (path.into(), value.into()));
+        let sets = [("form", "None"), ("title", "\"it's\"")]
+            .map(|(path, value)| (path.into(), value.into()));
         let command = command_line("asperity", "a.ron", &sets);
-        assert_eq!(command, r#"asperity a.ron --set form=None --set 'title="it'\''s"'"#);
-        assert_eq!(command_line("asperity", "-a.ron", &sets[..1]), "asperity --set form=None -- -a.ron");
+        assert_eq!(
+            command,
+            r#"asperity a.ron --set form=None --set 'title="it'\''s"'"#
+        );
+        assert_eq!(
+            command_line("asperity", "-a.ron", &sets[..1]),
+            "asperity --set form=None -- -a.ron"
+        );
     }
 
     #[cfg(unix)]

@@ -19,7 +19,10 @@ use super::typed::with_typed;
 fn is_built_in(opened: &Scene) -> bool {
     static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
     let built_in = BUILT_IN.get_or_init(|| {
-        presets().iter().filter_map(|preset| read(preset.text, |_| Origin::Scene).ok()).collect()
+        presets()
+            .iter()
+            .filter_map(|preset| read(preset.text, |_| Origin::Scene).ok())
+            .collect()
     });
     built_in.contains(opened)
 }
@@ -100,7 +103,11 @@ impl Document {
     /// of the file.
     pub fn text_for_own_file(&self) -> String {
         let text = self.indexed_text();
-        let text = if self.is_changed_built_in() { text.without_entry("title") } else { text.clone() };
+        let text = if self.is_changed_built_in() {
+            text.without_entry("title")
+        } else {
+            text.clone()
+        };
         text.as_str().to_owned()
     }
 }
@@ -121,10 +128,21 @@ mod tests {
         let changed = before.set("adhesion.kappa", "3.0").unwrap();
         assert_eq!(changed.title(), "pressure-sensitive, changed");
         assert_eq!(changed.scene().notice, "");
-        assert!(!changed.text().contains("between the two other regimes"), "{}", changed.text());
+        assert!(
+            !changed.text().contains("between the two other regimes"),
+            "{}",
+            changed.text()
+        );
         // A comment of a value that is as before stays.
-        assert!(changed.text().contains("// soft rubber"), "{}", changed.text());
-        assert_eq!(Document::parse(changed.text(), "x").unwrap().scene(), changed.scene());
+        assert!(
+            changed.text().contains("// soft rubber"),
+            "{}",
+            changed.text()
+        );
+        assert_eq!(
+            Document::parse(changed.text(), "x").unwrap().scene(),
+            changed.scene()
+        );
         let as_soft = changed.set("material.poisson_ratio", "0.5").unwrap();
         assert_eq!(as_soft.comments(), 1);
         let softer = changed.set("material.youngs_modulus", "1.0e6").unwrap();
@@ -142,14 +160,20 @@ mod tests {
             for changed in [
                 before.set("length", &twice),
                 before.set("numerics.edges", "Grid"),
-                before.set("observe", "[Fragments]").unwrap().set("length", &twice),
+                before
+                    .set("observe", "[Fragments]")
+                    .unwrap()
+                    .set("length", &twice),
                 before.with_stages(&[stages, stages].concat()),
             ] {
                 let Ok(changed) = changed else { continue };
                 let title = format!("{}, changed", preset.name);
                 assert_eq!(changed.title(), title, "{}", changed.text());
                 assert_eq!(changed.scene().notice, "", "{}", changed.text());
-                assert_eq!(Document::parse(changed.text(), "x").unwrap().scene(), changed.scene());
+                assert_eq!(
+                    Document::parse(changed.text(), "x").unwrap().scene(),
+                    changed.scene()
+                );
             }
         }
     }
@@ -174,32 +198,58 @@ mod tests {
         assert_eq!(changed.set("adhesion.kappa", "6").unwrap(), before);
         let observing = changed.set("observe", "[Fragments]").unwrap();
         let back = observing.set("adhesion.kappa", "6.0").unwrap();
-        assert_eq!(back.text(), before.set("observe", "[Fragments]").unwrap().text());
+        assert_eq!(
+            back.text(),
+            before.set("observe", "[Fragments]").unwrap().text()
+        );
         assert_eq!(back.title(), before.title());
     }
 
     #[test]
     fn words_of_the_user_stay() {
         let before = pressure_sensitive();
-        let own = before.set("title", "\"My pad\"").unwrap().set("notice", "\"Mine.\"").unwrap();
+        let own = before
+            .set("title", "\"My pad\"")
+            .unwrap()
+            .set("notice", "\"Mine.\"")
+            .unwrap();
         let own = own.set("adhesion.kappa", "3.0").unwrap();
-        assert_eq!((own.title(), own.scene().notice.as_str()), ("My pad", "Mine."));
+        assert_eq!(
+            (own.title(), own.scene().notice.as_str()),
+            ("My pad", "Mine.")
+        );
         let file = "(version: 1, title: \"A\", notice: \"B\", material: (effective_modulus: 1.0e6), length: 1.0e-4 /* wide */)";
-        let file = Document::parse(file, "mine.ron").unwrap().set("length", "2.0e-4").unwrap();
-        assert_eq!((file.title(), file.scene().notice.as_str(), file.comments()), ("A", "B", 1));
+        let file = Document::parse(file, "mine.ron")
+            .unwrap()
+            .set("length", "2.0e-4")
+            .unwrap();
+        assert_eq!(
+            (file.title(), file.scene().notice.as_str(), file.comments()),
+            ("A", "B", 1)
+        );
     }
 
     #[test]
     fn a_copy_of_a_built_in_scene_has_no_words_of_its_own() {
-        for text in [pressure_sensitive().text().to_owned(), to_ron(pressure_sensitive().scene())] {
+        for text in [
+            pressure_sensitive().text().to_owned(),
+            to_ron(pressure_sensitive().scene()),
+        ] {
             let copy = Document::parse(&text, "folder/pad.ron").unwrap();
             let changed = copy.set("length", "2.0e-4").unwrap();
-            assert_eq!((changed.title(), changed.scene().notice.as_str()), ("pad.ron, changed", ""));
+            assert_eq!(
+                (changed.title(), changed.scene().notice.as_str()),
+                ("pad.ron, changed", "")
+            );
             let saved = Document::parse(&changed.text_for_own_file(), "folder/pad.ron").unwrap();
             assert_eq!(saved.title(), "pad.ron");
         }
         let changed = pressure_sensitive().set("length", "2.0e-4").unwrap();
         assert!(changed.is_changed_built_in() && !pressure_sensitive().is_changed_built_in());
-        assert!(!changed.text_for_own_file().contains("title"), "{}", changed.text_for_own_file());
+        assert!(
+            !changed.text_for_own_file().contains("title"),
+            "{}",
+            changed.text_for_own_file()
+        );
     }
 }

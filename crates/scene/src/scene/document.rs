@@ -59,13 +59,22 @@ impl Document {
     pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
-        check_length(source)
-            .map_err(|message| SceneError::whole(Origin::File { name: name.into(), place: None }, message))?;
+        check_length(source).map_err(|message| {
+            SceneError::whole(
+                Origin::File {
+                    name: name.into(),
+                    place: None,
+                },
+                message,
+            )
+        })?;
         let place = |offset| origin_at(source, name, offset);
         let scene = read(source, place)?;
         let text = Text::new(source)
             .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
-        let scene = CheckedScene::of(scene, Some(&text), |error| place(text.nearest_value(&error.field)))?;
+        let scene = CheckedScene::of(scene, Some(&text), |error| {
+            place(text.nearest_value(&error.field))
+        })?;
         let (name, opened) = (name.to_string(), source.to_string());
         Ok(Document {
             name,
@@ -123,7 +132,12 @@ impl Document {
         }
         let origin = |error: &SceneError| overrides_behind(error, overrides);
         let read = read(new.text.as_str(), |_| Origin::Scene).map_err(|unread| {
-            errors.extend(unread.0.into_iter().map(|error| error.clone().at(origin(&error))));
+            errors.extend(
+                unread
+                    .0
+                    .into_iter()
+                    .map(|error| error.clone().at(origin(&error))),
+            );
         });
         SceneErrors::result(errors, |error| error.origin.clone())?;
         if let (Ok(scene), false) = (read, overrides.is_empty()) {
@@ -153,7 +167,12 @@ impl Document {
 
     /// Returns the loading stages, each with its index in the loading. [`Document::with_stages`] takes such a list.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
-        self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
+        self.scene
+            .loading
+            .iter()
+            .enumerate()
+            .map(|(place, stage)| (Some(place), *stage))
+            .collect()
     }
 
     /// Returns this document with other loading stages. A stage with an index keeps the text and the comments of that stage
@@ -162,7 +181,10 @@ impl Document {
     /// # Errors
     /// Returns the same errors as [`Document::set`].
     pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
-        let elements: Vec<_> = stages.iter().map(|(place, stage)| (*place, in_ron(stage))).collect();
+        let elements: Vec<_> = stages
+            .iter()
+            .map(|(place, stage)| (*place, in_ron(stage)))
+            .collect();
         let loading = in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>());
         let mut new = self.overridden(&[pair("loading", loading)])?;
         let is_same = |text: &Text| {
@@ -189,7 +211,9 @@ impl Document {
     /// cannot have the field, for example the angle of a cone in a scene with a sphere.
     pub fn value(&self, path: &str) -> Option<&str> {
         self.text.value(path).or_else(|| {
-            let field = FIELDS.iter().find(|field| field.path == path && self.has(field))?;
+            let field = FIELDS
+                .iter()
+                .find(|field| field.path == path && self.has(field))?;
             Some(Tree::of(&self.scene).default(field)).filter(|default| !default.is_empty())
         })
     }
@@ -211,12 +235,19 @@ impl Document {
 
     /// Returns the title of the scene, or the name of its file without folders if the scene has no title.
     pub fn title(&self) -> &str {
-        if self.scene.title.is_empty() { self.file_name() } else { &self.scene.title }
+        if self.scene.title.is_empty() {
+            self.file_name()
+        } else {
+            &self.scene.title
+        }
     }
 
     /// The name of the file without folders, or of the built-in scene.
     pub(super) fn file_name(&self) -> &str {
-        Path::new(&self.name).file_name().and_then(OsStr::to_str).unwrap_or(&self.name)
+        Path::new(&self.name)
+            .file_name()
+            .and_then(OsStr::to_str)
+            .unwrap_or(&self.name)
     }
 
     /// Returns the changes since the text was opened, each as the path of a field and its new value.
@@ -226,7 +257,10 @@ impl Document {
 
     /// Marks the document as read from a table of results with these lines above the scene.
     pub(super) fn of_table(self, head: &str) -> Document {
-        Document { table_head: head.to_string(), ..self }
+        Document {
+            table_head: head.to_string(),
+            ..self
+        }
     }
 
     /// Returns the lines above the scene in the CSV table of results from which it was read; for another file an empty text.
@@ -246,7 +280,11 @@ impl Document {
 
     /// Returns this document with other values of [`Self::opened`] and [`Self::overrides`].
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
-        Document { opened, overrides, ..self }
+        Document {
+            opened,
+            overrides,
+            ..self
+        }
     }
 
     /// Returns the text as it was when the document was opened.
@@ -267,12 +305,19 @@ impl Document {
     pub fn moved_to(&self, rename: impl Fn(&str) -> String) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(&self.scene);
         scene.rename_measured_files(rename);
-        if scene == *self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
+        if scene == *self.scene {
+            Ok(self.clone())
+        } else {
+            Document::from_scene(&scene, &self.name)
+        }
     }
 
     /// Returns the path of a file whose name in the scene is relative to the folder of the scene file.
     pub fn resolve(&self, file: &str) -> PathBuf {
-        Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
+        Path::new(&self.name)
+            .parent()
+            .unwrap_or(Path::new(""))
+            .join(file)
     }
 }
 
@@ -308,14 +353,21 @@ mod tests {
     }
 
     fn pairs(overrides: &[(&str, &str)]) -> Vec<(String, String)> {
-        overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect()
+        overrides
+            .iter()
+            .map(|(path, value)| (path.to_string(), value.to_string()))
+            .collect()
     }
 
     #[test]
     fn groups_take_prefixes_and_units_inside() {
         let document = document();
         for (path, group, expected) in [
-            ("form", "Cone(angle: 45°)", ("form.angle", "0.7853981633974483")),
+            (
+                "form",
+                "Cone(angle: 45°)",
+                ("form.angle", "0.7853981633974483"),
+            ),
             (
                 "form",
                 "WavySphere(radius: 1 mm, amplitude: 20nm, wavelength: 9µm)",
@@ -334,16 +386,24 @@ mod tests {
             ),
         ] {
             let set = document.set(path, group).unwrap();
-            let same = document.set(path, group).and_then(|document| document.set(expected.0, expected.1));
+            let same = document
+                .set(path, group)
+                .and_then(|document| document.set(expected.0, expected.1));
             assert_eq!(set.scene(), same.unwrap().scene(), "{group}");
         }
-        let refused = document.set("form", "Cone(angle: 3 kg)").unwrap_err().to_string();
+        let refused = document
+            .set("form", "Cone(angle: 3 kg)")
+            .unwrap_err()
+            .to_string();
         assert!(refused.contains("form"), "{refused}");
     }
 
     #[test]
     fn several_errors_are_stated_with_their_places() {
-        let text = SCENE.replace("0.7", "1.4").replace("1.0e-4", "NaN").replace("ToForce(1.0e-5), ", "");
+        let text = SCENE
+            .replace("0.7", "1.4")
+            .replace("1.0e-4", "NaN")
+            .replace("ToForce(1.0e-5), ", "");
         assert_eq!(
             lines(&Document::parse(&text, "a/scene.ron").unwrap_err()),
             [
@@ -360,10 +420,16 @@ mod tests {
         let newer = SCENE.replace("version: 1", "version: 2");
         for text in [newer.replace("hurst", "hurts"), newer] {
             let errors = Document::parse(&text, "x").unwrap_err();
-            assert_eq!(lines(&errors), ["x:2:14: version = 2: allowed: 1 (version)"]);
+            assert_eq!(
+                lines(&errors),
+                ["x:2:14: version = 2: allowed: 1 (version)"]
+            );
         }
         let unknown = Document::parse(&SCENE.replace("version: 1", "version: 3"), "x").unwrap_err();
-        assert_eq!(lines(&unknown), ["x:2:14: version = 3: allowed: 1 (version)"]);
+        assert_eq!(
+            lines(&unknown),
+            ["x:2:14: version = 3: allowed: 1 (version)"]
+        );
         let missing = Document::parse(&SCENE.replace("version: 1,", ""), "x").unwrap_err();
         assert_eq!(missing.first().field, "version");
     }
@@ -384,14 +450,23 @@ mod tests {
             [("numerics.points", "64"), ("roughness.modes", "(1, 32)")],
             [("roughness.modes", "(1, 32)"), ("numerics.points", "64")],
         ] {
-            assert_eq!(document.set_all(&pairs(&both)).unwrap().scene().numerics.points, 64);
+            assert_eq!(
+                document
+                    .set_all(&pairs(&both))
+                    .unwrap()
+                    .scene()
+                    .numerics
+                    .points,
+                64
+            );
         }
     }
 
     #[test]
     fn errors_name_the_overrides_that_cause_them() {
         let document = document();
-        let refused = |overrides: &[(&str, &str)]| lines(&document.set_all(&pairs(overrides)).unwrap_err());
+        let refused =
+            |overrides: &[(&str, &str)]| lines(&document.set_all(&pairs(overrides)).unwrap_err());
         assert_eq!(
             refused(&[("length", "2.0e-4"), ("roughness.hurst", "1.4")]),
             [
@@ -405,10 +480,16 @@ mod tests {
                  points/2 = 32 (64 springs carry no shorter wave)"
             ]
         );
-        let errors = refused(&[("roughness.seed", "1.5"), ("length", "\"x\""), ("nothing", "1")]);
+        let errors = refused(&[
+            ("roughness.seed", "1.5"),
+            ("length", "\"x\""),
+            ("nothing", "1"),
+        ]);
         assert_eq!(errors.len(), 2);
         assert!(errors[0].starts_with("--set nothing=1: no such field"));
-        assert!(errors[1].starts_with("--set length=\"x\": length = \"x\": allowed: from 1e-9 to 10 m"));
+        assert!(
+            errors[1].starts_with("--set length=\"x\": length = \"x\": allowed: from 1e-9 to 10 m")
+        );
     }
 
     #[test]
@@ -436,7 +517,12 @@ mod tests {
         let again = self::document().set_all(document.overrides()).unwrap();
         assert_eq!(again.scene(), document.scene());
         assert!(document.text().contains("// soft"));
-        assert!(!self::document().set("length", "1.0e-4").unwrap().is_changed());
+        assert!(
+            !self::document()
+                .set("length", "1.0e-4")
+                .unwrap()
+                .is_changed()
+        );
     }
 
     #[test]
@@ -460,7 +546,11 @@ mod tests {
         assert!(paths.contains(&"roughness.hurst") && paths.contains(&"material.poisson_ratio"));
         assert!(!paths.contains(&"form.radius") && !paths.contains(&"roughness.file"));
         let punch = document.set("form", "Punch(radius: 1.0e-5)").unwrap();
-        let radius = punch.fields().into_iter().find(|field| field.path == "form.radius").unwrap();
+        let radius = punch
+            .fields()
+            .into_iter()
+            .find(|field| field.path == "form.radius")
+            .unwrap();
         assert_eq!(radius.variant, Some("Punch"));
     }
 }

@@ -13,7 +13,9 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
     if parent.starts_with("loading.") {
-        return LEG_FIELDS.into_iter().find(|field| field.variant == variant);
+        return LEG_FIELDS
+            .into_iter()
+            .find(|field| field.variant == variant);
     }
     field(path, variant).or_else(|| field(path, None))
 }
@@ -28,7 +30,8 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = value.trim();
     // A position in a list or pair refers to that list or pair.
-    let is_position = |name: &str| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
+    let is_position =
+        |name: &str| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
     let mut base = path;
     while let Some((before, last)) = base.rsplit_once('.')
         && is_position(last)
@@ -41,11 +44,21 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
         let near = did_you_mean(path, FIELDS.iter().map(|field| field.path));
         let group = path.split('.').next().unwrap_or_default();
         let all = |group: &str| -> Vec<&str> {
-            let inside = FIELDS.iter().filter(|field| field.parent() == group).map(|field| field.path);
+            let inside = FIELDS
+                .iter()
+                .filter(|field| field.parent() == group)
+                .map(|field| field.path);
             inside.collect::<BTreeSet<_>>().into_iter().collect()
         };
-        let fields = [all(group), all("")].into_iter().find(|fields| !fields.is_empty()).unwrap_or_default();
-        let fields = if near.is_empty() { format!(" (fields: {})", fields.join(", ")) } else { near };
+        let fields = [all(group), all("")]
+            .into_iter()
+            .find(|fields| !fields.is_empty())
+            .unwrap_or_default();
+        let fields = if near.is_empty() {
+            format!(" (fields: {})", fields.join(", "))
+        } else {
+            near
+        };
         return Err(format!("no such field{fields}"));
     };
     let (parent, name) = (field.parent(), field.last());
@@ -72,7 +85,11 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
         }
     }?;
     // The value may have ended its new group.
-    if edited.written(path) == Some(value) { Ok(edited) } else { Err(NOT_ONE_VALUE.into()) }
+    if edited.written(path) == Some(value) {
+        Ok(edited)
+    } else {
+        Err(NOT_ONE_VALUE.into())
+    }
 }
 
 /// Returns a message that names the choices with this field.
@@ -80,10 +97,19 @@ fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> Stri
     let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
         return format!("{parent} has no such field");
     };
-    let has_it = |choice: &&&str| fields.iter().any(|field| field.variant == Some(choice_name(choice)));
-    let choices = choices.iter().filter(has_it).map(|choice| format!("{parent}={choice}"));
+    let has_it = |choice: &&&str| {
+        fields
+            .iter()
+            .any(|field| field.variant == Some(choice_name(choice)))
+    };
+    let choices = choices
+        .iter()
+        .filter(has_it)
+        .map(|choice| format!("{parent}={choice}"));
     let here = match variant {
-        Some(variant) if variant != "None" => format!("{parent} is {variant}, which has no such field"),
+        Some(variant) if variant != "None" => {
+            format!("{parent} is {variant}, which has no such field")
+        }
         _ => format!("there is no {parent}"),
     };
     format!("{here}: set {}", choices.collect::<Vec<_>>().join(" or "))
@@ -114,7 +140,11 @@ mod tests {
 
     fn changed(path: &str, value: &str, from: &str, to: &str) {
         assert_eq!(SCENE.matches(from).count(), 1, "{from}");
-        assert_eq!(set_text(SCENE, path, value).unwrap(), SCENE.replace(from, to), "{path}={value}");
+        assert_eq!(
+            set_text(SCENE, path, value).unwrap(),
+            SCENE.replace(from, to),
+            "{path}={value}"
+        );
     }
 
     #[test]
@@ -132,14 +162,49 @@ mod tests {
     fn missing_fields_are_inserted_where_the_table_has_them() {
         let after_length = "as it is */\n";
         let line = |line: &str| format!("{after_length}    {line}\n");
-        changed("form", "Cone(angle: 0.1)", after_length, &line("form: Cone(angle: 0.1),"));
-        changed("title", "\"A\"", "version: 1,\n", "version: 1,\n    title: \"A\",\n");
-        changed("material.poisson_ratio", "0.5", "1.0e6)", "1.0e6, poisson_ratio: 0.5)");
-        changed("roughness.rms_gradient", "0.1", "1.0e-7,", "1.0e-7, rms_gradient: 0.1,");
-        changed("numerics.solver", "Exact", "// enough\n", "// enough\n        solver: Exact,\n");
-        changed("numerics.edges", "Grid", "// enough\n", "// enough\n        edges: Grid,\n");
+        changed(
+            "form",
+            "Cone(angle: 0.1)",
+            after_length,
+            &line("form: Cone(angle: 0.1),"),
+        );
+        changed(
+            "title",
+            "\"A\"",
+            "version: 1,\n",
+            "version: 1,\n    title: \"A\",\n",
+        );
+        changed(
+            "material.poisson_ratio",
+            "0.5",
+            "1.0e6)",
+            "1.0e6, poisson_ratio: 0.5)",
+        );
+        changed(
+            "roughness.rms_gradient",
+            "0.1",
+            "1.0e-7,",
+            "1.0e-7, rms_gradient: 0.1,",
+        );
+        changed(
+            "numerics.solver",
+            "Exact",
+            "// enough\n",
+            "// enough\n        solver: Exact,\n",
+        );
+        changed(
+            "numerics.edges",
+            "Grid",
+            "// enough\n",
+            "// enough\n        edges: Grid,\n",
+        );
         let rough = "seed: 1),\n";
-        changed("adhesion.work", "0.1", rough, &format!("{rough}    adhesion: (work: 0.1),\n"));
+        changed(
+            "adhesion.work",
+            "0.1",
+            rough,
+            &format!("{rough}    adhesion: (work: 0.1),\n"),
+        );
     }
 
     #[test]
@@ -155,17 +220,56 @@ mod tests {
     #[test]
     fn one_line_stays_one_line() {
         for (text, path, value, new) in [
-            ("(length: 1.0)", "observe", "[]", "(length: 1.0, observe: [])"),
-            ("(length: 1.0,)", "observe", "[]", "(length: 1.0, observe: [],)"),
-            ("(length: 1.0 /* c */)", "observe", "[]", "(length: 1.0, observe: [] /* c */)"),
-            ("(observe: [])", "length", "1.0", "(observe: [], length: 1.0)"),
+            (
+                "(length: 1.0)",
+                "observe",
+                "[]",
+                "(length: 1.0, observe: [])",
+            ),
+            (
+                "(length: 1.0,)",
+                "observe",
+                "[]",
+                "(length: 1.0, observe: [],)",
+            ),
+            (
+                "(length: 1.0 /* c */)",
+                "observe",
+                "[]",
+                "(length: 1.0, observe: [] /* c */)",
+            ),
+            (
+                "(observe: [])",
+                "length",
+                "1.0",
+                "(observe: [], length: 1.0)",
+            ),
             ("()", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
-            ("(adhesion: None)", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
-            ("(adhesion: ())", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            (
+                "(adhesion: None)",
+                "adhesion.work",
+                "0.1",
+                "(adhesion: (work: 0.1))",
+            ),
+            (
+                "(adhesion: ())",
+                "adhesion.work",
+                "0.1",
+                "(adhesion: (work: 0.1))",
+            ),
             ("( // c\n)", "length", "1.0", "(length: 1.0 // c\n)"),
-            ("S(form: Some(Cone(angle: 1.0)))", "form.angle", "0.1", "S(form: Some(Cone(angle: 0.1)))"),
+            (
+                "S(form: Some(Cone(angle: 1.0)))",
+                "form.angle",
+                "0.1",
+                "S(form: Some(Cone(angle: 0.1)))",
+            ),
         ] {
-            assert_eq!(set_text(text, path, value).as_deref(), Ok(new), "{text} {path}");
+            assert_eq!(
+                set_text(text, path, value).as_deref(),
+                Ok(new),
+                "{text} {path}"
+            );
         }
     }
 
@@ -185,14 +289,26 @@ mod tests {
             ("roughness.hurts", "did you mean roughness.hurst?"),
             ("hurst", "did you mean roughness.hurst?"),
             ("nothing", "no such field (fields: adhesion, form, length, "),
-            ("adhesion.nothing", "no such field (fields: adhesion.closing_work, "),
+            (
+                "adhesion.nothing",
+                "no such field (fields: adhesion.closing_work, ",
+            ),
             ("", "no such field"),
             ("loading.", "no such field"),
             ("..", "no such field"),
             ("roughness..hurst", "no such field"),
-            ("form.radius", "there is no form: set form=Paraboloid(radius: 1.0e-3) or form=WavySphere("),
-            ("roughness.file", "roughness is SelfAffine, which has no such field: set roughness=Measured("),
-            ("numerics.solver.step", "set numerics.solver=Stepwise(step: 1.0e-9)"),
+            (
+                "form.radius",
+                "there is no form: set form=Paraboloid(radius: 1.0e-3) or form=WavySphere(",
+            ),
+            (
+                "roughness.file",
+                "roughness is SelfAffine, which has no such field: set roughness=Measured(",
+            ),
+            (
+                "numerics.solver.step",
+                "set numerics.solver=Stepwise(step: 1.0e-9)",
+            ),
             ("loading.0", "no such element"),
             ("roughness.modes.2", "no such element"),
             ("version.0", "no such element"),

@@ -33,7 +33,12 @@ pub enum Effect {
 
 impl Effect {
     /// All optional parts, in the order of their fields in a scene file.
-    pub const ALL: [Effect; 4] = [Effect::Form, Effect::Roughness, Effect::Adhesion, Effect::Unloading];
+    pub const ALL: [Effect; 4] = [
+        Effect::Form,
+        Effect::Roughness,
+        Effect::Adhesion,
+        Effect::Unloading,
+    ];
 
     /// Returns the name of this optional part: `form`, `roughness`, `adhesion` or `unloading`.
     pub const fn name(self) -> &'static str {
@@ -48,7 +53,11 @@ impl Effect {
     /// Returns the path of the field that has this optional part: `loading` for unloading, otherwise its
     /// [`name`](Self::name).
     pub const fn path(self) -> &'static str {
-        if let Effect::Unloading = self { "loading" } else { self.name() }
+        if let Effect::Unloading = self {
+            "loading"
+        } else {
+            self.name()
+        }
     }
 
     /// Returns true if the scene has this optional part. A work of adhesion of zero counts as no adhesion.
@@ -56,7 +65,9 @@ impl Effect {
         match self {
             Effect::Form => scene.form.is_some(),
             Effect::Roughness => scene.roughness.is_some(),
-            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work() != Some(0.0)),
+            Effect::Adhesion => scene
+                .adhesion
+                .is_some_and(|adhesion| adhesion.work() != Some(0.0)),
             Effect::Unloading => may_pull(&scene.loading),
         }
     }
@@ -66,7 +77,11 @@ impl Effect {
         let mut scene = scene.clone();
         match self {
             // At the ends of the profile its height is an eighth of the length.
-            Effect::Form => scene.form = Some(Form::Paraboloid { radius: scene.length }),
+            Effect::Form => {
+                scene.form = Some(Form::Paraboloid {
+                    radius: scene.length,
+                })
+            }
             Effect::Roughness => {
                 // Smooth on the scale of a spring and, under a form, on that of the contact.
                 let last = (scene.numerics.points / 8).clamp(1, 512);
@@ -123,7 +138,12 @@ pub(super) fn pressing(loading: &[Move]) -> Move {
         one.cmp(&other).then(size.total_cmp(&other_size))
     };
     // The first of equal ones.
-    loading.iter().rev().max_by(less).copied().unwrap_or(Move::ToZeroForce)
+    loading
+        .iter()
+        .rev()
+        .max_by(less)
+        .copied()
+        .unwrap_or(Move::ToZeroForce)
 }
 
 #[cfg(test)]
@@ -136,9 +156,18 @@ mod tests {
         for (loading, left) in [
             (vec![ToForce(1.0), ToSeparation], ToForce(1.0)),
             (vec![ToZeroForce, ToSeparation], ToZeroForce),
-            (vec![ToForce(1.0), ToForce(2.0), ToForce(0.5), ToZeroForce], ToForce(2.0)),
-            (vec![ToIndentation(-1.0), ToTouch, ToForce(1.0), ToSeparation], ToForce(1.0)),
-            (vec![ToTouch, ToIndentation(1.0), ToIndentation(2.0), ToTouch], ToIndentation(2.0)),
+            (
+                vec![ToForce(1.0), ToForce(2.0), ToForce(0.5), ToZeroForce],
+                ToForce(2.0),
+            ),
+            (
+                vec![ToIndentation(-1.0), ToTouch, ToForce(1.0), ToSeparation],
+                ToForce(1.0),
+            ),
+            (
+                vec![ToTouch, ToIndentation(1.0), ToIndentation(2.0), ToTouch],
+                ToIndentation(2.0),
+            ),
             (vec![ToIndentation(-1.0), ToTouch], ToIndentation(-1.0)),
         ] {
             assert_eq!(pressing(&loading), left, "{loading:?}");

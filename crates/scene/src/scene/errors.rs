@@ -30,13 +30,19 @@ pub enum Origin {
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Origin::File { name, place: Some((line, column)) } => {
+            Origin::File {
+                name,
+                place: Some((line, column)),
+            } => {
                 write!(f, "{}:{line}:{column}: ", shown(name))
             }
             Origin::File { name, place: None } if name.is_empty() => f.write_str("\"\": "),
             Origin::File { name, place: None } => write!(f, "{}: ", shown(name)),
             Origin::Overrides(overrides) => {
-                let all: Vec<_> = overrides.iter().map(|one| format!("--set {}", shown(one))).collect();
+                let all: Vec<_> = overrides
+                    .iter()
+                    .map(|one| format!("--set {}", shown(one)))
+                    .collect();
                 write!(f, "{}: ", all.join(" "))
             }
             Origin::Scene => Ok(()),
@@ -73,7 +79,11 @@ pub struct SceneError {
 impl SceneError {
     /// Returns an error that concerns a file or a scene as a whole.
     pub(super) fn whole(origin: Origin, message: impl Into<String>) -> SceneError {
-        SceneError { origin, message: message.into(), ..SceneError::default() }
+        SceneError {
+            origin,
+            message: message.into(),
+            ..SceneError::default()
+        }
     }
 
     /// Returns an error of a value. Its origin is set later.
@@ -84,7 +94,12 @@ impl SceneError {
         message: &str,
     ) -> SceneError {
         let (value, allowed) = (value.into(), allowed.into());
-        SceneError { field: field.into(), value, allowed, ..SceneError::whole(Origin::Scene, message) }
+        SceneError {
+            field: field.into(),
+            value,
+            allowed,
+            ..SceneError::whole(Origin::Scene, message)
+        }
     }
 
     /// Returns the same error with another origin.
@@ -95,8 +110,10 @@ impl SceneError {
     /// Returns field, value, allowed values and reason as text, without the origin: `roughness.hurst = 1.4: allowed: above 0
     /// and below 1 (Hurst exponent)`.
     pub fn what(&self) -> String {
-        let of =
-            [&self.field, &self.value].map(|part| shown(part)).into_iter().filter(|part| !part.is_empty());
+        let of = [&self.field, &self.value]
+            .map(|part| shown(part))
+            .into_iter()
+            .filter(|part| !part.is_empty());
         let of = of.collect::<Vec<_>>().join(" = ");
         let of = if of.is_empty() { of } else { of + ": " };
         match (self.allowed.as_str(), self.message.as_str()) {
@@ -128,11 +145,20 @@ impl SceneErrors {
     ) -> Result<(), SceneErrors> {
         let more = errors.len().saturating_sub(MOST_LISTED);
         errors.truncate(MOST_LISTED);
-        errors.iter_mut().for_each(|error| error.origin = origin(error));
+        errors
+            .iter_mut()
+            .for_each(|error| error.origin = origin(error));
         if more > 0 {
-            errors.push(SceneError::whole(Origin::Scene, format!("and {more} more errors")));
+            errors.push(SceneError::whole(
+                Origin::Scene,
+                format!("and {more} more errors"),
+            ));
         }
-        if errors.is_empty() { Ok(()) } else { Err(SceneErrors(errors)) }
+        if errors.is_empty() {
+            Ok(())
+        } else {
+            Err(SceneErrors(errors))
+        }
     }
 
     /// Returns the first error.
@@ -163,7 +189,10 @@ impl std::error::Error for SceneErrors {}
 
 /// Returns the origin of an error at a byte of a text: its line and column.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
-    Origin::File { name: name.into(), place: Some(line_column(text, offset)) }
+    Origin::File {
+        name: name.into(),
+        place: Some(line_column(text, offset)),
+    }
 }
 
 /// Returns the overrides that cause an error: those of its field, of a group around it, or of a field inside it. If there are
@@ -171,8 +200,14 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
     let is_behind = |path: &str| is_within(&error.field, path) || is_within(path, &error.field);
     let is_known = overrides.iter().any(|(path, _)| is_behind(path));
-    let behind = overrides.iter().filter(|(path, _)| !is_known || is_behind(path));
-    Origin::Overrides(behind.map(|(path, value)| format!("{path}={value}")).collect())
+    let behind = overrides
+        .iter()
+        .filter(|(path, _)| !is_known || is_behind(path));
+    Origin::Overrides(
+        behind
+            .map(|(path, value)| format!("{path}={value}"))
+            .collect(),
+    )
 }
 
 /// Largest length of a name that is compared with other names. A longer one is no misspelt name.
@@ -200,8 +235,13 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
         let end = near_enough(&last(name), &last(candidate)).map(|far| 2 * far + 1);
         Some((whole.into_iter().chain(end).min()?, candidate))
     };
-    let names = names.into_iter().filter(|_| !name.is_empty() && name.len() <= LONGEST);
-    names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
+    let names = names
+        .into_iter()
+        .filter(|_| !name.is_empty() && name.len() <= LONGEST);
+    names
+        .filter_map(near)
+        .min_by_key(|(far, _)| *far)
+        .map(|(_, candidate)| candidate)
 }
 
 /// Returns a question to append to a message, such as `; did you mean length?`, with the name that is most similar to
@@ -223,7 +263,12 @@ mod tests {
 
     #[test]
     fn near_names_are_suggested_and_far_ones_are_not() {
-        let names = ["roughness.hurst", "adhesion.work", "numerics.points", "length"];
+        let names = [
+            "roughness.hurst",
+            "adhesion.work",
+            "numerics.points",
+            "length",
+        ];
         for (name, expected) in [
             ("roughness.hurts", Some("roughness.hurst")),
             ("hurst", Some("roughness.hurst")),

@@ -66,13 +66,27 @@ pub(super) const fn row(path: &'static str, range: Range) -> Field {
         Range::Text { .. } => (Step::Typed, "", read_text),
         Range::List { .. } | Range::Group => (Step::Typed, "", |_, typed| Ok(typed.to_owned())),
     };
-    Field { path, variant: None, name: path, symbol: "", unit, range, step, default: "", meaning: "", read }
+    Field {
+        path,
+        variant: None,
+        name: path,
+        symbol: "",
+        unit,
+        range,
+        step,
+        default: "",
+        meaning: "",
+        read,
+    }
 }
 
 /// Methods that change one column of a row in the table of fields.
 impl Field {
     pub(super) const fn of(self, variant: &'static str) -> Field {
-        Field { variant: Some(variant), ..self }
+        Field {
+            variant: Some(variant),
+            ..self
+        }
     }
 
     pub(super) const fn name(self, name: &'static str) -> Field {
@@ -85,7 +99,12 @@ impl Field {
         symbol: &'static str,
         unit: &'static str,
     ) -> Field {
-        Field { name, symbol, unit, ..self }
+        Field {
+            name,
+            symbol,
+            unit,
+            ..self
+        }
     }
 
     pub(super) const fn step(self, step: Step) -> Field {
@@ -134,10 +153,17 @@ impl Field {
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         let ends = match self.range {
             Range::Real(..) => vec![written.parse().ok()?],
-            Range::Wavelengths(..) => <[f64; 2]>::from(ron::from_str::<(f64, f64)>(written).ok()?).to_vec(),
+            Range::Wavelengths(..) => {
+                <[f64; 2]>::from(ron::from_str::<(f64, f64)>(written).ok()?).to_vec()
+            }
             _ => return None,
         };
-        Some(ends.into_iter().map(|end| format(end, self.unit)).collect::<Vec<_>>().join(", "))
+        Some(
+            ends.into_iter()
+                .map(|end| format(end, self.unit))
+                .collect::<Vec<_>>()
+                .join(", "),
+        )
     }
 
     /// Appends the units of a shown value to a typed value that has none: `50` becomes `50 mJ/m²` if `4.356 mJ/m²` is shown.
@@ -145,7 +171,11 @@ impl Field {
         match (self.range, shown.split_once(", "), split_pair(typed)) {
             (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
             (Range::Wavelengths(..), Some((long, short)), Some((first, last))) => {
-                format!("{}, {}", in_unit(first.trim(), unit_of(long)), in_unit(last.trim(), unit_of(short)))
+                format!(
+                    "{}, {}",
+                    in_unit(first.trim(), unit_of(long)),
+                    in_unit(last.trim(), unit_of(short))
+                )
             }
             _ => typed.to_owned(),
         }
@@ -158,7 +188,9 @@ impl Field {
 
     /// Returns the last part of the path: `hurst` for `roughness.hurst`.
     pub fn last(&self) -> &'static str {
-        self.path.rsplit_once('.').map_or(self.path, |(_, last)| last)
+        self.path
+            .rsplit_once('.')
+            .map_or(self.path, |(_, last)| last)
     }
 }
 
@@ -168,13 +200,19 @@ impl PartialEq for Field {
     }
 }
 
-pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
+pub(super) const FILE_NAME: Range = Range::Text {
+    least: 1,
+    most: 4096,
+    lines: false,
+};
 
 /// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce).
 pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
     .of("ToForce")
     .quantity("force of stage", "F", "N")
-    .meaning("target: the stage ends where the force first reaches this value; compression is positive");
+    .meaning(
+        "target: the stage ends where the force first reaches this value; compression is positive",
+    );
 
 /// Description of the indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation).
 pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
@@ -257,10 +295,18 @@ fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
 fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let is_whole = matches!(field.range, Range::Band(..));
     let Some((first, last)) = split_pair(typed) else {
-        return if is_whole { read_whole(field, typed) } else { read_number(field, typed) };
+        return if is_whole {
+            read_whole(field, typed)
+        } else {
+            read_number(field, typed)
+        };
     };
     let [first, last] = [first, last].map(|end| parse_quantity(end.trim(), field.unit));
-    let written = |end: f64| whole(end).filter(|_| is_whole).unwrap_or_else(|| ron_float(end));
+    let written = |end: f64| {
+        whole(end)
+            .filter(|_| is_whole)
+            .unwrap_or_else(|| ron_float(end))
+    };
     Ok(format!("({}, {})", written(first?), written(last?)))
 }
 
@@ -268,17 +314,23 @@ fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
 fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let is_omitted = field.range == FILE_NAME && (typed.is_empty() || typed == "None");
     let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
-    Ok(if is_omitted || is_quoted { typed.to_owned() } else { ron_string(typed) })
+    Ok(if is_omitted || is_quoted {
+        typed.to_owned()
+    } else {
+        ron_string(typed)
+    })
 }
 
 /// Reads a choice in RON or in words.
 fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
-    let Range::Choice(choices) = field.range else { return Ok(typed.to_owned()) };
+    let Range::Choice(choices) = field.range else {
+        return Ok(typed.to_owned());
+    };
     let is_meant = |name: &str| name == typed || choice_in_words(name) == typed;
     match choices.iter().find(|choice| is_meant(choice_name(choice))) {
-        Some(choice) if choice_name(choice).len() < choice.len() => {
-            Err(QuantityError(format!("its numbers are missing: give them as in {choice}")))
-        }
+        Some(choice) if choice_name(choice).len() < choice.len() => Err(QuantityError(format!(
+            "its numbers are missing: give them as in {choice}"
+        ))),
         Some(choice) => Ok((*choice).to_owned()),
         None => Ok(typed.to_owned()),
     }
@@ -320,7 +372,9 @@ pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityErro
 /// Splits a typed pair into its two parts: `4, 512`, `4–512`, `4 to 512`, with or without brackets.
 fn split_pair(typed: &str) -> Option<(&str, &str)> {
     let pair = typed.trim_matches(['(', ')', ' ', ',']);
-    [",", "–", " to "].iter().find_map(|between| pair.split_once(between))
+    [",", "–", " to "]
+        .iter()
+        .find_map(|between| pair.split_once(between))
 }
 
 /// Returns the name of a choice without fields as users read and type it: `sub-cell` for `SubCell`.
@@ -379,8 +433,14 @@ mod tests {
             "roughness.file|7.txt|\"7.txt\"",
             "roughness.opposite|None|None",
         ] {
-            let [path, typed, ron] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
-            assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{row}");
+            let [path, typed, ron] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
+            assert_eq!(
+                field(path, None).unwrap().read_typed(typed).as_deref(),
+                Ok(ron),
+                "{row}"
+            );
         }
         for row in [
             "length|5|100 µm|5 µm",
@@ -388,10 +448,22 @@ mod tests {
             "roughness.wavelengths|(80, 0.5 µm)|= 100 µm, 200 nm|80 µm, 0.5 µm",
             "roughness.modes|4, 512|1, 64|4, 512",
         ] {
-            let [path, typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
-            assert_eq!(field(path, None).unwrap().in_shown_units(typed, shown), read, "{row}");
+            let [path, typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
+            assert_eq!(
+                field(path, None).unwrap().in_shown_units(typed, shown),
+                read,
+                "{row}"
+            );
         }
-        let wrong = field("length", None).unwrap().read_typed("10 kg").unwrap_err();
-        assert_eq!(wrong.to_string(), "kg is not a unit of length: use m, mm, µm, nm");
+        let wrong = field("length", None)
+            .unwrap()
+            .read_typed("10 kg")
+            .unwrap_err();
+        assert_eq!(
+            wrong.to_string(),
+            "kg is not a unit of length: use m, mm, µm, nm"
+        );
     }
 }

@@ -24,24 +24,37 @@ pub const MOST_POINTS: u64 = 1 << 28;
 /// assert_eq!((radius.unit, radius.allowed().as_str()), ("m", "above 0, at most 1e9 m"));
 /// ```
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
-    let is_of = |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
-    FIELDS.iter().find(|field| field.path == path && is_of(field))
+    let is_of =
+        |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
+    FIELDS
+        .iter()
+        .find(|field| field.path == path && is_of(field))
 }
 
 /// Returns the default value of a field.
 pub(super) fn default_of<T: DeserializeOwned>(path: &str) -> T {
-    let row = FIELDS.iter().find(|field| field.path == path && !field.default.is_empty());
-    row.and_then(|row| read_ron(row.default).ok()).expect("a row of the table with a default of this type")
+    let row = FIELDS
+        .iter()
+        .find(|field| field.path == path && !field.default.is_empty());
+    row.and_then(|row| read_ron(row.default).ok())
+        .expect("a row of the table with a default of this type")
 }
 
 /// Returns the fields directly inside the group or the variant at a path; an empty path is the whole scene.
-pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
+pub(super) fn fields_inside(
+    path: &str,
+    variant: Option<&str>,
+) -> impl Iterator<Item = &'static Field> {
     let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
-    FIELDS.iter().filter(move |field| field.parent() == path && is_of(field))
+    FIELDS
+        .iter()
+        .filter(move |field| field.parent() == path && is_of(field))
 }
 
-const MATERIALS: Range =
-    Choice(&["(youngs_modulus: 2.0e6, poisson_ratio: 0.5)", "(effective_modulus: 2.7e6)"]);
+const MATERIALS: Range = Choice(&[
+    "(youngs_modulus: 2.0e6, poisson_ratio: 0.5)",
+    "(effective_modulus: 2.7e6)",
+]);
 const FORMS: Range = Choice(&[
     "Paraboloid(radius: 1.0e-3)",
     "Cone(angle: 0.1)",
@@ -55,7 +68,11 @@ const ROUGHNESS: Range = Choice(&[
     "Measured(file: \"line.csv\")",
 ]);
 const SWITCH: Range = Choice(&["false", "true"]);
-const UNIT: Range = Text { least: 0, most: 20, lines: false };
+const UNIT: Range = Text {
+    least: 0,
+    most: 20,
+    lines: false,
+};
 
 /// Descriptions of all fields of a scene, in the order of a scene file.
 // Two or three lines for a row: what it is, and what it means.

@@ -70,7 +70,9 @@ pub fn find_scene(name: &str) -> Option<&'static Preset> {
 /// Converts typed text to a path. A leading `~` becomes the home folder, if there is one.
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
-    let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
+    let in_home = text
+        .strip_prefix('~')
+        .filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
     match (in_home, home_dir()) {
         (Some(rest), Ok(home)) => home.join(rest.trim_start_matches(is_separator)),
         _ => PathBuf::from(text),
@@ -106,30 +108,51 @@ pub struct Entry {
 /// Returns the folder of the user's own scenes: `asperity/presets` in `$XDG_CONFIG_HOME` or `~/.config`, on Windows in the
 /// folder for roaming application data. The folder need not exist. Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
-    Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
+    Some(
+        choose_base_strategy()
+            .ok()?
+            .config_dir()
+            .join("asperity")
+            .join("presets"),
+    )
 }
 
 /// Returns the file of the scene with this name in the user's own folder, if it exists.
 pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
     let mut components = Path::new(name).components();
-    let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
+    let is_name = matches!(
+        (components.next(), components.next()),
+        (Some(Component::Normal(_)), None)
+    );
     Some(own.join(format!("{name}.ron"))).filter(|path| is_name && path.is_file())
 }
 
 /// Returns the names of the scenes in the user's own folder.
 pub(super) fn own_names(own: &Path) -> Vec<String> {
-    scene_files(own).unwrap_or_default().iter().map(|path| name_of(path, Source::Own)).collect()
+    scene_files(own)
+        .unwrap_or_default()
+        .iter()
+        .map(|path| name_of(path, Source::Own))
+        .collect()
 }
 
 /// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the scenes in the folder
 /// `working`. A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no valid scene is
 /// listed with its error.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
-    let built_in = presets()
-        .iter()
-        .map(|preset| Entry::new(preset.name.into(), Source::BuiltIn, None, Ok(preset.text.into())));
+    let built_in = presets().iter().map(|preset| {
+        Entry::new(
+            preset.name.into(),
+            Source::BuiltIn,
+            None,
+            Ok(preset.text.into()),
+        )
+    });
     let mut entries: Vec<Entry> = built_in.collect();
-    entries.extend(own.into_iter().flat_map(|own| list_folder(own, Source::Own)));
+    entries.extend(
+        own.into_iter()
+            .flat_map(|own| list_folder(own, Source::Own)),
+    );
     let place = |folder: &Path| folder.canonicalize().ok();
     let own = own.and_then(place);
     if own.is_none() || own != place(working) {
@@ -140,25 +163,47 @@ pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
 
 impl Entry {
     /// Creates the entry of a text, or of the reason why it could not be read.
-    fn new(name: String, origin: Source, path: Option<PathBuf>, text: Result<String, String>) -> Entry {
-        let file = path.as_ref().map_or_else(|| name.clone(), |path| path.display().to_string());
+    fn new(
+        name: String,
+        origin: Source,
+        path: Option<PathBuf>,
+        text: Result<String, String>,
+    ) -> Entry {
+        let file = path
+            .as_ref()
+            .map_or_else(|| name.clone(), |path| path.display().to_string());
         let document = match &text {
             Ok(text) => Document::parse(text, &file),
-            Err(error) => {
-                Err(SceneError::whole(Origin::File { name: file, place: None }, error.as_str()).into())
-            }
+            Err(error) => Err(SceneError::whole(
+                Origin::File {
+                    name: file,
+                    place: None,
+                },
+                error.as_str(),
+            )
+            .into()),
         };
-        Entry { name, origin, path, text: text.unwrap_or_default(), document }
+        Entry {
+            name,
+            origin,
+            path,
+            text: text.unwrap_or_default(),
+            document,
+        }
     }
 
     /// Returns the title of the scene; empty if it has none.
     pub fn title(&self) -> &str {
-        self.document.as_ref().map_or("", |document| &document.scene().title)
+        self.document
+            .as_ref()
+            .map_or("", |document| &document.scene().title)
     }
 
     /// Returns the notes on the scene; empty if it has none.
     pub fn notice(&self) -> &str {
-        self.document.as_ref().map_or("", |document| &document.scene().notice)
+        self.document
+            .as_ref()
+            .map_or("", |document| &document.scene().notice)
     }
 
     /// Returns the first error of the file on one line, with its place and the number of further errors. Returns `None` for a
@@ -167,10 +212,17 @@ impl Entry {
         let errors = self.document.as_ref().err()?;
         let (first, more) = (errors.first(), errors.iter().count() - 1);
         let place = match &first.origin {
-            Origin::File { place: Some((line, column)), .. } => format!("line {line}, column {column}: "),
+            Origin::File {
+                place: Some((line, column)),
+                ..
+            } => format!("line {line}, column {column}: "),
             _ => String::new(),
         };
-        let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
+        let more = if more > 0 {
+            format!(" (and {more} more)")
+        } else {
+            String::new()
+        };
         Some(format!("{place}{}{more}", first.what()))
     }
 }
@@ -182,13 +234,23 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Vec::new(),
         Err(error) => {
             let error = format!("cannot be read: {error}");
-            return vec![Entry::new(path_name(folder), origin, Some(folder.to_path_buf()), Err(error))];
+            return vec![Entry::new(
+                path_name(folder),
+                origin,
+                Some(folder.to_path_buf()),
+                Err(error),
+            )];
         }
     };
     paths.sort_by_cached_key(|path| name_of(path, origin));
     let read = |path: PathBuf| {
         let text = read_regular_text(&path, LONGEST_TEXT).map_err(describe);
-        Entry::new(printable(&name_of(&path, origin)).into_owned(), origin, Some(path), text)
+        Entry::new(
+            printable(&name_of(&path, origin)).into_owned(),
+            origin,
+            Some(path),
+            text,
+        )
     };
     let mut entries: Vec<Entry> = paths.into_iter().map(read).collect();
     // A plan of a study contains a scene.
@@ -201,20 +263,29 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let paths = fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
     // The target of a link decides; a link without a target is no folder.
-    let is_scene = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
+    let is_scene =
+        |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
     Ok(paths.filter(is_scene).collect())
 }
 
 fn name_of(path: &Path, origin: Source) -> String {
-    let name = if origin == Source::Own { path.file_stem() } else { path.file_name() };
-    name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+    let name = if origin == Source::Own {
+        path.file_stem()
+    } else {
+        path.file_name()
+    };
+    name.unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
 }
 
 /// Returns in words why the file of a scene was not read.
 pub(super) fn describe(error: ReadError) -> String {
     match error {
         ReadError::Folder => "this is a directory, not a scene file".into(),
-        ReadError::TooLong { limit } => format!("the scene is too long: at most {limit} bytes are read"),
+        ReadError::TooLong { limit } => {
+            format!("the scene is too long: at most {limit} bytes are read")
+        }
         other => other.to_string(),
     }
 }
@@ -237,12 +308,22 @@ mod tests {
 
     fn listed(own: Option<&Path>, working: &Path) -> Vec<(String, Source)> {
         let entries = scenes(own, working);
-        assert!(entries[..presets().len()].iter().all(|entry| entry.origin == Source::BuiltIn));
-        entries[presets().len()..].iter().map(|entry| (entry.name.clone(), entry.origin)).collect()
+        assert!(
+            entries[..presets().len()]
+                .iter()
+                .all(|entry| entry.origin == Source::BuiltIn)
+        );
+        entries[presets().len()..]
+            .iter()
+            .map(|entry| (entry.name.clone(), entry.origin))
+            .collect()
     }
 
     fn error_of(working: &Path, name: &str) -> String {
-        let entry = scenes(None, working).into_iter().find(|entry| entry.name == name).unwrap();
+        let entry = scenes(None, working)
+            .into_iter()
+            .find(|entry| entry.name == name)
+            .unwrap();
         let error = entry.error().unwrap();
         assert!(!error.contains('\n'), "{error}");
         let errors = entry.document.unwrap_err().to_string();
@@ -254,20 +335,33 @@ mod tests {
     fn scenes_are_listed_where_they_are() {
         let (_root, own, working) = folders();
         assert_eq!(listed(Some(&own), &working), []);
-        for name in ["b-c.ron", "b.ron", "a.ron", ".hidden.ron", "notes.txt", "ron"] {
+        for name in [
+            "b-c.ron",
+            "b.ron",
+            "a.ron",
+            ".hidden.ron",
+            "notes.txt",
+            "ron",
+        ] {
             fs::write(own.join(name), SCENE).unwrap();
             fs::write(working.join(name), SCENE).unwrap();
         }
         fs::create_dir(working.join("folder.ron")).unwrap();
         fs::write(working.join("folder.ron/inside.ron"), SCENE).unwrap();
         let own_names = [".hidden", "a", "b", "b-c"].map(|name| (name.to_string(), Source::Own));
-        let names =
-            [".hidden.ron", "a.ron", "b-c.ron", "b.ron"].map(|name| (name.to_string(), Source::Working));
+        let names = [".hidden.ron", "a.ron", "b-c.ron", "b.ron"]
+            .map(|name| (name.to_string(), Source::Working));
         assert_eq!(listed(Some(&own), &working), [own_names, names].concat());
         let entry = &scenes(Some(&own), &working)[presets().len() + 1];
-        assert_eq!((entry.title(), entry.notice(), entry.text.as_str()), ("A title", "A notice", SCENE));
+        assert_eq!(
+            (entry.title(), entry.notice(), entry.text.as_str()),
+            ("A title", "A notice", SCENE)
+        );
         assert_eq!(entry.path, Some(own.join("a.ron")));
-        assert_eq!(entry.document.as_ref().unwrap().resolve("line.csv"), own.join("line.csv"));
+        assert_eq!(
+            entry.document.as_ref().unwrap().resolve("line.csv"),
+            own.join("line.csv")
+        );
         // A folder in both roles is listed once; missing folders are empty.
         assert_eq!(listed(Some(&own), &own.join("../own")).len(), 4);
         assert_eq!(listed(None, &own.join("missing")), []);
@@ -277,15 +371,26 @@ mod tests {
     fn what_is_no_scene_is_listed_with_its_error() {
         let (_root, _, working) = folders();
         fs::write(working.join("other.ron"), "Config(colour: 1)").unwrap();
-        let plan = format!("(version: 1, title: \"A study\", scene: {SCENE}, lines: 3, record: [regime])");
+        let plan =
+            format!("(version: 1, title: \"A study\", scene: {SCENE}, lines: 3, record: [regime])");
         fs::write(working.join("plan.ron"), plan).unwrap();
-        assert!(scenes(None, &working).iter().all(|entry| entry.name != "plan.ron"), "it is no broken scene");
-        fs::write(working.join("two.ron"), SCENE.replace("1.0e6", "0.0").replace("1.0e-4", "0.0")).unwrap();
+        assert!(
+            scenes(None, &working)
+                .iter()
+                .all(|entry| entry.name != "plan.ron"),
+            "it is no broken scene"
+        );
+        fs::write(
+            working.join("two.ron"),
+            SCENE.replace("1.0e6", "0.0").replace("1.0e-4", "0.0"),
+        )
+        .unwrap();
         fs::write(working.join("empty.ron"), "").unwrap();
         assert!(error_of(&working, "other.ron").starts_with("line 1, column "));
         let two = error_of(&working, "two.ron");
         assert!(
-            two.contains("material.effective_modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
+            two.contains("material.effective_modulus = 0.0: allowed")
+                && two.ends_with("(and 1 more)"),
             "{two}"
         );
         let file = working.join("other.ron");
@@ -298,7 +403,10 @@ mod tests {
         use std::os::unix::fs::symlink;
 
         let (_root, own, working) = folders();
-        let made = std::process::Command::new("mkfifo").arg(working.join("pipe.ron")).status().unwrap();
+        let made = std::process::Command::new("mkfifo")
+            .arg(working.join("pipe.ron"))
+            .status()
+            .unwrap();
         assert!(made.success());
         symlink("loop.ron", working.join("loop.ron")).unwrap();
         symlink("missing", working.join("nowhere.ron")).unwrap();
@@ -307,9 +415,22 @@ mod tests {
         symlink(own.join("scene.ron"), working.join("linked.ron")).unwrap();
         fs::write(own.join("scene.ron"), SCENE).unwrap();
         fs::write(working.join("\u{1b}[2J.ron"), SCENE).unwrap();
-        let names =
-            ["scene", "\\u{1b}[2J.ron", "linked.ron", "loop.ron", "nowhere.ron", "pipe.ron", "zero.ron"];
-        assert_eq!(listed(Some(&own), &working).into_iter().map(|(name, _)| name).collect::<Vec<_>>(), names);
+        let names = [
+            "scene",
+            "\\u{1b}[2J.ron",
+            "linked.ron",
+            "loop.ron",
+            "nowhere.ron",
+            "pipe.ron",
+            "zero.ron",
+        ];
+        assert_eq!(
+            listed(Some(&own), &working)
+                .into_iter()
+                .map(|(name, _)| name)
+                .collect::<Vec<_>>(),
+            names
+        );
         for (name, said) in [
             ("pipe.ron", "not a regular file"),
             ("zero.ron", "not a regular file"),
@@ -320,7 +441,15 @@ mod tests {
         }
         assert_eq!(own_scene(&own, "scene"), Some(own.join("scene.ron")));
         symlink(working.join("pipe.ron"), own.join("pipe.ron")).unwrap();
-        for name in ["pipe", "missing", "", ".", "..", "../presets/scene", "/scene"] {
+        for name in [
+            "pipe",
+            "missing",
+            "",
+            ".",
+            "..",
+            "../presets/scene",
+            "/scene",
+        ] {
             assert_eq!(own_scene(&own, name), None, "{name}");
         }
     }

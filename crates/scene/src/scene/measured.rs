@@ -140,14 +140,23 @@ fn is_default_seed(seed: &u64) -> bool {
 /// Returns the usual name of a typed unit; empty for an empty text.
 #[cfg(feature = "clap")]
 fn unit_name(text: &str) -> Result<String, asperity_surface::SurfaceError> {
-    if text.is_empty() { Ok(String::new()) } else { text.parse().map(|unit: Unit| unit.name().to_owned()) }
+    if text.is_empty() {
+        Ok(String::new())
+    } else {
+        text.parse().map(|unit: Unit| unit.name().to_owned())
+    }
 }
 
 impl Measured {
     /// Returns the names of the files of each face: the rough face, then the opposite one, if it is given.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
-        let face = std::iter::once(&self.file).chain(&self.further_files).map(String::as_str).collect();
-        std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
+        let face = std::iter::once(&self.file)
+            .chain(&self.further_files)
+            .map(String::as_str)
+            .collect();
+        std::iter::once(face)
+            .chain(self.opposite.iter().map(|file| vec![file.as_str()]))
+            .collect()
     }
 
     /// Returns the options for reading and analysing the files of this surface. The values of this surface must be valid.
@@ -170,7 +179,9 @@ impl Measured {
             spectrum: AnalysisOptions {
                 detrend: self.detrend,
                 periodic: self.periodic,
-                end: self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength)),
+                end: self
+                    .continue_to
+                    .map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength)),
                 tip_radius: None,
             },
         }

@@ -84,13 +84,20 @@ pub struct Material {
 impl Material {
     /// Returns a material with this effective modulus E* in Pa.
     pub fn effective(effective_modulus: f64) -> Self {
-        Material { effective_modulus: Some(effective_modulus), ..Material::default() }
+        Material {
+            effective_modulus: Some(effective_modulus),
+            ..Material::default()
+        }
     }
 
     /// Returns an isotropic material under a rigid body: Young's modulus E in Pa and Poisson's ratio ν give E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
         let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
-        Material { youngs_modulus, poisson_ratio, effective_modulus: None }
+        Material {
+            youngs_modulus,
+            poisson_ratio,
+            effective_modulus: None,
+        }
     }
 
     /// Returns the effective modulus E* in Pa: the given one, otherwise E/(1 − ν²) (eq. (2) of Popov and Filippov (2012)).
@@ -106,7 +113,8 @@ impl Material {
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
         let [modulus, ratio] =
             [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
-        self.effective_modulus.map_or_else(|| Modulus::isotropic(modulus, ratio), Modulus::effective)
+        self.effective_modulus
+            .map_or_else(|| Modulus::isotropic(modulus, ratio), Modulus::effective)
     }
 }
 
@@ -180,24 +188,42 @@ impl Scene {
     /// Returns the indices of the springs under the body: all springs, unless the body is a punch narrower than the profile.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
-        self.form.as_ref().map_or(0..points, |form| form.springs_under(self.length, points))
+        self.form
+            .as_ref()
+            .map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
     /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness.
     pub fn spectrum(&self) -> Option<SelfAffine> {
-        let Some(Roughness::SelfAffine { hurst, modes, wavelengths, roll_off, .. }) = self.roughness else {
+        let Some(Roughness::SelfAffine {
+            hurst,
+            modes,
+            wavelengths,
+            roll_off,
+            ..
+        }) = self.roughness
+        else {
             return None;
         };
         let mode = |wavelength: f64| (self.length / wavelength).round() as u64;
         let (first, last) =
             modes.or(wavelengths.map(|(longest, shortest)| (mode(longest), mode(shortest))))?;
         let roll_off_mode = roll_off.map_or(0.0, |wavelength| self.length / wavelength);
-        Some(SelfAffine { hurst, first, last, roll_off_mode })
+        Some(SelfAffine {
+            hurst,
+            first,
+            last,
+            roll_off_mode,
+        })
     }
 
     /// Returns the measured surface, if the scene has one.
     pub fn measured(&self) -> Option<&Measured> {
-        if let Some(Roughness::Measured(measured)) = &self.roughness { Some(measured) } else { None }
+        if let Some(Roughness::Measured(measured)) = &self.roughness {
+            Some(measured)
+        } else {
+            None
+        }
     }
 
     /// Returns true if the heights of the file are used unchanged, as an equivalent line.
@@ -207,12 +233,15 @@ impl Scene {
 
     /// Returns the options for reading and analysing the measured surface.
     pub fn measured_options(&self) -> MeasuredOptions {
-        self.measured().map_or_else(MeasuredOptions::default, Measured::options)
+        self.measured()
+            .map_or_else(MeasuredOptions::default, Measured::options)
     }
 
     /// Returns the names, relative to the scene file, of the measured files and of the table of the form.
     pub fn measured_files(&self) -> Vec<&str> {
-        let mut files = self.measured().map_or_else(Vec::new, |measured| measured.faces().concat());
+        let mut files = self
+            .measured()
+            .map_or_else(Vec::new, |measured| measured.faces().concat());
         if let Some(Form::Table { file, .. }) = &self.form {
             files.push(file);
         }
@@ -223,7 +252,10 @@ impl Scene {
     /// body, if it is given.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
-        faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
+        faces
+            .into_iter()
+            .map(|face| face.into_iter().map(|file| folder.join(file)).collect())
+            .collect()
     }
 
     /// Replaces, in this scene only, each name of a measured file or of the table of the form by the name that `rename`
@@ -232,7 +264,12 @@ impl Scene {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
         }
-        if let Some(Roughness::Measured(Measured { file, further_files, opposite, .. })) = &mut self.roughness
+        if let Some(Roughness::Measured(Measured {
+            file,
+            further_files,
+            opposite,
+            ..
+        })) = &mut self.roughness
         {
             for name in std::iter::once(file).chain(further_files).chain(opposite) {
                 *name = rename(name);
@@ -244,14 +281,17 @@ impl Scene {
     pub fn seed(&self) -> Option<u64> {
         match self.roughness.as_ref()? {
             Roughness::Measured(Measured { as_line: true, .. }) => None,
-            Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. }) => Some(*seed),
+            Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. }) => {
+                Some(*seed)
+            }
         }
     }
 
     /// Sets the seed of the random phases. A scene without a seed stays unchanged.
     pub fn set_seed(&mut self, wanted: u64) {
-        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
-            &mut self.roughness
+        if let Some(
+            Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. }),
+        ) = &mut self.roughness
         {
             *seed = wanted;
         }
@@ -291,13 +331,30 @@ struct NumericsText {
 impl Default for NumericsText {
     fn default() -> Self {
         let [points, samples] = ["numerics.points", "numerics.samples"].map(default_of);
-        NumericsText { points, solver: default_of("numerics.solver"), edges: None, samples }
+        NumericsText {
+            points,
+            solver: default_of("numerics.solver"),
+            edges: None,
+            samples,
+        }
     }
 }
 
 impl From<NumericsText> for Numerics {
-    fn from(NumericsText { points, solver, edges, samples }: NumericsText) -> Self {
-        Numerics { points, solver, edges: edges.unwrap_or(solver.usual_edges()), samples }
+    fn from(
+        NumericsText {
+            points,
+            solver,
+            edges,
+            samples,
+        }: NumericsText,
+    ) -> Self {
+        Numerics {
+            points,
+            solver,
+            edges: edges.unwrap_or(solver.usual_edges()),
+            samples,
+        }
     }
 }
 

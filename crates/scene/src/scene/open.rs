@@ -39,21 +39,41 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     }
     let names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
     let own_names = own.as_deref().map_or_else(Vec::new, own_names);
-    if let Some(own) = own.as_ref().filter(|_| own_names.iter().any(|name| name == name_or_path)) {
+    if let Some(own) = own
+        .as_ref()
+        .filter(|_| own_names.iter().any(|name| name == name_or_path))
+    {
         // No regular file: the reason says so.
         let path = own.join(format!("{name_or_path}.ron"));
         return document_of(text_of_file(&path), &path.display().to_string());
     }
-    let near = did_you_mean(name_or_path, names.iter().copied().chain(own_names.iter().map(String::as_str)));
-    let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
+    let near = did_you_mean(
+        name_or_path,
+        names
+            .iter()
+            .copied()
+            .chain(own_names.iter().map(String::as_str)),
+    );
+    let no_file = if path.is_dir() {
+        "it is a directory"
+    } else {
+        "there is no such file"
+    };
     let nowhere = match own {
         Some(folder) => {
             let folder = folder.display().to_string();
-            format!(", no such built-in scene and none of this name in {}", printable(&folder))
+            format!(
+                ", no such built-in scene and none of this name in {}",
+                printable(&folder)
+            )
         }
         None => " and no such built-in scene".into(),
     };
-    let message = format!("{no_file}{nowhere}{} (built-in scenes: {})", printable(&near), names.join(", "));
+    let message = format!(
+        "{no_file}{nowhere}{} (built-in scenes: {})",
+        printable(&near),
+        names.join(", ")
+    );
     Err(whole(name_or_path, message))
 }
 
@@ -79,8 +99,8 @@ pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
     let path = Path::new(argument);
     match path.metadata() {
         Ok(found) if !found.is_file() && !found.is_dir() => {
-            let file =
-                File::open(path).map_err(|error| whole(argument, format!("cannot be read: {error}")))?;
+            let file = File::open(path)
+                .map_err(|error| whole(argument, format!("cannot be read: {error}")))?;
             document_of(text_of_stream(file), argument)
         }
         _ => open(argument),
@@ -88,7 +108,14 @@ pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {
-    SceneError::whole(Origin::File { name: name.into(), place: None }, message).into()
+    SceneError::whole(
+        Origin::File {
+            name: name.into(),
+            place: None,
+        },
+        message,
+    )
+    .into()
 }
 
 /// Text with which a table of results begins, and text between its head and its scene.
@@ -103,8 +130,7 @@ fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, 
     match text.split_once(TABLE.1) {
         Some((head, scene)) => Ok(Document::parse(scene, name)?.of_table(head)),
         None => {
-            let reason =
-                "a table without a scene; allowed: a scene, or a table that asperity has computed from one";
+            let reason = "a table without a scene; allowed: a scene, or a table that asperity has computed from one";
             Err(whole(name, reason.into()))
         }
     }
@@ -113,7 +139,9 @@ fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, 
 fn text_of_file(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let mut start = Vec::new();
-    file.by_ref().take(npy::SIGNATURE.len() as u64).read_to_end(&mut start)?;
+    file.by_ref()
+        .take(npy::SIGNATURE.len() as u64)
+        .read_to_end(&mut start)?;
     if start == npy::SIGNATURE {
         Err(ReadError::Array)
     } else {
@@ -123,7 +151,10 @@ fn text_of_file(path: &Path) -> Result<String, ReadError> {
 
 fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
     let mut start = Vec::new();
-    stream.by_ref().take(PROVENANCE.len() as u64).read_to_end(&mut start)?;
+    stream
+        .by_ref()
+        .take(PROVENANCE.len() as u64)
+        .read_to_end(&mut start)?;
     let is_table = start == PROVENANCE.as_bytes();
     let whole = Cursor::new(start).chain(stream);
     if !is_table {
@@ -133,7 +164,9 @@ fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
     let mut lines = BufReader::new(whole.take(3 * LONGEST_TEXT as u64));
     let (mut text, mut line) = (Vec::new(), Vec::new());
     while lines.read_until(b'\n', &mut line)? > 0 {
-        let Some(content) = line.strip_prefix(b"#") else { break };
+        let Some(content) = line.strip_prefix(b"#") else {
+            break;
+        };
         text.extend_from_slice(content.strip_prefix(b" ").unwrap_or(content));
         line.clear();
     }
@@ -153,7 +186,9 @@ mod tests {
         fs::write(path("good"), presets()[0].text).unwrap();
         assert_eq!(open(&path("good")).unwrap().text(), presets()[0].text);
         fs::write(path("bad.ron"), "(\n  version: 1,\n  lenght: 1,\n)").unwrap();
-        assert!(message("bad.ron").contains("bad.ron:3:3: lenght: no such field; did you mean length?"));
+        assert!(
+            message("bad.ron").contains("bad.ron:3:3: lenght: no such field; did you mean length?")
+        );
         fs::write(path("binary.ron"), [b'(', 0xff]).unwrap();
         assert!(message("binary.ron").ends_with("this is not UTF-8 text: byte 1 is not"));
         fs::write(path("long.ron"), " ".repeat(LONGEST_TEXT + 1)).unwrap();

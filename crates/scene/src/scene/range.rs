@@ -74,7 +74,9 @@ impl Range {
     /// excluded from the range.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
-            Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => Some((min, max)),
+            Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => {
+                Some((min, max))
+            }
             Range::Whole(min, max) | Range::Band(min, max) => Some((min as f64, max as f64)),
             Range::Wavelengths(min, max) => Some((min, max)),
             _ => None,
@@ -84,13 +86,18 @@ impl Range {
 
 /// Returns the name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`. A choice without a name is returned whole.
 pub(super) fn choice_name(choice: &str) -> &str {
-    choice.split_once('(').map_or(choice, |(name, _)| if name.is_empty() { choice } else { name })
+    choice.split_once('(').map_or(
+        choice,
+        |(name, _)| if name.is_empty() { choice } else { name },
+    )
 }
 
 /// Returns the part that identifies a choice: its name, or the first field of a group without a name.
 pub(super) fn choice_key(choice: &str) -> &str {
     let key = choice_name(choice.trim());
-    key.split_once(':').filter(|_| key.starts_with('(')).map_or(key, |(key, _)| key)
+    key.split_once(':')
+        .filter(|_| key.starts_with('('))
+        .map_or(key, |(key, _)| key)
 }
 
 impl fmt::Display for Range {
@@ -107,7 +114,10 @@ impl fmt::Display for Range {
             Range::Whole(min, max) if min == max => write!(f, "{min}"),
             Range::Whole(min, max) => write!(f, "a whole number from {min} to {max}"),
             Range::Band(min, max) => {
-                write!(f, "a pair (first, last) of whole numbers from {min} to {max}, first ≤ last")
+                write!(
+                    f,
+                    "a pair (first, last) of whole numbers from {min} to {max}, first ≤ last"
+                )
             }
             Range::Wavelengths(min, max) => {
                 write!(
@@ -123,7 +133,12 @@ impl fmt::Display for Range {
             }
             Range::Choice(choices) => f.write_str(&listed(choices, "or")),
             Range::List { of, least, most } => {
-                write!(f, "a list of {}, of {}", counts(least, most), listed(of, "and"))
+                write!(
+                    f,
+                    "a list of {}, of {}",
+                    counts(least, most),
+                    listed(of, "and")
+                )
             }
             Range::Group => f.write_str("a group of fields"),
         }
@@ -131,7 +146,11 @@ impl fmt::Display for Range {
 }
 
 fn counts(least: usize, most: usize) -> String {
-    if least == 0 { format!("at most {most}") } else { format!("{least} to {most}") }
+    if least == 0 {
+        format!("at most {most}")
+    } else {
+        format!("{least} to {most}")
+    }
 }
 
 /// Returns the names of choices as a list in words: `Cone, Punch or None`.
@@ -167,12 +186,18 @@ mod tests {
             (Range::between(0.0, 1.0), false, false),
             (Range::above(0.0, 1.0), false, true),
         ] {
-            assert_eq!((range.contains(0.0), range.contains(1.0)), (at_zero, at_one), "{range}");
+            assert_eq!(
+                (range.contains(0.0), range.contains(1.0)),
+                (at_zero, at_one),
+                "{range}"
+            );
         }
         let everything = Range::closed(f64::NEG_INFINITY, f64::INFINITY);
         assert!(everything.contains(1.0));
         assert!(
-            ![f64::NAN, f64::INFINITY, f64::NEG_INFINITY].iter().any(|value| everything.contains(*value))
+            ![f64::NAN, f64::INFINITY, f64::NEG_INFINITY]
+                .iter()
+                .any(|value| everything.contains(*value))
         );
     }
 }

@@ -35,7 +35,10 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     }
     let text = Text::new(source).ok()?;
     let (field, value) = (field("version", None)?, text.written("version")?);
-    if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
+    if value
+        .parse()
+        .is_ok_and(|version| field.range.contains_whole(version))
+    {
         return None;
     }
     let error = SceneError::of(field.path, value, field.allowed(), field.name);
@@ -52,13 +55,23 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     }
     // The span starts before the last token read; if that was only blank or punctuation, the error comes after it.
     let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
-    (if text[start..end].contains(something) { start } else { end }, end)
+    (
+        if text[start..end].contains(something) {
+            start
+        } else {
+            end
+        },
+        end,
+    )
 }
 
 /// Returns the byte offset of an error that [`read_ron`] has found in the text of a scene, and the error in plain words.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
-    let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
+    let is_lost = matches!(
+        error.code,
+        Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment
+    );
     let (offset, message) = match Text::new(source) {
         Ok(text) => return explain_at(&text, offset, &error.code),
         // If the reader reached the end of the text, the open bracket is the better place.
@@ -74,16 +87,33 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
     let path = text.path_at(offset);
     let error = match error {
         Error::MissingStructField { field: name, .. } => {
-            let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
-            let allowed = field_at(text, &path).map(|field| format!("; allowed: {}", field.allowed()));
-            SceneError::of(&path, "", "", &format!("missing{}", allowed.unwrap_or_default()))
+            let path = if path.is_empty() {
+                name.to_string()
+            } else {
+                format!("{path}.{name}")
+            };
+            let allowed =
+                field_at(text, &path).map(|field| format!("; allowed: {}", field.allowed()));
+            SceneError::of(
+                &path,
+                "",
+                "",
+                &format!("missing{}", allowed.unwrap_or_default()),
+            )
         }
-        Error::NoSuchEnumVariant { expected, found, .. } => {
+        Error::NoSuchEnumVariant {
+            expected, found, ..
+        } => {
             let near = nearest(found, expected.iter().copied());
             let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
             SceneError::of(path, found, expected.join(", "), &message)
         }
-        Error::Message(reason) => return (text.nearest_value(path), SceneError::of(path, "", "", reason)),
+        Error::Message(reason) => {
+            return (
+                text.nearest_value(path),
+                SceneError::of(path, "", "", reason),
+            );
+        }
         Error::NoSuchStructField { .. } | Error::DuplicateStructField { .. } => {
             SceneError::of(path, "", "", &plain(error))
         }
@@ -94,9 +124,9 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
 
 /// Explains the error of a value. A single value is marked as a whole and repeated, with the allowed values.
 fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
-    let value = text
-        .written(path)
-        .filter(|value| !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{']));
+    let value = text.written(path).filter(|value| {
+        !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])
+    });
     let (offset, value) = value.map_or((offset, ""), |value| (text.nearest_value(path), value));
     let error = match field_at(text, path).filter(|_| !value.is_empty()) {
         // Without quotes the content of a text is not the error.
@@ -110,7 +140,8 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
 
 /// Returns true if a field of the plan of a study was found where fields of a scene were expected.
 fn is_of_plan(found: &str, expected: &[&str]) -> bool {
-    ["scene", "axes", "preloads", "profiles", "record"].contains(&found) && expected.contains(&"material")
+    ["scene", "axes", "preloads", "profiles", "record"].contains(&found)
+        && expected.contains(&"material")
 }
 
 /// Returns the message of the reader in plain words.
@@ -118,19 +149,28 @@ fn plain(error: &Error) -> String {
     let text = match error {
         Error::Eof => "the text ends too early",
         Error::ExpectedFloat => "a number is expected here",
-        Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => "a whole number is expected here",
+        Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => {
+            "a whole number is expected here"
+        }
         Error::IntegerOutOfBounds => "this whole number is too large or negative",
         Error::ExpectedString => "text in quotes is expected here",
         Error::ExpectedComma => "a comma is expected here",
         Error::ExpectedArray => "a list in [ ] is expected here",
-        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => "an opening ( is expected here",
+        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => {
+            "an opening ( is expected here"
+        }
         Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => "a closing ) is expected here",
         Error::ExpectedDifferentStructName { .. } => "a group of fields in ( ) is expected here",
         Error::DuplicateStructField { .. } => "given twice",
-        Error::NoSuchStructField { expected, found, .. } if is_of_plan(found, expected) => {
-            return "a scene has no such field; asperity sweep PLAN computes the plan of a study".to_owned();
+        Error::NoSuchStructField {
+            expected, found, ..
+        } if is_of_plan(found, expected) => {
+            return "a scene has no such field; asperity sweep PLAN computes the plan of a study"
+                .to_owned();
         }
-        Error::NoSuchStructField { expected, found, .. } => {
+        Error::NoSuchStructField {
+            expected, found, ..
+        } => {
             let near = did_you_mean(found, expected.iter().copied());
             return format!("no such field{near} (fields here: {})", expected.join(", "));
         }
@@ -139,8 +179,13 @@ fn plain(error: &Error) -> String {
         Error::TrailingCharacters => "nothing may follow here",
         other => {
             let text = other.to_string();
-            let first = text.chars().next().map(|first| first.to_lowercase().to_string());
-            return first.map_or_else(String::new, |first| first + text.get(1..).unwrap_or_default());
+            let first = text
+                .chars()
+                .next()
+                .map(|first| first.to_lowercase().to_string());
+            return first.map_or_else(String::new, |first| {
+                first + text.get(1..).unwrap_or_default()
+            });
         }
     };
     text.to_string()
@@ -153,8 +198,19 @@ mod tests {
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
         let errors = read(text, |offset| origin_at(text, "", offset)).unwrap_err();
-        let SceneError { origin, field, value, allowed, message } = errors.first().clone();
-        let Origin::File { place: Some(place), .. } = origin else { panic!("{origin:?}") };
+        let SceneError {
+            origin,
+            field,
+            value,
+            allowed,
+            message,
+        } = errors.first().clone();
+        let Origin::File {
+            place: Some(place), ..
+        } = origin
+        else {
+            panic!("{origin:?}")
+        };
         (place, field, value, allowed, message)
     }
 
@@ -195,7 +251,10 @@ mod tests {
                 (place, field, value),
                 "{row}: {allowed} {message}"
             );
-            assert!(format!("{allowed} {message}").contains(said), "{row}: {allowed} {message}");
+            assert!(
+                format!("{allowed} {message}").contains(said),
+                "{row}: {allowed} {message}"
+            );
         }
         for (text, place, field, said) in [
             ("(version: 1)", (1, 12), "material", "missing"),
@@ -204,7 +263,10 @@ mod tests {
             ("", (1, 1), "", ""),
         ] {
             let (at, path, _, _, message) = unread(text);
-            assert!((at, path.as_str()) == (place, field) && message.contains(said), "{text}: {message}");
+            assert!(
+                (at, path.as_str()) == (place, field) && message.contains(said),
+                "{text}: {message}"
+            );
         }
     }
 }

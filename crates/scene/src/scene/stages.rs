@@ -24,7 +24,12 @@ pub struct StageKind {
 impl StageKind {
     /// All kinds of loading stages, in the order in which a key of the explorer goes through them.
     pub const ALL: [StageKind; 6] = [
-        StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
+        StageKind {
+            example: "ToForce(1.0e-5)",
+            word: "force",
+            unit: "N",
+            stage: Move::ToForce,
+        },
         StageKind {
             example: "ToIndentation(1.0e-7)",
             word: "indentation",
@@ -37,9 +42,24 @@ impl StageKind {
             unit: "m",
             stage: Move::ToDisplacement,
         },
-        StageKind { example: "ToTouch", word: "touch", unit: "", stage: |_| Move::ToTouch },
-        StageKind { example: "ToZeroForce", word: "zero force", unit: "", stage: |_| Move::ToZeroForce },
-        StageKind { example: "ToSeparation", word: "separation", unit: "", stage: |_| Move::ToSeparation },
+        StageKind {
+            example: "ToTouch",
+            word: "touch",
+            unit: "",
+            stage: |_| Move::ToTouch,
+        },
+        StageKind {
+            example: "ToZeroForce",
+            word: "zero force",
+            unit: "",
+            stage: |_| Move::ToZeroForce,
+        },
+        StageKind {
+            example: "ToSeparation",
+            word: "separation",
+            unit: "",
+            stage: |_| Move::ToSeparation,
+        },
     ];
 
     /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the number that ends the stage, if it has one.
@@ -51,7 +71,10 @@ impl StageKind {
             }
             Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
         };
-        (StageKind::ALL.iter().position(is_same).unwrap_or_default(), number)
+        (
+            StageKind::ALL.iter().position(is_same).unwrap_or_default(),
+            number,
+        )
     }
 }
 
@@ -67,7 +90,13 @@ pub(super) const STAGES: [&str; StageKind::ALL.len()] = {
 
 /// Returns the largest target force of the loading stages in N; 0 if no stage has a positive target force.
 pub fn pressing_force(loading: &[Move]) -> f64 {
-    let force = |stage: &Move| if let Move::ToForce(force) = *stage { force } else { 0.0 };
+    let force = |stage: &Move| {
+        if let Move::ToForce(force) = *stage {
+            force
+        } else {
+            0.0
+        }
+    };
     loading.iter().map(force).fold(0.0, f64::max)
 }
 
@@ -75,7 +104,10 @@ pub fn pressing_force(loading: &[Move]) -> f64 {
 pub fn stage_in_ron(stage: &Move) -> String {
     let (kind, number) = StageKind::of(stage);
     let name = choice_name(STAGES[kind]);
-    number.map_or_else(|| name.to_owned(), |number| format!("{name}({})", ron_float(number)))
+    number.map_or_else(
+        || name.to_owned(),
+        |number| format!("{name}({})", ron_float(number)),
+    )
 }
 
 /// Returns a loading stage as text, with its number in this format: `10 µN`, `touch`.
@@ -105,10 +137,16 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
     let (mut items, mut rest) = (Vec::new(), loading);
     while let Some(&first) = rest.first() {
         let pairs = rest[1..].chunks_exact(2);
-        let loops = pairs.take_while(|pair| pair[0] == rest[1] && pair[1] == first).count();
+        let loops = pairs
+            .take_while(|pair| pair[0] == rest[1] && pair[1] == first)
+            .count();
         let (item, stages) = match loops {
             2.. => (
-                format!("{loops} loops {} to {}", stage_text(&rest[1], format), stage_text(&first, format)),
+                format!(
+                    "{loops} loops {} to {}",
+                    stage_text(&rest[1], format),
+                    stage_text(&first, format)
+                ),
                 loops,
             ),
             _ => (stage_text(&first, format), 0),
@@ -124,13 +162,21 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
 /// # Errors
 /// Returns an error if a part of the text is no stage, or if there are more than 100 000 stages.
 pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
-    let list = text.trim().strip_prefix('[').and_then(|list| list.strip_suffix(']')).unwrap_or(text);
+    let list = text
+        .trim()
+        .strip_prefix('[')
+        .and_then(|list| list.strip_suffix(']'))
+        .unwrap_or(text);
     let mut loading = Vec::new();
     for item in list.split(',').map(str::trim) {
-        let loops =
-            item.split_once(" loops ").and_then(|(count, ends)| Some((count, ends.split_once(" to ")?)));
+        let loops = item
+            .split_once(" loops ")
+            .and_then(|(count, ends)| Some((count, ends.split_once(" to ")?)));
         if let Some((count, (low, high))) = loops {
-            let count = count.parse().ok().filter(|count| (1..=MOST_STAGES / 2).contains(count));
+            let count = count
+                .parse()
+                .ok()
+                .filter(|count| (1..=MOST_STAGES / 2).contains(count));
             let count = count.ok_or_else(|| refused(item))?;
             let [low, high] = [read_stage(low, None)?, read_stage(high, None)?];
             loading.push(high);
@@ -139,7 +185,9 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
             loading.push(read_stage(item, None)?);
         }
         if loading.len() > MOST_STAGES {
-            return Err(QuantityError(format!("too many stages; allowed: at most {MOST_STAGES}")));
+            return Err(QuantityError(format!(
+                "too many stages; allowed: at most {MOST_STAGES}"
+            )));
         }
     }
     Ok(loading)
@@ -162,26 +210,43 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityError> {
     let plain = text.replace(['(', ')'], " ");
     let plain = plain.trim();
-    for StageKind { example, word, unit, stage } in &StageKind::ALL {
-        let rest = [choice_name(example), word].into_iter().find_map(|name| plain.strip_prefix(name));
+    for StageKind {
+        example,
+        word,
+        unit,
+        stage,
+    } in &StageKind::ALL
+    {
+        let rest = [choice_name(example), word]
+            .into_iter()
+            .find_map(|name| plain.strip_prefix(name));
         match rest {
             Some("") if unit.is_empty() => return Ok(stage(0.0)),
             Some(number) if !unit.is_empty() => return parse_quantity(number, unit).map(stage),
             _ => {}
         }
     }
-    let of_unit = StageKind::ALL.iter().filter(|kind| plain.ends_with(kind.unit));
-    let kinds =
-        usual.map(|kind| &StageKind::ALL[kind]).into_iter().chain(of_unit).chain(&StageKind::ALL[..1]);
+    let of_unit = StageKind::ALL
+        .iter()
+        .filter(|kind| plain.ends_with(kind.unit));
+    let kinds = usual
+        .map(|kind| &StageKind::ALL[kind])
+        .into_iter()
+        .chain(of_unit)
+        .chain(&StageKind::ALL[..1]);
     let mut kinds = kinds.filter(|kind| !kind.unit.is_empty());
     let found = kinds.find_map(|kind| parse_quantity(plain, kind.unit).ok().map(kind.stage));
     found.ok_or_else(|| refused(text))
 }
 
 fn refused(text: &str) -> QuantityError {
-    let examples = "10 µN, 200 nm, displacement 200 nm, touch, zero force, separation, 3 loops 5 µN to 10 µN";
+    let examples =
+        "10 µN, 200 nm, displacement 200 nm, touch, zero force, separation, 3 loops 5 µN to 10 µN";
     let most = MOST_STAGES / 2;
-    QuantityError(format!("{:?} is not a stage, such as {examples} (at most {most} loops)", shown(text)))
+    QuantityError(format!(
+        "{:?} is not a stage, such as {examples} (at most {most} loops)",
+        shown(text)
+    ))
 }
 
 #[cfg(test)]
@@ -196,10 +261,11 @@ mod tests {
     fn stages() -> impl Strategy<Value = Vec<Move>> {
         let number = prop_oneof![
             prop::sample::select(vec![1e-5, 5e-6, 0.0, -2e-6]),
-            (-30.0..30.0_f64, -1.0..1.0_f64).prop_map(|(power, digits)| digits * 10.0_f64.powf(power)),
+            (-30.0..30.0_f64, -1.0..1.0_f64)
+                .prop_map(|(power, digits)| digits * 10.0_f64.powf(power)),
         ];
-        let stage =
-            (0..StageKind::ALL.len(), number).prop_map(|(kind, number)| (StageKind::ALL[kind].stage)(number));
+        let stage = (0..StageKind::ALL.len(), number)
+            .prop_map(|(kind, number)| (StageKind::ALL[kind].stage)(number));
         prop_oneof![
             4 => stage.clone().prop_map(|stage| vec![stage]),
             1 => (1..4_usize, stage.clone(), stage)
@@ -224,11 +290,22 @@ mod tests {
         for (text, loading) in [
             (
                 "10 µN, 0 N, -5 nm, separation",
-                vec![ToForce(1e-5), ToForce(0.0), ToIndentation(-5e-9), ToSeparation],
+                vec![
+                    ToForce(1e-5),
+                    ToForce(0.0),
+                    ToIndentation(-5e-9),
+                    ToSeparation,
+                ],
             ),
             (
                 "2 loops 0 N to 10 µN",
-                vec![ToForce(1e-5), ToForce(0.0), ToForce(1e-5), ToForce(0.0), ToForce(1e-5)],
+                vec![
+                    ToForce(1e-5),
+                    ToForce(0.0),
+                    ToForce(1e-5),
+                    ToForce(0.0),
+                    ToForce(1e-5),
+                ],
             ),
             ("zero force, touch", vec![ToZeroForce, ToTouch]),
         ] {
@@ -254,12 +331,24 @@ mod tests {
     #[test]
     fn text_that_is_no_loading_is_refused_with_what_is() {
         for (text, why) in [
-            ("", "\"\" is not a stage, such as 10 µN, 200 nm, displacement 200 nm, touch"),
+            (
+                "",
+                "\"\" is not a stage, such as 10 µN, 200 nm, displacement 200 nm, touch",
+            ),
             ("10 µN, separaton", "\"separaton\" is not a stage"),
             ("10 kg", "\"10 kg\" is not a stage"),
-            ("[ToForce(10 kg)]", "kg is not a unit of force: use N, mN, µN, nN"),
-            ("0 loops 0 N to 1 N", "3 loops 5 µN to 10 µN (at most 50000 loops)"),
-            ("50000 loops touch to 1 N", "too many stages; allowed: at most 100000"),
+            (
+                "[ToForce(10 kg)]",
+                "kg is not a unit of force: use N, mN, µN, nN",
+            ),
+            (
+                "0 loops 0 N to 1 N",
+                "3 loops 5 µN to 10 µN (at most 50000 loops)",
+            ),
+            (
+                "50000 loops touch to 1 N",
+                "too many stages; allowed: at most 100000",
+            ),
         ] {
             let refused = read_loading(text).unwrap_err().to_string();
             assert!(refused.contains(why), "{text}: {refused}");

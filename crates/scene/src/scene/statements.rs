@@ -14,7 +14,9 @@ const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numer
 
 /// Returns true if the solution does not depend on the value at a path.
 pub(super) fn describes(path: &str) -> bool {
-    DESCRIPTIONS.iter().any(|description| is_within(path, description))
+    DESCRIPTIONS
+        .iter()
+        .any(|description| is_within(path, description))
 }
 
 /// A field of a scene and its value as text.
@@ -46,20 +48,31 @@ pub fn statements(scene: &Scene) -> Vec<Statement> {
 
 fn add(scene: &Scene, tree: &Tree, field: &'static Field, found: &mut Vec<Statement>) {
     let (inside, written) = (tree.inside(field), tree.written(field).unwrap_or_default());
-    let is_number =
-        matches!(field.range, Range::Real(..) | Range::Whole(..) | Range::Band(..) | Range::Wavelengths(..));
+    let is_number = matches!(
+        field.range,
+        Range::Real(..) | Range::Whole(..) | Range::Band(..) | Range::Wavelengths(..)
+    );
     if !inside.is_empty() {
-        return inside.into_iter().for_each(|field| add(scene, tree, field, found));
+        return inside
+            .into_iter()
+            .for_each(|field| add(scene, tree, field, found));
     }
     let is_omitted = tree.value(field).is_none() || written == "None";
-    if is_omitted || DESCRIPTIONS.contains(&field.path) || !is_number && written == tree.default(field) {
+    if is_omitted
+        || DESCRIPTIONS.contains(&field.path)
+        || !is_number && written == tree.default(field)
+    {
         return;
     }
     let value = match field.range {
         Range::Band(..) => written.trim_matches(['(', ')']).replace(", ", " to "),
         Range::Whole(..) if !field.symbol.is_empty() => written.parse().map_or(written, grouped),
-        Range::List { .. } if field.path == "loading" => loading_text(&scene.loading, exact_quantity),
-        _ => field.quantities(&written, exact_quantity).unwrap_or(written),
+        Range::List { .. } if field.path == "loading" => {
+            loading_text(&scene.loading, exact_quantity)
+        }
+        _ => field
+            .quantities(&written, exact_quantity)
+            .unwrap_or(written),
     };
     found.push(Statement { field, value });
 }

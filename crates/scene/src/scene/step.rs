@@ -7,7 +7,8 @@ use super::text::ron_float;
 
 /// The Renard series R20 of ISO 3.
 const FINE_SERIES: &[f64] = &[
-    1.0, 1.12, 1.25, 1.4, 1.6, 1.8, 2.0, 2.24, 2.5, 2.8, 3.15, 3.55, 4.0, 4.5, 5.0, 5.6, 6.3, 7.1, 8.0, 9.0,
+    1.0, 1.12, 1.25, 1.4, 1.6, 1.8, 2.0, 2.24, 2.5, 2.8, 3.15, 3.55, 4.0, 4.5, 5.0, 5.6, 6.3, 7.1,
+    8.0, 9.0,
 ];
 const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
 
@@ -36,26 +37,40 @@ impl Field {
                 let size = if coarse { large } else { fine };
                 let distance = u64::from(steps.unsigned_abs()).saturating_mul(size);
                 let value: u64 = ron::from_str(value).ok()?;
-                let next =
-                    if steps < 0 { value.saturating_sub(distance) } else { value.saturating_add(distance) };
+                let next = if steps < 0 {
+                    value.saturating_sub(distance)
+                } else {
+                    value.saturating_add(distance)
+                };
                 self.kept_whole(next)
             }
             Step::Doubling => {
-                let times = if coarse { steps.saturating_mul(4) } else { steps };
+                let times = if coarse {
+                    steps.saturating_mul(4)
+                } else {
+                    steps
+                };
                 self.kept_whole(doubled(ron::from_str(value).ok()?, times))
             }
             Step::Band if matches!(self.range, Range::Wavelengths(..)) => None,
             Step::Band => {
                 let (first, last) = ron::from_str(value).ok()?;
-                let (first, last) =
-                    if coarse { (doubled(first, steps), last) } else { (first, doubled(last, steps)) };
-                (first <= last && self.range.contains_whole(first) && self.range.contains_whole(last))
-                    .then(|| format!("({first}, {last})"))
+                let (first, last) = if coarse {
+                    (doubled(first, steps), last)
+                } else {
+                    (first, doubled(last, steps))
+                };
+                (first <= last
+                    && self.range.contains_whole(first)
+                    && self.range.contains_whole(last))
+                .then(|| format!("({first}, {last})"))
             }
             Step::Choice => self.chosen(value, steps),
             Step::Typed => None,
         };
-        next.filter(|next| next != value && number(next).is_none_or(|next| number(value) != Some(next)))
+        next.filter(|next| {
+            next != value && number(next).is_none_or(|next| number(value) != Some(next))
+        })
     }
 
     /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has this length in m. After the step
@@ -75,7 +90,11 @@ impl Field {
         let (longest, shortest) = ron::from_str::<(f64, f64)>(value).ok()?;
         let present = if coarse { longest } else { shortest };
         let moved = self.whole_wave(length, present, steps, coarse)?;
-        let (longest, shortest) = if coarse { (moved, shortest) } else { (longest, moved) };
+        let (longest, shortest) = if coarse {
+            (moved, shortest)
+        } else {
+            (longest, moved)
+        };
         // Waves on the length, since a longest wavelength that is not whole may equal the shortest one.
         let is_ordered = (length / longest).round() <= (length / shortest).round();
         let (longest, shortest) = (longest.max(shortest), shortest.min(longest));
@@ -91,7 +110,11 @@ impl Field {
         }
         let wanted = (length / self.preferred(wavelength, steps, coarse)?).round();
         let present = (length / wavelength).round();
-        let waves = if steps > 0 { wanted.min(present - 1.0) } else { wanted.max(present + 1.0) };
+        let waves = if steps > 0 {
+            wanted.min(present - 1.0)
+        } else {
+            wanted.max(present + 1.0)
+        };
         (waves >= 1.0).then(|| length / waves)
     }
 
@@ -129,19 +152,29 @@ impl Field {
         // A text such as a file name cannot be stepped to; a choice that requires one is only typed.
         let is_stepped = |choice: &&str| {
             let mut fields = fields_inside(self.path, Some(choice_name(choice)));
-            !fields.any(|field| field.default.is_empty() && matches!(field.range, Range::Text { .. }))
+            !fields
+                .any(|field| field.default.is_empty() && matches!(field.range, Range::Text { .. }))
         };
         let none = (self.default == "None").then_some("None");
-        let choices: Vec<&str> = none.into_iter().chain(choices.iter().copied().filter(is_stepped)).collect();
-        let here = choices.iter().position(|choice| choice_key(choice) == choice_key(value));
+        let choices: Vec<&str> = none
+            .into_iter()
+            .chain(choices.iter().copied().filter(is_stepped))
+            .collect();
+        let here = choices
+            .iter()
+            .position(|choice| choice_key(choice) == choice_key(value));
         let count = i64::try_from(choices.len()).ok()?;
         let next = (i64::try_from(here.unwrap_or(0)).ok()? + i64::from(steps)).rem_euclid(count);
-        choices.get(usize::try_from(next).ok()?).map(|choice| (*choice).to_string())
+        choices
+            .get(usize::try_from(next).ok()?)
+            .map(|choice| (*choice).to_string())
     }
 }
 
 fn number(text: &str) -> Option<f64> {
-    ron::from_str(text).ok().filter(|value: &f64| value.is_finite())
+    ron::from_str(text)
+        .ok()
+        .filter(|value: &f64| value.is_finite())
 }
 
 /// Rounds a multiple of `unit` to its decimal digits: 0.71, not 0.7100000000000001.
@@ -153,7 +186,10 @@ fn decimal(value: f64, unit: f64) -> f64 {
 /// Returns the power of two `times` steps above or below a value.
 fn doubled(value: u64, times: i32) -> u64 {
     (0..times.unsigned_abs().min(64)).fold(value, |value, _| match value {
-        value if times > 0 => value.saturating_add(1).checked_next_power_of_two().unwrap_or(u64::MAX),
+        value if times > 0 => value
+            .saturating_add(1)
+            .checked_next_power_of_two()
+            .unwrap_or(u64::MAX),
         0 | 1 => value,
         value => 1 << (value - 1).ilog2(),
     })
@@ -170,10 +206,15 @@ fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
     let (mantissa, exponent) = (mantissa.parse::<f64>().ok()?, exponent.parse::<i32>().ok()?);
     let larger = up == (value > 0.0);
     let (mantissa, exponent) = if larger {
-        let next = series.iter().find(|member| **member > mantissa * (1.0 + SAME));
+        let next = series
+            .iter()
+            .find(|member| **member > mantissa * (1.0 + SAME));
         next.map_or((1.0, exponent + 1), |next| (*next, exponent))
     } else {
-        let next = series.iter().rev().find(|member| **member < mantissa * (1.0 - SAME));
+        let next = series
+            .iter()
+            .rev()
+            .find(|member| **member < mantissa * (1.0 - SAME));
         match next {
             Some(next) => (*next, exponent),
             None => (*series.last()?, exponent - 1),
@@ -217,9 +258,18 @@ mod tests {
             "numerics.solver|Exact|1|Stepwise(step: 1.0e-9)",
             "title|\"a\"|1|",
         ] {
-            let [path, value, steps, next] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
-            let (number, coarse) = (steps.trim_end_matches('c').parse().unwrap(), steps.ends_with('c'));
-            assert_eq!(stepped(path, value, number, coarse).unwrap_or_default(), next, "{row}");
+            let [path, value, steps, next] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
+            let (number, coarse) = (
+                steps.trim_end_matches('c').parse().unwrap(),
+                steps.ends_with('c'),
+            );
+            assert_eq!(
+                stepped(path, value, number, coarse).unwrap_or_default(),
+                next,
+                "{row}"
+            );
         }
     }
 
@@ -244,29 +294,48 @@ mod tests {
             let [length, value, steps, next] = row.split('|').collect::<Vec<_>>()[..] else {
                 panic!("{row}")
             };
-            let (number, coarse) = (steps.trim_end_matches('c').parse().unwrap(), steps.ends_with('c'));
+            let (number, coarse) = (
+                steps.trim_end_matches('c').parse().unwrap(),
+                steps.ends_with('c'),
+            );
             let length = 1e-6 * length.parse::<f64>().unwrap();
             let field = field("roughness.wavelengths", None).unwrap();
-            let stepped = field.stepped_on(length, value, number, coarse).unwrap_or_default();
+            let stepped = field
+                .stepped_on(length, value, number, coarse)
+                .unwrap_or_default();
             assert_eq!(stepped.is_empty(), next.is_empty(), "{row}: {stepped}");
             if next.is_empty() {
                 continue;
             }
-            let [found, expected] = [&*stepped, next].map(|pair| ron::from_str::<(f64, f64)>(pair).unwrap());
+            let [found, expected] =
+                [&*stepped, next].map(|pair| ron::from_str::<(f64, f64)>(pair).unwrap());
             let deviations = [found.0 / expected.0 - 1.0, found.1 / expected.1 - 1.0];
-            assert!(deviations.iter().all(|deviation| deviation.abs() < 1e-12), "{row}: {stepped}");
+            assert!(
+                deviations.iter().all(|deviation| deviation.abs() < 1e-12),
+                "{row}: {stepped}"
+            );
         }
-        assert_eq!(stepped("roughness.wavelengths", "(1.0e-4, 2.0e-7)", 1, false), None);
+        assert_eq!(
+            stepped("roughness.wavelengths", "(1.0e-4, 2.0e-7)", 1, false),
+            None
+        );
         // Every step is another contact, and steps in one direction end at one wave.
         let (mut value, mut counts) = ("(1.0e-4, 3.0e-7)".to_owned(), Vec::new());
-        while let Some(next) =
-            field("roughness.wavelengths", None).unwrap().stepped_on(1e-4, &value, 1, false)
+        while let Some(next) = field("roughness.wavelengths", None)
+            .unwrap()
+            .stepped_on(1e-4, &value, 1, false)
         {
             let shortest: f64 = ron::from_str::<(f64, f64)>(&next).unwrap().1;
             counts.push((1e-4 / shortest).round());
-            assert!((1e-4 / shortest - counts[counts.len() - 1]).abs() < 1e-6, "{next}");
+            assert!(
+                (1e-4 / shortest - counts[counts.len() - 1]).abs() < 1e-6,
+                "{next}"
+            );
             value = next;
         }
-        assert!(counts.windows(2).all(|pair| pair[1] < pair[0]) && counts.last() == Some(&1.0), "{counts:?}");
+        assert!(
+            counts.windows(2).all(|pair| pair[1] < pair[0]) && counts.last() == Some(&1.0),
+            "{counts:?}"
+        );
     }
 }

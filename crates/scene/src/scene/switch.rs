@@ -28,7 +28,10 @@ impl Document {
             Effect::Form => scene.form = None,
             Effect::Roughness => {
                 scene.roughness = None;
-                if scene.adhesion.is_some_and(|adhesion| adhesion.parameter().is_some()) {
+                if scene
+                    .adhesion
+                    .is_some_and(|adhesion| adhesion.parameter().is_some())
+                {
                     scene.adhesion = self.with_choice("adhesion", BY_WORK)?.scene().adhesion;
                 }
             }
@@ -38,7 +41,9 @@ impl Document {
         let overrides = overrides_to(self.scene(), &scene);
         let mut new = self.set_all(&overrides)?;
         let value = |document: &Document, path| document.value(path).unwrap_or_default().to_owned();
-        let values = overrides.iter().map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
+        let values = overrides
+            .iter()
+            .map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
         let removed = (effect, values.collect());
         new.removed.retain(|(other, _)| *other != effect);
         new.removed.push(removed);
@@ -53,11 +58,21 @@ impl Document {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
         }
-        let restored = self.removed.iter().find(|(off, _)| *off == effect).and_then(|(_, values)| {
-            let unchanged = values.iter().filter(|[path, _, present]| self.value(path) == Some(present));
-            let back: Vec<_> = unchanged.map(|[path, removed, _]| pair(path, removed.as_str())).collect();
-            self.set_all(&back).ok().filter(|new| effect.is_on(new.scene()))
-        });
+        let restored = self
+            .removed
+            .iter()
+            .find(|(off, _)| *off == effect)
+            .and_then(|(_, values)| {
+                let unchanged = values
+                    .iter()
+                    .filter(|[path, _, present]| self.value(path) == Some(present));
+                let back: Vec<_> = unchanged
+                    .map(|[path, removed, _]| pair(path, removed.as_str()))
+                    .collect();
+                self.set_all(&back)
+                    .ok()
+                    .filter(|new| effect.is_on(new.scene()))
+            });
         restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
     }
 
@@ -74,7 +89,10 @@ impl Document {
     /// # Errors
     /// Returns an error if a value is invalid.
     pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
-        self.with_scene(&Scene { adhesion: Some(adhesion), ..Scene::clone(self.scene()) })
+        self.with_scene(&Scene {
+            adhesion: Some(adhesion),
+            ..Scene::clone(self.scene())
+        })
     }
 
     /// Returns this document with `field` set to its next choice ([`Range::Choice`]), or to its previous choice if `forwards`
@@ -83,25 +101,41 @@ impl Document {
     ///
     /// # Errors
     /// Returns an error if the scene allows none of the other choices.
-    pub fn with_next_choice(&self, field: &Field, forwards: bool) -> Result<Option<Document>, SceneErrors> {
-        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
+    pub fn with_next_choice(
+        &self,
+        field: &Field,
+        forwards: bool,
+    ) -> Result<Option<Document>, SceneErrors> {
+        let effect = Effect::ALL
+            .into_iter()
+            .find(|effect| effect.path() == field.path);
         let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
-        let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
+        let Some(here) = Tree::of(self.scene()).written(field) else {
+            return Ok(None);
+        };
         let mut refused = None;
         let mut left = self.left.clone();
         if here != "None" {
-            left.retain(|(path, other)| *path != field.path || choice_key(other) != choice_key(&here));
+            left.retain(|(path, other)| {
+                *path != field.path || choice_key(other) != choice_key(&here)
+            });
             left.push((field.path, here.clone()));
         }
         // The circle holds the choices and `None`; the present one need not be among them.
-        let Range::Choice(choices) = field.range else { return Ok(None) };
+        let Range::Choice(choices) = field.range else {
+            return Ok(None);
+        };
         for distance in 1..=choices.len() as i32 + 1 {
             let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
-            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
+            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else {
+                break;
+            };
             let chosen = match effect {
                 // The removed text where it is this choice: other choices lie on the way around the circle.
                 Some(effect) if !is_on => match self.with(effect) {
-                    Ok(back) if back.value(field.path).map(choice_key) != Some(choice_key(&next)) => {
+                    Ok(back)
+                        if back.value(field.path).map(choice_key) != Some(choice_key(&next)) =>
+                    {
                         self.with_choice(field.path, &next)
                     }
                     back => back,
@@ -124,7 +158,10 @@ impl Document {
     /// values that suit the scene, or its usual values.
     fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
         let is_same = |text: &str| choice_key(text) == choice_key(choice);
-        let left = self.left.iter().find(|(of, text)| *of == path && is_same(text));
+        let left = self
+            .left
+            .iter()
+            .find(|(of, text)| *of == path && is_same(text));
         if let Some(back) = left.and_then(|(_, text)| self.set(path, text).ok()) {
             return Ok(back);
         }
@@ -146,7 +183,9 @@ impl Document {
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
     let [from, to] = [from, to].map(Tree::of);
     let changed = differing([&from, &to], |before, after| after || !before).into_iter();
-    changed.map(|field| pair(field.path, to.written(field).unwrap_or_default())).collect()
+    changed
+        .map(|field| pair(field.path, to.written(field).unwrap_or_default()))
+        .collect()
 }
 
 #[cfg(test)]
@@ -184,8 +223,7 @@ mod tests {
 
     #[test]
     fn an_effect_that_was_never_on_suits_the_scene() {
-        let bare =
-            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
+        let bare = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
         let bare = Document::parse(bare, "scene").unwrap();
         let rough = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1)";
         for (effect, value) in [
@@ -196,10 +234,18 @@ mod tests {
         ] {
             assert_eq!(bare.with(effect).unwrap().value(effect.path()), Some(value));
         }
-        let sticky = bare.set("roughness", rough).unwrap().with(Effect::Adhesion).unwrap();
+        let sticky = bare
+            .set("roughness", rough)
+            .unwrap()
+            .with(Effect::Adhesion)
+            .unwrap();
         assert_eq!(adhesion(&sticky), "(kappa: 2.0)");
         // One spring carries no wave at all.
-        let one = bare.set("numerics.points", "1").unwrap().with(Effect::Roughness).unwrap_err();
+        let one = bare
+            .set("numerics.points", "1")
+            .unwrap()
+            .with(Effect::Roughness)
+            .unwrap_err();
         assert!(one.to_string().contains("points/2 = 0"), "{one}");
     }
 
@@ -208,10 +254,18 @@ mod tests {
         let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
         let smooth = off(&document(), Effect::Roughness);
         let stickier = back(&smooth.with_adhesion(Adhesion::by_work(0.2)).unwrap());
-        assert_eq!((adhesion(&stickier), stickier.value("roughness.hurst")), ("(work: 0.2)", Some("0.70")));
+        assert_eq!(
+            (adhesion(&stickier), stickier.value("roughness.hurst")),
+            ("(work: 0.2)", Some("0.70"))
+        );
         let longer = back(&smooth.set("length", "2.0e-4").unwrap());
-        assert_eq!((adhesion(&longer), longer.scene().length), ("(kappa: 6.0)", 2e-4));
-        let held = off(&document(), Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
+        assert_eq!(
+            (adhesion(&longer), longer.scene().length),
+            ("(kappa: 6.0)", 2e-4)
+        );
+        let held = off(&document(), Effect::Unloading)
+            .set("loading.0", "ToForce(3.0e-5)")
+            .unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
         assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
         // A removed text that is no longer valid is replaced by values that suit the scene.
@@ -222,23 +276,45 @@ mod tests {
     #[test]
     fn a_choice_comes_back_with_its_numbers_once_round() {
         let round = |from: &Document, path: &str| -> Vec<String> {
-            let around =
-                std::iter::successors(Some(from.clone()), |document| Some(next(document, path, true)));
-            around.map(|document| document.value(path).unwrap_or("None").to_owned()).take(20).collect()
+            let around = std::iter::successors(Some(from.clone()), |document| {
+                Some(next(document, path, true))
+            });
+            around
+                .map(|document| document.value(path).unwrap_or("None").to_owned())
+                .take(20)
+                .collect()
         };
         let flat = document().set("numerics.points", "4096").unwrap();
         let forms = round(&flat, "form");
-        let circle = forms.iter().skip(1).position(|form| *form == forms[0]).unwrap() + 1;
-        assert!(circle > 5 && forms[1] == "Paraboloid(radius: 1.0e-4)", "{forms:?}");
-        assert!((0..20 - circle).all(|place| forms[place] == forms[place + circle]), "{forms:?}");
+        let circle = forms
+            .iter()
+            .skip(1)
+            .position(|form| *form == forms[0])
+            .unwrap()
+            + 1;
+        assert!(
+            circle > 5 && forms[1] == "Paraboloid(radius: 1.0e-4)",
+            "{forms:?}"
+        );
+        assert!(
+            (0..20 - circle).all(|place| forms[place] == forms[place + circle]),
+            "{forms:?}"
+        );
         // Typed values come back, forwards and backwards.
-        let typed = next(&flat, "form", true).set("form.radius", "3.0e-4").unwrap();
+        let typed = next(&flat, "form", true)
+            .set("form.radius", "3.0e-4")
+            .unwrap();
         let away = next(&next(&typed, "form", true), "form", true);
         let back = next(&next(&away, "form", false), "form", false);
         assert_eq!(back.value("form"), Some("Paraboloid(radius: 3.0e-4)"));
         let first = round(&typed, "form");
-        assert_eq!((first[0] == first[circle], &first[1..circle]), (true, &forms[2..=circle]));
-        let solver = flat.set("numerics.solver", "Stepwise(step: 2.0e-9)").unwrap();
+        assert_eq!(
+            (first[0] == first[circle], &first[1..circle]),
+            (true, &forms[2..=circle])
+        );
+        let solver = flat
+            .set("numerics.solver", "Stepwise(step: 2.0e-9)")
+            .unwrap();
         let circle = round(&solver, "numerics.solver");
         assert_eq!((circle[1].as_str(), &circle[2]), ("Exact", &circle[0]));
         let rough = round(&flat, "roughness");
@@ -264,9 +340,14 @@ mod tests {
         assert_eq!(back.text(), SCENE);
         // A smooth body has no κ: its work is the usual one, or that which a key has left.
         let smooth = |of: &Document| adhesion(&off(of, Effect::Roughness)).to_owned();
-        let sticky = next(&document(), "adhesion", false).set("adhesion.work", "0.3").unwrap();
+        let sticky = next(&document(), "adhesion", false)
+            .set("adhesion.work", "0.3")
+            .unwrap();
         assert_eq!(
-            [smooth(&document()), smooth(&next(&sticky, "adhesion", true))],
+            [
+                smooth(&document()),
+                smooth(&next(&sticky, "adhesion", true))
+            ],
             ["(work: 0.05)", "(work: 0.3)"]
         );
         let flat = sticky.set("roughness", "None").unwrap();

@@ -46,8 +46,11 @@ impl Tree {
     /// Sets the number at a path without checking its range. A number that the scene omits is added. Returns false, with the
     /// tree unchanged, if the scene can have no number at this path.
     pub fn set(&mut self, path: &str, value: f64) -> bool {
-        let is_adhesion = |field: &Field| field.parent() == "adhesion" && self.0["adhesion"].is_null();
-        let row = FIELDS.iter().find(|row| row.path == path && (self.has(row) || is_adhesion(row)));
+        let is_adhesion =
+            |field: &Field| field.parent() == "adhesion" && self.0["adhesion"].is_null();
+        let row = FIELDS
+            .iter()
+            .find(|row| row.path == path && (self.has(row) || is_adhesion(row)));
         let is_whole = match (self.at(path), row.map(|row| row.range)) {
             (Some(Value::Number(present)), _) => present.is_u64(),
             (Some(Value::Null) | None, Some(Range::Real(..))) => false,
@@ -65,7 +68,11 @@ impl Tree {
         if group.is_null() {
             *group = Value::Object(Map::new());
         }
-        let number = if is_whole { Value::from(value as u64) } else { Value::from(value) };
+        let number = if is_whole {
+            Value::from(value as u64)
+        } else {
+            Value::from(value)
+        };
         match contents_mut(group) {
             Value::Array(list) => list[name.parse::<usize>().unwrap_or_default()] = number,
             Value::Object(group) => drop(group.insert(name.to_owned(), number)),
@@ -76,18 +83,25 @@ impl Tree {
 
     /// Returns the value at a path, which has no names of variants.
     fn at(&self, path: &str) -> Option<&Value> {
-        path.split('.').try_fold(&self.0, |group, name| match contents(group) {
-            Value::Object(group) => group.get(name),
-            Value::Array(list) => list.get(name.parse::<usize>().ok()?),
-            // The number of a loading stage.
-            Value::Number(_) | Value::Null if group.is_object() && name == "0" => Some(contents(group)),
-            _ => None,
-        })
+        path.split('.')
+            .try_fold(&self.0, |group, name| match contents(group) {
+                Value::Object(group) => group.get(name),
+                Value::Array(list) => list.get(name.parse::<usize>().ok()?),
+                // The number of a loading stage.
+                Value::Number(_) | Value::Null if group.is_object() && name == "0" => {
+                    Some(contents(group))
+                }
+                _ => None,
+            })
     }
 
     /// Returns true if a field belongs to the selected variants.
     pub(super) fn has(&self, field: &Field) -> bool {
-        let group = if field.parent().is_empty() { Some(&self.0) } else { self.at(field.parent()) };
+        let group = if field.parent().is_empty() {
+            Some(&self.0)
+        } else {
+            self.at(field.parent())
+        };
         let is_of = |group: &Value| field.variant.is_none() || field.variant == variant(group);
         group.is_some_and(|group| !group.is_null() && is_of(group))
     }
@@ -96,19 +110,24 @@ impl Tree {
     /// not finite is `null`.
     pub(super) fn value(&self, field: &Field) -> Option<&Value> {
         let is_given = |value: &&Value| !value.is_null() || matches!(field.range, Range::Real(..));
-        self.at(field.path).filter(is_given).filter(|_| self.has(field))
+        self.at(field.path)
+            .filter(is_given)
+            .filter(|_| self.has(field))
     }
 
     /// Returns the fields inside a field, for its selected variant.
     pub(super) fn inside(&self, field: &Field) -> Vec<&'static Field> {
         let has_fields = matches!(field.range, Range::Choice(_) | Range::Group);
         let value = self.value(field).filter(|_| has_fields);
-        value.map_or_else(Vec::new, |value| fields_inside(field.path, variant(value)).collect())
+        value.map_or_else(Vec::new, |value| {
+            fields_inside(field.path, variant(value)).collect()
+        })
     }
 
     /// Returns the value of an omitted field in RON; empty if the field is required.
     pub(super) fn default(&self, field: &Field) -> &'static str {
-        let is_stepwise = field.path == "numerics.edges" && self.at("numerics.solver.step").is_some();
+        let is_stepwise =
+            field.path == "numerics.edges" && self.at("numerics.solver.step").is_some();
         if is_stepwise { "Grid" } else { field.default }
     }
 
@@ -121,7 +140,11 @@ impl Tree {
         Some(match (field.range, value) {
             (Range::Choice(_) | Range::Group, Value::Object(_)) => {
                 let entries: Vec<String> = self.entries(&self.inside(field)).collect();
-                format!("{}({})", variant(value).unwrap_or_default(), entries.join(", "))
+                format!(
+                    "{}({})",
+                    variant(value).unwrap_or_default(),
+                    entries.join(", ")
+                )
             }
             (Range::Band(..) | Range::Wavelengths(..), Value::Array(ends)) => {
                 format!("({})", joined(ends, written))
@@ -137,7 +160,9 @@ impl Tree {
     /// Returns the fields that differ from their defaults, as `name: value`.
     fn entries(&self, fields: &[&Field]) -> impl Iterator<Item = String> {
         fields.iter().filter_map(|field| {
-            let value = self.written(field).filter(|value| value != self.default(field))?;
+            let value = self
+                .written(field)
+                .filter(|value| value != self.default(field))?;
             Some(format!("{}: {value}", field.last()))
         })
     }
@@ -153,14 +178,21 @@ pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Ve
     while let Some(field) = fields.pop() {
         let values = trees.map(|tree| tree.written(field).unwrap_or_default());
         // A field at its default in both is equal, though the default may depend on another field.
-        let are_defaults = values.iter().zip(trees).all(|(value, tree)| value == tree.default(field));
+        let are_defaults = values
+            .iter()
+            .zip(trees)
+            .all(|(value, tree)| value == tree.default(field));
         if values[0] == values[1] || are_defaults {
             continue;
         }
         let [inside, others] = trees.map(|tree| tree.inside(field));
         let has_default = |field: &Field| !["", "None"].contains(&field.default);
-        let given = |field: &&Field| trees.map(|tree| tree.value(field).is_some() || has_default(field));
-        if inside.is_empty() || inside != others || !inside.iter().map(given).all(|[a, b]| splits(a, b)) {
+        let given =
+            |field: &&Field| trees.map(|tree| tree.value(field).is_some() || has_default(field));
+        if inside.is_empty()
+            || inside != others
+            || !inside.iter().map(given).all(|[a, b]| splits(a, b))
+        {
             found.push(field);
         } else {
             fields.extend(inside.into_iter().rev());
@@ -173,7 +205,10 @@ pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Ve
 pub fn to_ron(scene: &Scene) -> String {
     let tree = Tree::of(scene);
     let fields: Vec<&Field> = fields_inside("", None).collect();
-    let lines: String = tree.entries(&fields).map(|entry| format!("    {entry},\n")).collect();
+    let lines: String = tree
+        .entries(&fields)
+        .map(|entry| format!("    {entry},\n"))
+        .collect();
     format!("(\n{lines})\n")
 }
 
@@ -188,7 +223,11 @@ pub(super) fn written(value: &Value) -> String {
         Value::Number(number) if number.is_f64() => ron_float(number.as_f64().unwrap_or_default()),
         Value::String(name) => name.clone(),
         Value::Array(list) => format!("[{}]", joined(list, written)),
-        Value::Object(_) => format!("{}({})", variant(value).unwrap_or_default(), written(contents(value))),
+        Value::Object(_) => format!(
+            "{}({})",
+            variant(value).unwrap_or_default(),
+            written(contents(value))
+        ),
         Value::Null => "NaN".to_string(),
         other => other.to_string(),
     }
@@ -202,9 +241,11 @@ fn joined(list: &[Value], written: impl Fn(&Value) -> String) -> String {
 fn variant(value: &Value) -> Option<&str> {
     match value {
         Value::String(name) => Some(name),
-        Value::Object(group) if group.len() == 1 => {
-            group.keys().next().map(String::as_str).filter(|name| name.starts_with(char::is_uppercase))
-        }
+        Value::Object(group) if group.len() == 1 => group
+            .keys()
+            .next()
+            .map(String::as_str)
+            .filter(|name| name.starts_with(char::is_uppercase)),
         _ => None,
     }
 }
@@ -232,17 +273,30 @@ mod tests {
     use super::*;
 
     fn sound() -> Scene {
-        Scene::clone(open("rough-sphere").unwrap().set("form", "None").unwrap().scene())
+        Scene::clone(
+            open("rough-sphere")
+                .unwrap()
+                .set("form", "None")
+                .unwrap()
+                .scene(),
+        )
     }
 
     fn scenes_of_all_variants() -> Vec<Scene> {
         let base = Document::from_scene(&sound(), "base").unwrap();
         let all = |path: &'static str| match field(path, None).map(|field| field.range) {
-            Some(Range::Choice(of)) => of.iter().map(|value| base.set(path, value).unwrap()).collect(),
+            Some(Range::Choice(of)) => of
+                .iter()
+                .map(|value| base.set(path, value).unwrap())
+                .collect(),
             _ => Vec::new(),
         };
-        let documents = ["form", "roughness", "numerics.solver"].into_iter().flat_map(all);
-        documents.map(|document| Scene::clone(document.scene())).collect()
+        let documents = ["form", "roughness", "numerics.solver"]
+            .into_iter()
+            .flat_map(all);
+        documents
+            .map(|document| Scene::clone(document.scene()))
+            .collect()
     }
 
     #[test]
@@ -251,7 +305,11 @@ mod tests {
         let mut met = Vec::new();
         for scene in scenes_of_all_variants() {
             let before = Tree::of(&scene);
-            for field in FIELDS.iter().filter(is_number).filter(|field| before.has(field)) {
+            for field in FIELDS
+                .iter()
+                .filter(is_number)
+                .filter(|field| before.has(field))
+            {
                 let mut tree = before.clone();
                 assert!(
                     tree.set(field.path, 12_345.0) && tree.get(field.path) == Some(12_345.0),
@@ -259,14 +317,25 @@ mod tests {
                 );
                 // Numbers may contradict each other.
                 let read = tree.clone().scene();
-                assert!(read.is_err() || Tree::of(&read.unwrap()) == tree, "{field:?}");
-                for other in FIELDS.iter().filter(|other| *other != field && other.range.ends().is_some()) {
-                    assert_eq!(tree.value(other), before.value(other), "{field:?} {other:?}");
+                assert!(
+                    read.is_err() || Tree::of(&read.unwrap()) == tree,
+                    "{field:?}"
+                );
+                for other in FIELDS
+                    .iter()
+                    .filter(|other| *other != field && other.range.ends().is_some())
+                {
+                    assert_eq!(
+                        tree.value(other),
+                        before.value(other),
+                        "{field:?} {other:?}"
+                    );
                 }
                 met.push((field.path, field.variant));
             }
         }
-        let unmet = |field: &&Field| is_number(field) && !met.contains(&(field.path, field.variant));
+        let unmet =
+            |field: &&Field| is_number(field) && !met.contains(&(field.path, field.variant));
         assert_eq!(FIELDS.iter().find(unmet), None);
     }
 }

@@ -15,7 +15,8 @@ pub const LONGEST_TEXT: usize = 1 << 20;
 pub(super) fn with_typed(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || {
-        field(parent, None).filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
+        field(parent, None)
+            .filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
     };
     let known = field_at(text, path).or_else(band);
     let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
@@ -24,7 +25,9 @@ pub(super) fn with_typed(text: &Text, path: &str, value: &str) -> Result<Text, S
         SceneErrors::from(SceneError::of(path, value, known.allowed(), why).at(origin()))
     };
     let typed = match known {
-        Some(known) => known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?,
+        Some(known) => known
+            .read_typed(value)
+            .map_err(|error| wrong(known, &error.to_string()))?,
         None => value.to_string(),
     };
     let typed = group_in_ron(path, &typed).unwrap_or(typed);
@@ -52,23 +55,39 @@ fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     let value = |part: &str| {
         let (field, value) = part.split_once(':')?;
         let (field, value) = (field.trim(), value.trim());
-        let path = if path.is_empty() { field.to_owned() } else { format!("{path}.{field}") };
+        let path = if path.is_empty() {
+            field.to_owned()
+        } else {
+            format!("{path}.{field}")
+        };
         let known = FIELDS.iter().find(|field| field.path == path)?;
         let value = known.read_typed(value).ok()?;
-        Some(format!("{field}: {}", group_in_ron(&path, &value).unwrap_or(value)))
+        Some(format!(
+            "{field}: {}",
+            group_in_ron(&path, &value).unwrap_or(value)
+        ))
     };
     // A text or a comment may contain any sign.
     let is_plain = !["\"", "//", "/*"].iter().any(|sign| inside.contains(sign));
     let parts = Some(inside).filter(|_| is_plain)?.split(between);
     let parts: Vec<_> = parts.filter(|part| !part.trim().is_empty()).collect();
-    let read = parts.iter().map(|part| value(part)).collect::<Option<Vec<_>>>()?;
-    let is_read = parts.iter().zip(&read).any(|(part, read)| part.trim() != read);
+    let read = parts
+        .iter()
+        .map(|part| value(part))
+        .collect::<Option<Vec<_>>>()?;
+    let is_read = parts
+        .iter()
+        .zip(&read)
+        .any(|(part, read)| part.trim() != read);
     is_read.then(|| format!("{name}({})", read.join(", ")))
 }
 
 pub(super) fn check_length(text: &str) -> Result<(), String> {
     if text.len() > LONGEST_TEXT {
-        return Err(format!("the scene is {} bytes long, at most {LONGEST_TEXT} are read", text.len()));
+        return Err(format!(
+            "the scene is {} bytes long, at most {LONGEST_TEXT} are read",
+            text.len()
+        ));
     }
     Ok(())
 }

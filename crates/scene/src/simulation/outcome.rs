@@ -64,7 +64,10 @@ impl Outcome {
     /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force; `None` without a tensile force or
     /// without adhesion.
     pub fn adhesion_share(&self) -> Option<f64> {
-        Some(self.figures.adhesion_force? / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?)
+        Some(
+            self.figures.adhesion_force?
+                / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?,
+        )
     }
 }
 
@@ -138,7 +141,9 @@ pub enum RunError {
     #[error(transparent)]
     Surface(#[from] SurfaceError),
     /// Unloadings from many turning points were requested for a scene with the stepwise solver.
-    #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
+    #[error(
+        "numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact"
+    )]
     NeedsExactSolver,
     /// A [`ReversalMap`](crate::theory::ReversalMap) was requested for a loading that never presses the bodies together.
     #[error(

@@ -37,7 +37,12 @@ impl Reach {
         let force = full_contact.0 + force_of_a_length(contact);
         let indentation = full_contact.1 + length;
         let displacement = contact.displacement(indentation, force);
-        Reach { full_contact, force, indentation, displacement }
+        Reach {
+            full_contact,
+            force,
+            indentation,
+            displacement,
+        }
     }
 
     /// Returns a message that says why a loading stage is refused; `None` if the stage does not end beyond the deepest state.
@@ -53,7 +58,12 @@ impl Reach {
             _ => (self.full_contact.1, self.indentation),
         };
         let allowed = -rounded_up(-most);
-        (found > most).then_some(BeyondFullContact { found, full_contact, allowed, unit: field.unit })
+        (found > most).then_some(BeyondFullContact {
+            found,
+            full_contact,
+            allowed,
+            unit: field.unit,
+        })
     }
 }
 
@@ -90,7 +100,9 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
     }
     let reach = Reach::of(contact);
     let beyond = loading.iter().filter_map(|stage| reach.beyond(*stage));
-    beyond.max_by(|one, other| one.found.total_cmp(&other.found)).map_or(Ok(()), Err)
+    beyond
+        .max_by(|one, other| one.found.total_cmp(&other.found))
+        .map_or(Ok(()), Err)
 }
 
 /// Returns the force in N that is added to the force at full contact if the body goes one length of the profile deeper.
@@ -134,8 +146,14 @@ mod tests {
             ] {
                 // The deepest state itself is computed, by any kind of stage the same one.
                 let deepest = run(&document, stage(most)).unwrap().history.legs[0].largest;
-                assert!((deepest.force / reach.force - 1.0).abs() < 1e-6, "{name} {field:?} {deepest:?}");
-                assert!((deepest.indentation / reach.indentation - 1.0).abs() < 1e-6, "{name} {field:?}");
+                assert!(
+                    (deepest.force / reach.force - 1.0).abs() < 1e-6,
+                    "{name} {field:?} {deepest:?}"
+                );
+                assert!(
+                    (deepest.indentation / reach.indentation - 1.0).abs() < 1e-6,
+                    "{name} {field:?}"
+                );
                 let refused = run(&document, stage(1.001 * most)).unwrap_err().to_string();
                 assert!(
                     refused.contains(" is far beyond full contact at ")

@@ -37,15 +37,22 @@ impl Simulation {
     ) -> Result<(), RunError> {
         needs_exact_solver(scene)?;
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
-        let plan =
-            Workload::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
+        let plan = Workload::of_any(&Scene {
+            loading: vec![deepest, Move::ToSeparation],
+            ..Scene::clone(scene)
+        });
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
         reach::check(&contact, ends)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
-            if stop() { Err(ContactError::Interrupted) } else { Ok(()) }
+            if stop() {
+                Err(ContactError::Interrupted)
+            } else {
+                Ok(())
+            }
         };
-        Ok(Body::new(&contact, scene.numerics.samples as usize).reversals(ends, points, &mut see)?)
+        Ok(Body::new(&contact, scene.numerics.samples as usize)
+            .reversals(ends, points, &mut see)?)
     }
 
     /// Returns the deepest state up to which loadings of a scene are computed.
@@ -53,7 +60,10 @@ impl Simulation {
     /// # Errors
     /// Returns an error if the profile cannot be computed.
     pub fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
-        let plan = Workload::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
+        let plan = Workload::of_any(&Scene {
+            loading: vec![Move::ToTouch],
+            ..Scene::clone(scene)
+        });
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 
@@ -82,14 +92,23 @@ impl Simulation {
         stop: &dyn Fn() -> bool,
     ) -> Result<ReversalMap, RunError> {
         needs_exact_solver(scene)?;
-        let count = count.clamp(*ReversalMap::TURNING_POINTS.start(), *ReversalMap::TURNING_POINTS.end());
+        let count = count.clamp(
+            *ReversalMap::TURNING_POINTS.start(),
+            *ReversalMap::TURNING_POINTS.end(),
+        );
         let scene = scene.with(|scene| scene.numerics.samples = FEW_SAMPLES)?;
         let ends = if let Some((from, to)) = preloads {
             [Move::ToForce(from), Move::ToForce(to)]
         } else {
             let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
-            let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
-            [Move::ToIndentation(0.0), Move::ToIndentation(pressed.ok_or(RunError::NeverPressed)?)]
+            let pressed = outcome
+                .figures
+                .preload_indentation
+                .filter(|&indentation| indentation > 0.0);
+            [
+                Move::ToIndentation(0.0),
+                Move::ToIndentation(pressed.ok_or(RunError::NeverPressed)?),
+            ]
         };
         let mut found = [(0.0, 0.0); 2];
         self.reverse(&scene, (&ends, &[]), stop, &mut |index, reversal| {
@@ -104,17 +123,28 @@ impl Simulation {
         let below = (((low - separation) / step).ceil() as usize + 1).min(MOST_BELOW * count);
         let at = |index: usize| low + step * (index as f64 - below as f64);
         let points: Vec<f64> = (0..below + count).map(at).collect();
-        let ends: Vec<Move> = points[below..].iter().map(|&point| Move::ToIndentation(point)).collect();
+        let ends: Vec<Move> = points[below..]
+            .iter()
+            .map(|&point| Move::ToIndentation(point))
+            .collect();
         let mut reversals = Vec::with_capacity(count);
         self.reverse(&scene, (&ends, &points), stop, &mut |_, reversal| {
             reversals.push(reversal);
             Ok(())
         })?;
-        Ok(ReversalMap { points, below, reversals })
+        Ok(ReversalMap {
+            points,
+            below,
+            reversals,
+        })
     }
 }
 
 /// Returns an error for a scene with the stepwise solver.
 fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
-    if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
+    if scene.numerics.solver == SolverChoice::Exact {
+        Ok(())
+    } else {
+        Err(RunError::NeedsExactSolver)
+    }
 }

@@ -67,26 +67,48 @@ impl RoughnessMaker {
     /// Returns everything that determines the roughness of a scene; `None` without roughness.
     pub fn key(&self, scene: &Scene) -> Option<RoughnessKey> {
         let points = scene.numerics.points as usize;
-        let shift = scene.form.as_ref().map_or(0.0, |form| form.shift(points as u64));
+        let shift = scene
+            .form
+            .as_ref()
+            .map_or(0.0, |form| form.shift(points as u64));
         let source = match (scene.spectrum(), &scene.roughness) {
             (Some(spectrum), _) => Source::SelfAffine(spectrum),
             (None, roughness) => {
                 roughness.as_ref()?;
                 let faces = scene.measured_paths(&self.folder);
-                Source::Measured { faces, options: scene.measured_options(), length: scene.length }
+                Source::Measured {
+                    faces,
+                    options: scene.measured_options(),
+                    length: scene.length,
+                }
             }
         };
-        Some(RoughnessKey { source, seed: scene.seed().unwrap_or(0), points, shift })
+        Some(RoughnessKey {
+            source,
+            seed: scene.seed().unwrap_or(0),
+            points,
+            shift,
+        })
     }
 
     /// Makes the heights of a roughness. Random heights use the memory `memory`.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
-        let RoughnessKey { ref source, seed, points, shift } = key;
+        let RoughnessKey {
+            ref source,
+            seed,
+            points,
+            shift,
+        } = key;
         let (faces, options, length) = match source {
             Source::SelfAffine(spectrum) => {
-                let heights = self.synthesizer.synthesize(*spectrum, seed, points, shift, memory)?;
+                let heights = self
+                    .synthesizer
+                    .synthesize(*spectrum, seed, points, shift, memory)?;
                 self.phases_drawn += spectrum.last + 1 - spectrum.first;
-                let (unit, modes) = (spectrum.unit_amplitude(1.0), (spectrum.first, spectrum.last));
+                let (unit, modes) = (
+                    spectrum.unit_amplitude(1.0),
+                    (spectrum.first, spectrum.last),
+                );
                 return Ok(Rough {
                     key,
                     heights,
@@ -96,9 +118,17 @@ impl RoughnessMaker {
                     facts: None,
                 });
             }
-            Source::Measured { faces, options, length } => (faces, options, *length),
+            Source::Measured {
+                faces,
+                options,
+                length,
+            } => (faces, options, *length),
         };
-        let file = faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path);
+        let file = faces
+            .iter()
+            .flatten()
+            .next()
+            .map_or(Path::new(""), PathBuf::as_path);
         let refused = |error: SurfaceError| error.in_measured(file);
         let surface = self.surface(faces, options)?;
         match &*surface {
@@ -106,7 +136,11 @@ impl RoughnessMaker {
                 let heights = profile.sample(length, points, shift).map_err(refused)?;
                 let amplitude = profile.amplitude()?;
                 let rms_heights = [amplitude.rms_height, root_mean_square_about_mean(&heights)];
-                let facts = MeasuredFacts { scan: profile.length(), rms_heights, long_waves: None };
+                let facts = MeasuredFacts {
+                    scan: profile.length(),
+                    rms_heights,
+                    long_waves: None,
+                };
                 Ok(Rough {
                     key,
                     heights,
@@ -119,8 +153,9 @@ impl RoughnessMaker {
             MeasuredRoughness::Equivalent(line) => {
                 let modes = line.modes(length, points).map_err(refused)?;
                 let of_mode = |mode: u64| line.amplitude(mode, length);
-                let heights =
-                    self.synthesizer.synthesize_waves(&of_mode, modes, seed, points, shift, memory)?;
+                let heights = self
+                    .synthesizer
+                    .synthesize_waves(&of_mode, modes, seed, points, shift, memory)?;
                 self.phases_drawn += modes.1 + 1 - modes.0;
                 let amplitude = line.amplitude_of_modes(length, modes);
                 let facts = MeasuredFacts {
@@ -146,7 +181,10 @@ impl RoughnessMaker {
         faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
     ) -> Result<Arc<MeasuredRoughness>, SurfaceError> {
-        let last = self.equivalent.as_ref().filter(|(of, with, _)| of == faces && with == options);
+        let last = self
+            .equivalent
+            .as_ref()
+            .filter(|(of, with, _)| of == faces && with == options);
         if let Some(known) = self.measured.as_ref().or(last.map(|(.., surface)| surface)) {
             return Ok(Arc::clone(known));
         }
@@ -162,12 +200,19 @@ impl RoughnessMaker {
 /// power of two with twice [`SPRINGS_PER_WAVE`] springs on the shortest wave, but at least 2^10 and at most 2^28.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
-    ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)
+    ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64)
+        .next_power_of_two()
+        .clamp(1024, MOST_POINTS)
 }
 
 /// Returns the mode whose wave and all longer waves carry a tenth of the squared height of a profile of this length in m, with
 /// these first and last modes and this rms height in m.
-fn long_waves(line: &EquivalentLine, length: f64, (first, last): (u64, u64), rms_height: f64) -> f64 {
+fn long_waves(
+    line: &EquivalentLine,
+    length: f64,
+    (first, last): (u64, u64),
+    rms_height: f64,
+) -> f64 {
     let mut squared_height = 0.0;
     for mode in first..=last {
         squared_height += 0.5 * line.amplitude(mode, length).powi(2);
@@ -181,6 +226,9 @@ fn long_waves(line: &EquivalentLine, length: f64, (first, last): (u64, u64), rms
 /// Returns the root mean square of heights in m about their mean.
 fn root_mean_square_about_mean(heights: &[f64]) -> f64 {
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-    let squares: f64 = heights.iter().map(|height| (height - mean) * (height - mean)).sum();
+    let squares: f64 = heights
+        .iter()
+        .map(|height| (height - mean) * (height - mean))
+        .sum();
     (squares / heights.len() as f64).sqrt()
 }

@@ -25,23 +25,47 @@ impl Simulation {
         governing: &Governing,
         figures: &Figures,
     ) -> Result<Option<f64>, RunError> {
-        let Some(works) = governing.adhesive_works() else { return Ok(None) };
+        let Some(works) = governing.adhesive_works() else {
+            return Ok(None);
+        };
         let (length, effective_modulus) = (scene.length, governing.effective_modulus);
         let preload = figures.preload.unwrap_or(0.0).max(0.0);
-        let closed = smooth_adhesion_force(scene.form.as_ref(), length, effective_modulus, works, preload);
-        let Some(form) = scene.form.as_ref().filter(|_| closed.is_none()) else { return Ok(closed) };
+        let closed = smooth_adhesion_force(
+            scene.form.as_ref(),
+            length,
+            effective_modulus,
+            works,
+            preload,
+        );
+        let Some(form) = scene.form.as_ref().filter(|_| closed.is_none()) else {
+            return Ok(closed);
+        };
         let is_smooth = scene.roughness.is_none();
-        if let (Some(own), true) = (figures.adhesion_force, is_smooth && figures.preload >= Some(0.0)) {
+        if let (Some(own), true) = (
+            figures.adhesion_force,
+            is_smooth && figures.preload >= Some(0.0),
+        ) {
             return Ok(Some(own));
         }
-        let profile = if is_smooth { self.profile(scene)? } else { self.smooth_profile(scene, form)? };
-        let contact = governing.contact(&profile)?.edges(scene.numerics.edges).build()?;
+        let profile = if is_smooth {
+            self.profile(scene)?
+        } else {
+            self.smooth_profile(scene, form)?
+        };
+        let contact = governing
+            .contact(&profile)?
+            .edges(scene.numerics.edges)
+            .build()?;
         let mut force = None;
         let mut see = |_, reversal: Reversal| {
             force = reversal.adhesion_force();
             Ok(())
         };
-        match Body::new(&contact, FEW_SAMPLES as usize).reversals(&[Move::ToForce(preload)], &[], &mut see) {
+        match Body::new(&contact, FEW_SAMPLES as usize).reversals(
+            &[Move::ToForce(preload)],
+            &[],
+            &mut see,
+        ) {
             Err(error) if error.is_out_of_reach() => Ok(None),
             Err(error) => Err(error.into()),
             Ok(()) => Ok(force),
@@ -52,14 +76,20 @@ impl Simulation {
     /// of springs.
     fn smooth_profile(&mut self, scene: &Scene, form: &Form) -> Result<Profile, RunError> {
         let (length, points) = (scene.length, scene.numerics.points);
-        let is_same = |of: &&SmoothProfile| of.form == *form && of.length == length && of.points == points;
+        let is_same =
+            |of: &&SmoothProfile| of.form == *form && of.length == length && of.points == points;
         if let Some(known) = self.smooth.as_ref().filter(is_same) {
             return Ok(known.profile.clone());
         }
         self.smooth = None;
         let line = Line::new(length, points as usize, Some(form), None, 0.0)?;
         let profile = profile_of(&line, NominalForm::Curved)?;
-        self.smooth = Some(SmoothProfile { form: form.clone(), length, points, profile: profile.clone() });
+        self.smooth = Some(SmoothProfile {
+            form: form.clone(),
+            length,
+            points,
+            profile: profile.clone(),
+        });
         Ok(profile)
     }
 }

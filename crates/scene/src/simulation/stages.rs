@@ -11,7 +11,8 @@ use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::motion::{Body, ContactTree, Leg, MovingBody, Stepwise, load_body};
 use asperity_contact::{
-    ClosedForm, Contact, ContactError, Edges, Figures, History, LegRecord, Move, NominalForm, Patch, Profile,
+    ClosedForm, Contact, ContactError, Edges, Figures, History, LegRecord, Move, NominalForm,
+    Patch, Profile,
 };
 use asperity_data::{Warning, check_room, emptied};
 use asperity_surface::lines::{Histogram, Line, MeasuredRoughness, Synthesizer};
@@ -100,13 +101,22 @@ pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), Contact
 impl Simulation {
     /// Returns a simulation for scenes whose names of measured files are relative to `folder`.
     pub fn new(folder: PathBuf) -> Self {
-        Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
+        Simulation {
+            maker: RoughnessMaker {
+                folder,
+                ..RoughnessMaker::default()
+            },
+            ..Simulation::default()
+        }
     }
 
     /// Returns this simulation with a smaller need of memory, for a single scene. Each further profile takes more time to
     /// compute.
     pub fn for_one_scene(self) -> Self {
-        Simulation { single: true, ..self }
+        Simulation {
+            single: true,
+            ..self
+        }
     }
 
     /// Returns this simulation with a measured roughness that every scene with a measured surface uses, instead of the files
@@ -119,8 +129,15 @@ impl Simulation {
     /// Returns the measured spectrum in use: the one given to [`Self::with_measured`], otherwise the last one that was
     /// estimated from files. Returns `None` if there is no spectrum.
     pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
-        let RoughnessMaker { measured, equivalent, .. } = &self.maker;
-        match &**measured.as_ref().or(equivalent.as_ref().map(|(.., surface)| surface))? {
+        let RoughnessMaker {
+            measured,
+            equivalent,
+            ..
+        } = &self.maker;
+        match &**measured
+            .as_ref()
+            .or(equivalent.as_ref().map(|(.., surface)| surface))?
+        {
             MeasuredRoughness::Equivalent(line) => Some(line),
             MeasuredRoughness::Profile(_) => None,
         }
@@ -128,10 +145,20 @@ impl Simulation {
 
     /// Returns a new simulation with the same folder and the same measured surface.
     pub fn another(&self) -> Simulation {
-        let RoughnessMaker { folder, measured, .. } = &self.maker;
+        let RoughnessMaker {
+            folder, measured, ..
+        } = &self.maker;
         let (folder, measured) = (folder.clone(), measured.clone());
-        let maker = RoughnessMaker { folder, measured, ..RoughnessMaker::default() };
-        Simulation { single: self.single, maker, ..Simulation::default() }
+        let maker = RoughnessMaker {
+            folder,
+            measured,
+            ..RoughnessMaker::default()
+        };
+        Simulation {
+            single: self.single,
+            maker,
+            ..Simulation::default()
+        }
     }
 
     /// Returns the profile that was computed last; `None` before the first profile.
@@ -143,7 +170,10 @@ impl Simulation {
     ///
     /// # Errors
     /// Returns an error if the memory is too small, or if a measured file or a form cannot be used.
-    pub fn make_line(&mut self, scene: &CheckedScene) -> Result<(&Line, LineFacts, Governing), RunError> {
+    pub fn make_line(
+        &mut self,
+        scene: &CheckedScene,
+    ) -> Result<(&Line, LineFacts, Governing), RunError> {
         self.line_of(scene)
     }
 
@@ -157,24 +187,36 @@ impl Simulation {
             }
         }
         let rough = self.roughness.as_ref();
-        let unit = rough.and_then(|rough| rough.unit).map(|unit| unit.stretched(length));
+        let unit = rough
+            .and_then(|rough| rough.unit)
+            .map(|unit| unit.stretched(length));
         let measured = rough.and_then(|rough| rough.measured);
         let governing = Governing::of(scene, unit, measured);
-        let rms_height = governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
+        let rms_height = governing
+            .amplitude
+            .map_or(0.0, |amplitude| amplitude.rms_height);
         // Measured heights are already in metres.
         let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough.and_then(|rough| rough.modes);
         if let Some(form) = &scene.form {
             form.load(&self.maker.folder, length)?;
         }
-        let key = LineKey { roughness, scale, length, points, form: scene.form.clone() };
+        let key = LineKey {
+            roughness,
+            scale,
+            length,
+            points,
+            form: scene.form.clone(),
+        };
         if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
             let line = self.lay_line(scene, &key)?;
             self.profile = Some(profile_of(&line, nominal_form(scene))?);
             self.line = Some((key, line));
         }
         let Some((_, line)) = &self.line else {
-            return Err(ContactError::Internal("the profile of the scene has not been made").into());
+            return Err(
+                ContactError::Internal("the profile of the scene has not been made").into(),
+            );
         };
         let facts = LineFacts {
             points,
@@ -203,19 +245,29 @@ impl Simulation {
 
     /// Returns the profile that was made last.
     fn made(&self) -> Result<&Profile, ContactError> {
-        self.profile.as_ref().ok_or(ContactError::Internal("the profile of the scene has not been made"))
+        self.profile.as_ref().ok_or(ContactError::Internal(
+            "the profile of the scene has not been made",
+        ))
     }
 
     /// Makes a profile from the heights of its roughness and its form.
     fn lay_line(&mut self, scene: &Scene, key: &LineKey) -> Result<Line, RunError> {
-        let LineKey { scale, length, points, .. } = *key;
+        let LineKey {
+            scale,
+            length,
+            points,
+            ..
+        } = *key;
         self.histogram = None;
         // Nothing else uses the springs unless a caller has kept a leg.
         if let Some(profile) = self.profile.take() {
             self.former_tree = profile.into_tree();
         }
-        let mut memory =
-            self.line.take().and_then(|(_, line)| Arc::into_inner(line.gaps)).unwrap_or_default();
+        let mut memory = self
+            .line
+            .take()
+            .and_then(|(_, line)| Arc::into_inner(line.gaps))
+            .unwrap_or_default();
         if let (Some(of), Some(rough)) = (&key.roughness, &self.roughness)
             && rough.heights.is_empty()
         {
@@ -225,15 +277,28 @@ impl Simulation {
             memory = take(&mut rough.heights);
         } else {
             memory = emptied(memory, points).map_err(SurfaceError::of_springs)?;
-            let heights = self.roughness.as_ref().map_or(&[][..], |rough| &rough.heights);
+            let heights = self
+                .roughness
+                .as_ref()
+                .map_or(&[][..], |rough| &rough.heights);
             memory.extend_from_slice(heights);
             memory.resize(points, 0.0);
         }
-        Ok(Line::from_roughness(memory, length, scene.form.as_ref(), scale)?)
+        Ok(Line::from_roughness(
+            memory,
+            length,
+            scene.form.as_ref(),
+            scale,
+        )?)
     }
 
     /// Makes the heights of a roughness. Random heights use the memory `memory`.
-    fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
+    fn roughen(
+        &mut self,
+        scene: &Scene,
+        key: &RoughnessKey,
+        memory: Vec<f64>,
+    ) -> Result<(), RunError> {
         // The transform allocates its own memory, and would end the process on failure.
         check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::of_springs)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
@@ -250,10 +315,17 @@ impl Simulation {
         if plan.runs(Stage::Tree) {
             self.made()?.build_tree(edges, memory)?;
         }
-        let line = self.line().filter(|_| plan.runs(Stage::HeightHistogram) && self.histogram.is_none());
+        let line = self
+            .line()
+            .filter(|_| plan.runs(Stage::HeightHistogram) && self.histogram.is_none());
         let Some(line) = line else { return Ok(0) };
         let binned = line.gaps.len() as u64;
-        self.histogram = Some(Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS));
+        self.histogram = Some(Histogram::new(
+            line.heights(),
+            line.lowest(),
+            line.summit,
+            HISTOGRAM_BINS,
+        ));
         Ok(binned)
     }
 
@@ -282,7 +354,13 @@ impl Simulation {
         scene: &Scene,
         stop: &dyn Fn() -> bool,
     ) -> Result<Prepared, RunError> {
-        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        let interrupted = || {
+            if stop() {
+                Err(ContactError::Interrupted)
+            } else {
+                Ok(())
+            }
+        };
         let mut timings = Timings::default();
         self.make_room(plan.peak_bytes)?;
 
@@ -299,9 +377,21 @@ impl Simulation {
         interrupted()?;
 
         let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
-        let contact = governing.contact(self.made()?)?.edges(edges).loading_stiffness(stiffness).build()?;
+        let contact = governing
+            .contact(self.made()?)?
+            .edges(edges)
+            .loading_stiffness(stiffness)
+            .build()?;
         let warnings = self.warnings_before_loading(scene, &governing)?;
-        Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings, warnings })
+        Ok(Prepared {
+            contact,
+            facts,
+            governing,
+            random_phases,
+            heights_binned,
+            timings,
+            warnings,
+        })
     }
 
     /// Returns the premises of the model that a scene does not meet before its loading: those of its fields, its measured surface
@@ -366,8 +456,10 @@ impl Simulation {
             warnings: of_scene,
         } = made;
         reach::check(&contact, &scene.loading)?;
-        let on_foundation =
-            |patch: Patch| Patch { first: patch.first + facts.first, last: patch.last + facts.first };
+        let on_foundation = |patch: Patch| Patch {
+            first: patch.first + facts.first,
+            last: patch.last + facts.first,
+        };
 
         let (clock, mut stage, mut fragments) = (Instant::now(), 0, Vec::new());
         let mut see = |record: &LegRecord, leg: &Leg| {
@@ -375,18 +467,29 @@ impl Simulation {
                 return Err(ContactError::Interrupted);
             }
             if plan.runs(Stage::Fragments) {
-                let patches =
-                    record.end_in_contact().map_or_else(Vec::new, |end| leg.patches(end.indentation));
+                let patches = record
+                    .end_in_contact()
+                    .map_or_else(Vec::new, |end| leg.patches(end.indentation));
                 fragments.push(patches.into_iter().map(on_foundation).collect());
             }
             stage += 1;
             after(stage - 1, record, leg)
         };
         let without_preload = plan.runs(Stage::WithoutPreload);
-        let (mut history, without_preload) =
-            load(scene, &contact, without_preload, &mut timings, stop, &mut see)?;
-        timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.without_preload).max(0.0);
-        history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
+        let (mut history, without_preload) = load(
+            scene,
+            &contact,
+            without_preload,
+            &mut timings,
+            stop,
+            &mut see,
+        )?;
+        timings.passes =
+            (clock.elapsed().as_secs_f64() - timings.curve - timings.without_preload).max(0.0);
+        history
+            .contacts
+            .iter_mut()
+            .for_each(|contact| *contact = on_foundation(*contact));
         let transforms = u64::from(random_phases > 0);
         let work = &mut history.work;
         (work.random_phases, work.transforms, work.heights_binned) =
@@ -396,13 +499,18 @@ impl Simulation {
         warnings.extend(of_scene);
         let figures = Figures::of(&history);
         let [first_touch_adhesion_force, zero_force_adhesion_force] = without_preload;
-        let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
+        let (work, modulus, length) = (
+            governing.adhesive_work(),
+            governing.effective_modulus,
+            scene.length,
+        );
         let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
         let regime = |without_preload| Regime::of_loading(&figures, without_preload, smooth);
         Ok(Outcome {
             line: facts,
             governing,
-            ideal_adhesion_force: work.map(|work| ClosedForm::ideal_adhesion_force(work, modulus, length)),
+            ideal_adhesion_force: work
+                .map(|work| ClosedForm::ideal_adhesion_force(work, modulus, length)),
             smooth_adhesion_force: smooth,
             first_touch_adhesion_force,
             zero_force_adhesion_force,
@@ -410,11 +518,17 @@ impl Simulation {
             steep_waves: SteepWaves::of(scene, &governing),
             regime: regime(first_touch_adhesion_force),
             regime_after_zero_force: regime(zero_force_adhesion_force),
-            instrument: scene.loading_stiffness.map(|k| InstrumentFigures::of(&history, &figures, k)),
+            instrument: scene
+                .loading_stiffness
+                .map(|k| InstrumentFigures::of(&history, &figures, k)),
             figures,
             history,
             fragments,
-            histogram: self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned(),
+            histogram: self
+                .histogram
+                .as_ref()
+                .filter(|_| plan.runs(Stage::HeightHistogram))
+                .cloned(),
             warnings,
             timings,
         })
@@ -424,7 +538,9 @@ impl Simulation {
 /// Returns the profile of a contact on the springs under a line, with the form of the body.
 pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
-    let placed = profile.on_foundation(line.length, line.first)?.with_summit(line.summit)?;
+    let placed = profile
+        .on_foundation(line.length, line.first)?
+        .with_summit(line.summit)?;
     Ok(placed.with_nominal_form(nominal_form))
 }
 
@@ -458,7 +574,11 @@ fn load(
             if without_preload {
                 let clock = Instant::now();
                 for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
-                    let turned = match load_body(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
+                    let turned = match load_body(
+                        &mut body(2)?,
+                        &[turn, Move::ToSeparation],
+                        |_, _| Ok(()),
+                    ) {
                         Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
                         // A turn out of reach of the steps has no F_a(d=0).
                         Err(_) => continue,

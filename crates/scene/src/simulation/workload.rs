@@ -123,18 +123,38 @@ impl Workload {
 
     /// Plans the computation of a checked scene whose loading may have been replaced.
     pub(super) fn of_any(scene: &Scene) -> Self {
-        let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
+        let (points, springs) = (
+            scene.numerics.points,
+            scene.springs_under_body().count() as u64,
+        );
         let stages = stages(scene, points, springs);
-        let mut plan = Workload { springs, peak_bytes: 0, resident_bytes: 0, stages };
+        let mut plan = Workload {
+            springs,
+            peak_bytes: 0,
+            resident_bytes: 0,
+            stages,
+        };
         // At most, if the whole contact under load also exists at first touch.
-        let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::WithoutPreload];
-        let between = scene.numerics.edges == Edges::SubCell && scene.numerics.solver == Solver::Exact;
+        let solved = [
+            Stage::Tree,
+            Stage::LoadingPass,
+            Stage::Relaxation,
+            Stage::WithoutPreload,
+        ];
+        let between =
+            scene.numerics.edges == Edges::SubCell && scene.numerics.solver == Solver::Exact;
         let sampled = if between { SAMPLED_WITH_EDGES } else { SAMPLED };
-        let curves = scene.numerics.samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64
-            + scene.numerics.samples.saturating_mul(sampled);
-        let contact = HEIGHT * springs + solved.map(|stage| plan.bytes(stage)).iter().sum::<u64>() + curves;
+        let curves =
+            scene.numerics.samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64
+                + scene.numerics.samples.saturating_mul(sampled);
+        let contact =
+            HEIGHT * springs + solved.map(|stage| plan.bytes(stage)).iter().sum::<u64>() + curves;
         // The profile is made before the contact is solved: the larger of both amounts of memory.
-        let heights = if Effect::Roughness.is_on(scene) { HEIGHT * points } else { 0 };
+        let heights = if Effect::Roughness.is_on(scene) {
+            HEIGHT * points
+        } else {
+            0
+        };
         plan.peak_bytes = (heights + contact).max(plan.bytes(Stage::Synthesis));
         plan.resident_bytes = Workload::PROGRAM + contact.max(plan.bytes(Stage::Synthesis));
         plan
@@ -142,31 +162,51 @@ impl Workload {
 
     /// Returns true if the scene needs this part.
     pub fn runs(&self, stage: Stage) -> bool {
-        self.stages.iter().any(|planned| planned.stage == stage && planned.runs)
+        self.stages
+            .iter()
+            .any(|planned| planned.stage == stage && planned.runs)
     }
 
     fn bytes(&self, stage: Stage) -> u64 {
-        self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.bytes)
+        self.stages
+            .iter()
+            .find(|planned| planned.stage == stage)
+            .map_or(0, |planned| planned.bytes)
     }
 
     /// Returns the memory in bytes of the parts that make the profile.
     pub(super) fn line_bytes(&self) -> u64 {
-        HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
+        HEIGHT * self.springs
+            + self
+                .bytes(Stage::Synthesis)
+                .max(self.bytes(Stage::MeasuredProfile))
     }
 }
 
 fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
-    let (adhesive, pulls) = (Effect::Adhesion.is_on(scene), Effect::Unloading.is_on(scene));
+    let (adhesive, pulls) = (
+        Effect::Adhesion.is_on(scene),
+        Effect::Unloading.is_on(scene),
+    );
     let exact = scene.numerics.solver == Solver::Exact;
-    let (measured, random) =
-        (matches!(scene.roughness, Some(Roughness::Measured { .. })), scene.seed().is_some());
+    let (measured, random) = (
+        matches!(scene.roughness, Some(Roughness::Measured { .. })),
+        scene.seed().is_some(),
+    );
     // Field that requires the stage or reason for skipping it, number of passes, springs of each pass, bytes.
     let row = |stage, because: Result<_, _>, (passes, springs): (Option<u64>, u64), bytes| {
         let runs = because.is_ok();
         let (passes, bytes) = if runs { (passes, bytes) } else { (Some(0), 0) };
         let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
         let because = because.unwrap_or_else(|reason| reason);
-        PlannedStage { stage, runs, because, passes, springs_touched, bytes }
+        PlannedStage {
+            stage,
+            runs,
+            because,
+            passes,
+            springs_touched,
+            bytes,
+        }
     };
     let when = |does: bool, field, reason| if does { Ok(field) } else { Err(reason) };
     let (once, each_stage, line) = ((Some(1), springs), (None, springs), (Some(1), points));
@@ -187,8 +227,16 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
     let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
     // The convolution that transforms a large prime factor, as measured.
     let factor = largest_prime_factor(points);
-    let convolution = if factor > LARGEST_FACTOR { 152 * factor } else { 0 };
-    let file = if random { "roughness: SelfAffine" } else { "no roughness: smooth" };
+    let convolution = if factor > LARGEST_FACTOR {
+        152 * factor
+    } else {
+        0
+    };
+    let file = if random {
+        "roughness: SelfAffine"
+    } else {
+        "no roughness: smooth"
+    };
     let unloading = match (pulls, adhesive, exact) {
         (false, ..) => Err(NEVER_BACK),
         (true, false, _) => Err(NO_ADHESION),
@@ -201,25 +249,57 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         (true, true) => Ok("adhesion with a loading that goes back"),
     };
     let hess = when(adhesive, "adhesion", "no adhesion: nothing is stretched");
-    let observed = |observer, field| when(scene.observe.contains(&observer), field, "not in observe");
+    let observed =
+        |observer, field| when(scene.observe.contains(&observer), field, "not in observe");
     let fragments = observed(Observer::Fragments, "observe: Fragments");
     let histogram = observed(Observer::HeightHistogram, "observe: HeightHistogram");
-    let (touch, touch_bytes) = if exact { ((Some(2), springs), 0) } else { (each_stage, RELAXED * springs) };
+    let (touch, touch_bytes) = if exact {
+        ((Some(2), springs), 0)
+    } else {
+        (each_stage, RELAXED * springs)
+    };
     // F_smooth of a form without a closed form takes springs of its own.
     let has_smooth = scene.roughness.is_some()
-        && scene.form.as_ref().is_some_and(|form| form.flat_end().is_none() && form.power_law().is_none());
-    let smooth_bytes = if has_smooth { (HEIGHT + NODE) * springs } else { 0 };
+        && scene
+            .form
+            .as_ref()
+            .is_some_and(|form| form.flat_end().is_none() && form.power_law().is_none());
+    let smooth_bytes = if has_smooth {
+        (HEIGHT + NODE) * springs
+    } else {
+        0
+    };
     vec![
         row(Stage::Form, form, once, 0),
         row(Stage::Synthesis, synthesis, line, transform + convolution),
-        row(Stage::MeasuredProfile, when(measured, "roughness: Measured", file), line, HEIGHT * points),
+        row(
+            Stage::MeasuredProfile,
+            when(measured, "roughness: Measured", file),
+            line,
+            HEIGHT * points,
+        ),
         row(Stage::Tree, solved, once, NODE * springs),
         row(Stage::RuleOfHess, hess, (Some(0), springs), 0),
         row(Stage::LoadingPass, solved, each_stage, PASSED * springs),
         row(Stage::UnloadingPass, unloading, each_stage, 0),
-        row(Stage::Relaxation, when(!exact, STEPWISE, "solver: Exact"), each_stage, RELAXED * springs),
-        row(Stage::WithoutPreload, without_preload, touch, touch_bytes + smooth_bytes),
-        row(Stage::Fragments, fragments, (Some(scene.loading.len() as u64), springs), 0),
+        row(
+            Stage::Relaxation,
+            when(!exact, STEPWISE, "solver: Exact"),
+            each_stage,
+            RELAXED * springs,
+        ),
+        row(
+            Stage::WithoutPreload,
+            without_preload,
+            touch,
+            touch_bytes + smooth_bytes,
+        ),
+        row(
+            Stage::Fragments,
+            fragments,
+            (Some(scene.loading.len() as u64), springs),
+            0,
+        ),
         row(Stage::HeightHistogram, histogram, once, 0),
     ]
 }
@@ -251,7 +331,11 @@ mod tests {
     #[test]
     fn the_largest_prime_factor_is_found() {
         let large = [(1 << 28, 2), (1_048_583, 1_048_583), (2 * 524_287, 524_287)];
-        for (number, factor) in large.into_iter().chain([(1, 1), (2, 2), (3, 3), (121, 11), (90, 5)]) {
+        for (number, factor) in
+            large
+                .into_iter()
+                .chain([(1, 1), (2, 2), (3, 3), (121, 11), (90, 5)])
+        {
             assert_eq!(largest_prime_factor(number), factor, "{number}");
         }
     }

@@ -16,8 +16,12 @@ fn loaded(scene: &str, loading: &str) -> Outcome {
 /// One path in several cuts, several cycles, and paths that end in contact.
 #[test]
 fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
-    let [whole, smaller] = [1e-5, 5e-6]
-        .map(|force| loaded("pressure-sensitive", &format!("[ToForce({force:e}), ToSeparation]")));
+    let [whole, smaller] = [1e-5, 5e-6].map(|force| {
+        loaded(
+            "pressure-sensitive",
+            &format!("[ToForce({force:e}), ToSeparation]"),
+        )
+    });
     let after = |loading: &str| loaded("pressure-sensitive", loading);
     for cut in [
         "[ToForce(1e-5), ToTouch, ToSeparation]",
@@ -32,12 +36,18 @@ fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
         "[ToForce(1e-5), ToForce(2e-6), ToForce(8e-6), ToSeparation]",
     ] {
         let cut_up = after(cut);
-        let of = |outcome: &Outcome| Figures { dissipated_energy: None, ..outcome.figures };
+        let of = |outcome: &Outcome| Figures {
+            dissipated_energy: None,
+            ..outcome.figures
+        };
         assert_eq!(of(&cut_up), of(&whole), "{cut}");
         assert_eq!(cut_up.regime, whole.regime, "{cut}");
     }
     let twice = after("[ToForce(2e-5), ToSeparation, ToForce(5e-6), ToSeparation]");
-    assert_eq!(twice.figures.adhesion_coefficient, smaller.figures.adhesion_coefficient);
+    assert_eq!(
+        twice.figures.adhesion_coefficient,
+        smaller.figures.adhesion_coefficient
+    );
     assert_eq!(whole.regime, Some(Regime::PressureSensitive));
     // An unloading that ends in contact has a pull-off only if it passes it, in any number of stages.
     let least = whole.figures.pull_off_indentation.unwrap();
@@ -52,17 +62,31 @@ fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
 
 /// Forces and indentations of a history: F_n, F_a, and where they are.
 fn figures(legs: &[LegRecord]) -> [Option<f64>; 4] {
-    let found = Figures::of(&History { legs: legs.to_vec(), ..History::default() });
-    [found.preload, found.adhesion_force, found.preload_indentation, found.pull_off_indentation]
+    let found = Figures::of(&History {
+        legs: legs.to_vec(),
+        ..History::default()
+    });
+    [
+        found.preload,
+        found.adhesion_force,
+        found.preload_indentation,
+        found.pull_off_indentation,
+    ]
 }
 
 /// True for figures of the same bits, or but for `slack`, of forces in N and of indentations in m.
 fn agree(one: &[LegRecord], other: &[LegRecord], slack: [f64; 2]) -> bool {
     let slack = [slack[0], slack[0], slack[1], slack[1]];
-    figures(one).into_iter().zip(figures(other)).zip(slack).all(|pair| match pair {
-        ((Some(one), Some(other)), slack) => one.to_bits() == other.to_bits() || (one - other).abs() <= slack,
-        ((one, other), _) => one == other,
-    })
+    figures(one)
+        .into_iter()
+        .zip(figures(other))
+        .zip(slack)
+        .all(|pair| match pair {
+            ((Some(one), Some(other)), slack) => {
+                one.to_bits() == other.to_bits() || (one - other).abs() <= slack
+            }
+            ((one, other), _) => one == other,
+        })
 }
 
 proptest! {

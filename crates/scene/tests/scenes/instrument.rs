@@ -3,8 +3,12 @@
 use super::body::{cases, end};
 use asperity_contact::ClosedForm;
 use asperity_contact::motion::{Body, load_body};
-use asperity_contact::{Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile};
-use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
+use asperity_contact::{
+    Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile,
+};
+use asperity_scene::instrument::{
+    DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,
+};
 use asperity_surface::Form;
 use asperity_surface::lines::Line;
 use proptest::prelude::*;
@@ -15,8 +19,13 @@ fn sphere(points: usize, stiffness: f64) -> (Contact, ClosedForm) {
     let line = Line::new(12.0, points, Some(&form), None, 0.0).unwrap();
     let profile = Profile::from_gaps(line.gaps, line.spacing).unwrap();
     let modulus = Modulus::effective(1.0).unwrap();
-    let contact = Contact::builder(&profile, modulus).work_of_adhesion(1.0).loading_stiffness(stiffness);
-    (contact.build().unwrap(), ClosedForm::sphere(1.0, modulus, 1.0))
+    let contact = Contact::builder(&profile, modulus)
+        .work_of_adhesion(1.0)
+        .loading_stiffness(stiffness);
+    (
+        contact.build().unwrap(),
+        ClosedForm::sphere(1.0, modulus, 1.0),
+    )
 }
 
 fn loaded(contact: &Contact, targets: &[Move]) -> History {
@@ -71,17 +80,27 @@ fn a_rigid_instrument_controls_the_indentation_and_a_soft_one_the_force() {
     let (contact, _) = sphere(4096, soft);
     let forces = [3.0, -4.0, 5.0];
     let by_force = loaded(&contact, &forces.map(Move::ToForce));
-    let pulled = loaded(&contact, &forces.map(|force| Move::ToDisplacement(force / soft)));
+    let pulled = loaded(
+        &contact,
+        &forces.map(|force| Move::ToDisplacement(force / soft)),
+    );
     for (one, other) in [(by_indentation, by_displacement), (by_force, pulled)] {
         for (one, other) in one.legs.iter().zip(&other.legs) {
             let [one, other] = [one, other].map(end);
             assert!((one.force - other.force).abs() < 1e-9, "{one:?} {other:?}");
-            assert!((one.indentation - other.indentation).abs() < 1e-9, "{one:?} {other:?}");
+            assert!(
+                (one.indentation - other.indentation).abs() < 1e-9,
+                "{one:?} {other:?}"
+            );
         }
     }
     // Without a stiffness D is the indentation, to the last bit.
     let (bare, _) = sphere(512, f64::INFINITY);
-    let [one, other] = [turns.map(Move::ToIndentation), turns.map(Move::ToDisplacement)].map(|turns| {
+    let [one, other] = [
+        turns.map(Move::ToIndentation),
+        turns.map(Move::ToDisplacement),
+    ]
+    .map(|turns| {
         let legs: Vec<LegRecord> = loaded(&bare, &turns).legs;
         legs.into_iter().map(|leg| leg.curve).collect::<Vec<_>>()
     });
@@ -104,11 +123,19 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
         let figures = Figures::of(&history);
         let found = InstrumentFigures::of(&history, &figures, stiffness);
         let displacement = |a: f64| jkr.indentation(a) + jkr.force(a) / stiffness;
-        let closed = (1..200_000).map(|k| displacement(f64::from(k) * 2e-5)).fold(f64::INFINITY, f64::min);
+        let closed = (1..200_000)
+            .map(|k| displacement(f64::from(k) * 2e-5))
+            .fold(f64::INFINITY, f64::min);
         let pull_off = found.pull_off_displacement.unwrap();
-        assert!((pull_off / closed - 1.0).abs() < 2e-6, "{stiffness}: {pull_off} {closed}");
+        assert!(
+            (pull_off / closed - 1.0).abs() < 2e-6,
+            "{stiffness}: {pull_off} {closed}"
+        );
         // The free body follows the instrument, and to separation it ends where it jumps off.
-        assert_eq!((end(unloading).indentation, end(unloading).springs), (-40.0, 0));
+        assert_eq!(
+            (end(unloading).indentation, end(unloading).springs),
+            (-40.0, 0)
+        );
         let mut last = [targets[0], Move::ToSeparation];
         let separated = loaded(&under(stiffness), &last);
         assert_eq!(end(&separated.legs[1]).indentation, pull_off);
@@ -127,12 +154,24 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
                 curve.points().windows(2).map(work).sum::<f64>()
             })
             .sum();
-        assert!((found.loop_area.unwrap() / area - 1.0).abs() < 1e-4, "{:?} {area}", found.loop_area);
+        assert!(
+            (found.loop_area.unwrap() / area - 1.0).abs() < 1e-4,
+            "{:?} {area}",
+            found.loop_area
+        );
         assert!(found.loop_area > figures.dissipated_energy);
         areas.push(found.loop_area.unwrap());
         for leg in &history.legs {
-            let sign = if leg.direction == Direction::Loading { 1.0 } else { -1.0 };
-            assert!(displacements(leg, stiffness).map(|at| sign * at).is_sorted());
+            let sign = if leg.direction == Direction::Loading {
+                1.0
+            } else {
+                -1.0
+            };
+            assert!(
+                displacements(leg, stiffness)
+                    .map(|at| sign * at)
+                    .is_sorted()
+            );
         }
     }
     assert!(areas.is_sorted_by(|soft, stiff| soft > stiff), "{areas:?}");

@@ -30,7 +30,10 @@ struct Random(u64);
 
 impl Random {
     fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
@@ -66,7 +69,11 @@ fn sphere(random: &mut Random) -> Sphere {
     scene.adhesion = Some(Adhesion::by_work(work));
     scene.loading = vec![Move::ToForce(force), Move::ToSeparation];
     scene.numerics.points = random.whole(300, 900);
-    Sphere { scene, contact_radius, pull_off: 0.5 * pull }
+    Sphere {
+        scene,
+        contact_radius,
+        pull_off: 0.5 * pull,
+    }
 }
 
 /// A nominally flat random roughness that meets all premises, with the modes of its waves.
@@ -74,7 +81,10 @@ fn rough(random: &mut Random) -> (Scene, u64, u64) {
     let height = random.between(5e-8, 2e-7);
     let first = random.whole(5, 9);
     let last = random.whole(40, 90);
-    let mut scene = Scene::new(Material::effective(random.between(5e5, 5e6)), random.between(1e-4, 3e-4));
+    let mut scene = Scene::new(
+        Material::effective(random.between(5e5, 5e6)),
+        random.between(1e-4, 3e-4),
+    );
     scene.roughness = Some(Roughness::SelfAffine {
         hurst: 0.3 + 0.6 * random.share(),
         rms_height: Some(height),
@@ -117,7 +127,11 @@ fn use_heights_as_profile(scene: &mut Scene) {
 
 /// A scene that meets all premises, and the same scene with one premise broken.
 fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
-    let Sphere { scene: mut whole, contact_radius, pull_off } = sphere(random);
+    let Sphere {
+        scene: mut whole,
+        contact_radius,
+        pull_off,
+    } = sphere(random);
     let mut broken = whole.clone();
     match premise {
         "contact_at_ends" => broken.length = contact_radius * random.between(1.2, 1.8),
@@ -126,18 +140,30 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
         }
         "few_springs_in_contact" => broken.numerics.points = random.whole(16, 44),
         "long_ranged_attraction" | "finite_ranged_attraction" => {
-            let wanted = if premise.starts_with("long") { 0.1..0.99 } else { 1.01..4.99 };
+            let wanted = if premise.starts_with("long") {
+                0.1..0.99
+            } else {
+                1.01..4.99
+            };
             let wanted = random.between(wanted.start, wanted.end);
             let number = computed(&whole, folder).1.unwrap();
             let adhesion = broken.adhesion.as_mut().unwrap();
             adhesion.range = Some(0.3e-9 * number / wanted);
         }
         "steep_waves" => {
-            let radius = whole.form.as_mut().and_then(|form| form.radius_mut().copied()).unwrap();
+            let radius = whole
+                .form
+                .as_mut()
+                .and_then(|form| form.radius_mut().copied())
+                .unwrap();
             let wavelength = whole.length / random.between(5.0, 12.0);
             let wavy = |ratio: f64| {
                 let amplitude = wavelength * wavelength / (ratio * radius);
-                Some(Form::WavySphere { radius, amplitude, wavelength })
+                Some(Form::WavySphere {
+                    radius,
+                    amplitude,
+                    wavelength,
+                })
             };
             whole.form = wavy(random.between(12.5, 100.0));
             broken.form = wavy(random.between(2.0, 12.3));
@@ -148,8 +174,13 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             }
         }
         "heights_as_profile" => {
-            let (scene, scan) = measured(random, folder, |x| 1e-8 * ((1e6 * x).sin() + (2.3e6 * x).cos()));
-            whole = Scene { form: Some(Form::Paraboloid { radius: scan }), ..scene };
+            let (scene, scan) = measured(random, folder, |x| {
+                1e-8 * ((1e6 * x).sin() + (2.3e6 * x).cos())
+            });
+            whole = Scene {
+                form: Some(Form::Paraboloid { radius: scan }),
+                ..scene
+            };
             whole.length = 1.01 * scan;
             broken = whole.clone();
             broken.length = 0.999_999_999_9 * scan;
@@ -160,17 +191,32 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             let (scene, scan) = measured(random, folder, |x| -x * x / (2.0 * radius));
             // The contact of the cut is a quarter of the scan wide.
             let pressed = Move::ToIndentation((scan / 8.0).powi(2) / (2.0 * radius));
-            broken = Scene { length: 0.999_999_999_9 * scan, adhesion: None, ..scene };
+            broken = Scene {
+                length: 0.999_999_999_9 * scan,
+                adhesion: None,
+                ..scene
+            };
             broken.loading = vec![pressed, Move::ToSeparation];
             use_heights_as_profile(&mut broken);
-            whole = Scene { form: Some(Form::Paraboloid { radius }), roughness: None, ..broken.clone() };
+            whole = Scene {
+                form: Some(Form::Paraboloid { radius }),
+                roughness: None,
+                ..broken.clone()
+            };
         }
         "scan_longer_than_length" => {
             let long_wave = |x: f64| 3e-8 * (2.5e5 * x).cos();
-            let (scene, scan) = measured(random, folder, |x| long_wave(x) + 1e-8 * (2.3e6 * x).cos());
-            whole = Scene { form: Some(Form::Paraboloid { radius: scan }), ..scene };
+            let (scene, scan) =
+                measured(random, folder, |x| long_wave(x) + 1e-8 * (2.3e6 * x).cos());
+            whole = Scene {
+                form: Some(Form::Paraboloid { radius: scan }),
+                ..scene
+            };
             whole.length = 1.01 * scan;
-            broken = Scene { length: scan * random.between(0.5, 0.9), ..whole.clone() };
+            broken = Scene {
+                length: scan * random.between(0.5, 0.9),
+                ..whole.clone()
+            };
         }
         _ => return rough_pair(premise, random),
     }
@@ -182,8 +228,13 @@ fn rough_pair(premise: &str, random: &mut Random) -> [Scene; 2] {
     let (mut whole, first, last) = rough(random);
     let mut broken = whole.clone();
     let length = whole.length;
-    let Some(Roughness::SelfAffine { rms_height, rms_gradient, modes, wavelengths, .. }) =
-        &mut broken.roughness
+    let Some(Roughness::SelfAffine {
+        rms_height,
+        rms_gradient,
+        modes,
+        wavelengths,
+        ..
+    }) = &mut broken.roughness
     else {
         unreachable!()
     };
@@ -216,10 +267,17 @@ fn rough_pair(premise: &str, random: &mut Random) -> [Scene; 2] {
 
 /// Names of the warnings of a scene, and its Tabor number.
 fn computed(scene: &Scene, folder: &Path) -> (Vec<&'static str>, Option<f64>) {
-    let checked: CheckedScene =
-        scene.clone().checked().unwrap_or_else(|errors| panic!("{errors}\n{scene:?}"));
-    let outcome = Simulation::new(folder.to_owned()).compute(&checked).unwrap();
-    (outcome.warnings.iter().map(Warning::name).collect(), outcome.tabor_number)
+    let checked: CheckedScene = scene
+        .clone()
+        .checked()
+        .unwrap_or_else(|errors| panic!("{errors}\n{scene:?}"));
+    let outcome = Simulation::new(folder.to_owned())
+        .compute(&checked)
+        .unwrap();
+    (
+        outcome.warnings.iter().map(Warning::name).collect(),
+        outcome.tabor_number,
+    )
 }
 
 /// Of 300 random scenes each breaks one premise. The warning is named in all of them, alone, and the same scene with the
@@ -234,8 +292,16 @@ fn the_premise_that_a_scene_breaks_is_named_alone() {
         counts[index] += 1;
         let premise = PREMISES[index];
         let [whole, broken] = pair(premise, &mut random, folder.path());
-        assert_eq!(computed(&broken, folder.path()).0, [premise], "{number}: {broken:?}");
-        assert_eq!(computed(&whole, folder.path()).0, [""; 0], "{number} {premise}: {whole:?}");
+        assert_eq!(
+            computed(&broken, folder.path()).0,
+            [premise],
+            "{number}: {broken:?}"
+        );
+        assert_eq!(
+            computed(&whole, folder.path()).0,
+            [""; 0],
+            "{number} {premise}: {whole:?}"
+        );
     }
     assert!(counts.iter().all(|count| *count >= 8), "{counts:?}");
 }
@@ -244,10 +310,19 @@ fn the_premise_that_a_scene_breaks_is_named_alone() {
 #[test]
 fn a_scene_names_premises_of_its_fields_before_it_is_computed() {
     let mut random = Random(7);
-    for premise in ["few_springs_per_wave", "few_long_waves", "rounded_waves", "steep_roughness"] {
+    for premise in [
+        "few_springs_per_wave",
+        "few_long_waves",
+        "rounded_waves",
+        "steep_roughness",
+    ] {
         for _ in 0..20 {
             let [whole, broken] = rough_pair(premise, &mut random);
-            assert!(broken.warnings().iter().map(Warning::name).eq([premise]), "{:?}", broken.warnings());
+            assert!(
+                broken.warnings().iter().map(Warning::name).eq([premise]),
+                "{:?}",
+                broken.warnings()
+            );
             assert_eq!(whole.warnings(), []);
         }
     }
@@ -258,23 +333,47 @@ fn a_scene_names_premises_of_its_fields_before_it_is_computed() {
 fn words_are_whole_sentences_without_options() {
     let warnings = [
         Warning::ContactAtEnds { length: 2e-5 },
-        Warning::EndsInContact { further: Some(1e-6) },
+        Warning::EndsInContact {
+            further: Some(1e-6),
+        },
         Warning::EndsInContact { further: None },
         Warning::FewSpringsInContact { springs: 3 },
         Warning::FewSpringsPerWave { springs: 3.99 },
-        Warning::RoundedWaves { stated: [7.2e-5, 1e-7], used: [8e-5, 1e-7] },
+        Warning::RoundedWaves {
+            stated: [7.2e-5, 1e-7],
+            used: [8e-5, 1e-7],
+        },
         Warning::FewLongWaves { waves: 1.0 },
-        Warning::SteepRoughness { rms_gradient: 1.2, is_measured: false },
-        Warning::SteepRoughness { rms_gradient: 1.2, is_measured: true },
+        Warning::SteepRoughness {
+            rms_gradient: 1.2,
+            is_measured: false,
+        },
+        Warning::SteepRoughness {
+            rms_gradient: 1.2,
+            is_measured: true,
+        },
         Warning::LongRangedAttraction { tabor_number: 0.8 },
         Warning::FiniteRangedAttraction { tabor_number: 2.0 },
         Warning::HeightsAsProfile,
         Warning::CutLikeHeights { radius: 2e-4 },
-        Warning::ScanLongerThanLength { scan: 2.5e-4, length: 1e-4, rms_heights: [2.53e-7, 1.76e-7] },
-        Warning::SteepWaves { ratio: 5.0, jkr_factor: 1.3 },
+        Warning::ScanLongerThanLength {
+            scan: 2.5e-4,
+            length: 1e-4,
+            rms_heights: [2.53e-7, 1.76e-7],
+        },
+        Warning::SteepWaves {
+            ratio: 5.0,
+            jkr_factor: 1.3,
+        },
         Warning::FallingProfile { from: 1e-5 },
-        Warning::MeasuredFile { file: "a.csv".to_owned(), property: "line 3: far away".to_owned() },
-        Warning::SurfacesFarApart { flattest: ("a".to_owned(), 1e-9), roughest: ("b".to_owned(), 1e-6) },
+        Warning::MeasuredFile {
+            file: "a.csv".to_owned(),
+            property: "line 3: far away".to_owned(),
+        },
+        Warning::SurfacesFarApart {
+            flattest: ("a".to_owned(), 1e-9),
+            roughest: ("b".to_owned(), 1e-6),
+        },
         Warning::DisplacedRows { distance: 1e-6 },
         Warning::LongWavesOfScan { share: 0.5 },
         Warning::LongWavesOfScan { share: 0.95 },
@@ -286,10 +385,22 @@ fn words_are_whole_sentences_without_options() {
     ];
     for warning in warnings {
         let (sentence, remedy) = (warning.sentence(), warning.remedy());
-        assert!(sentence.ends_with('.') && remedy.ends_with('.'), "{warning}");
-        assert!(!warning.to_string().contains("--") && !warning.to_string().contains("  "), "{warning}");
-        let is_key = warning.name().chars().all(|letter| letter == '_' || letter.is_ascii_lowercase());
+        assert!(
+            sentence.ends_with('.') && remedy.ends_with('.'),
+            "{warning}"
+        );
+        assert!(
+            !warning.to_string().contains("--") && !warning.to_string().contains("  "),
+            "{warning}"
+        );
+        let is_key = warning
+            .name()
+            .chars()
+            .all(|letter| letter == '_' || letter.is_ascii_lowercase());
         assert!(is_key && !warning.name().is_empty());
-        assert!(!sentence.contains("NaN") && sentence.len() > 20, "{warning}");
+        assert!(
+            !sentence.contains("NaN") && sentence.len() > 20,
+            "{warning}"
+        );
     }
 }

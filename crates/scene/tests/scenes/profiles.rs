@@ -15,29 +15,51 @@ const LENGTH: f64 = 1.0e-4;
 fn forms() -> Vec<(&'static str, Option<Form>)> {
     vec![
         ("", None),
-        ("form: Paraboloid(radius: 2.0e-4), ", Some(Form::Paraboloid { radius: 2.0e-4 })),
-        ("form: Cone(angle: 0.05), ", Some(Form::Cone { angle: 0.05 })),
+        (
+            "form: Paraboloid(radius: 2.0e-4), ",
+            Some(Form::Paraboloid { radius: 2.0e-4 }),
+        ),
+        (
+            "form: Cone(angle: 0.05), ",
+            Some(Form::Cone { angle: 0.05 }),
+        ),
         (
             "form: Power(coefficient: 3.0e2, exponent: 1.5), ",
-            Some(Form::Power { coefficient: 3.0e2, exponent: 1.5 }),
+            Some(Form::Power {
+                coefficient: 3.0e2,
+                exponent: 1.5,
+            }),
         ),
         (
             "form: WavySphere(radius: 2.0e-4, amplitude: 1.0e-8, wavelength: 2.0e-5), ",
-            Some(Form::WavySphere { radius: 2.0e-4, amplitude: 1.0e-8, wavelength: 2.0e-5 }),
+            Some(Form::WavySphere {
+                radius: 2.0e-4,
+                amplitude: 1.0e-8,
+                wavelength: 2.0e-5,
+            }),
         ),
-        ("form: Punch(radius: 3.0e-5), ", Some(Form::Punch { radius: 3.0e-5 })),
+        (
+            "form: Punch(radius: 3.0e-5), ",
+            Some(Form::Punch { radius: 3.0e-5 }),
+        ),
     ]
 }
 
 /// A way to give waves or an amplitude: as in a scene file, and by the builder.
 type Given = (&'static str, fn(ProfileBuilder) -> ProfileBuilder);
 
-const AMPLITUDES: [Given; 2] =
-    [("rms_height: 1.0e-7", |it| it.rms_height(1.0e-7)), ("rms_gradient: 0.02", |it| it.rms_gradient(0.02))];
+const AMPLITUDES: [Given; 2] = [
+    ("rms_height: 1.0e-7", |it| it.rms_height(1.0e-7)),
+    ("rms_gradient: 0.02", |it| it.rms_gradient(0.02)),
+];
 const WAVES: [Given; 3] = [
     ("modes: (2, 16)", |it| it.modes(2, 16)),
-    ("wavelengths: (7.0e-5, 9.0e-6)", |it| it.wavelengths(7.0e-5, 9.0e-6)),
-    ("modes: (1, 16), roll_off: 2.0e-5", |it| it.modes(1, 16).roll_off(2.0e-5)),
+    ("wavelengths: (7.0e-5, 9.0e-6)", |it| {
+        it.wavelengths(7.0e-5, 9.0e-6)
+    }),
+    ("modes: (1, 16), roll_off: 2.0e-5", |it| {
+        it.modes(1, 16).roll_off(2.0e-5)
+    }),
 ];
 
 proptest! {
@@ -118,13 +140,23 @@ fn a_profile_with_a_measured_spectrum_is_that_of_a_scene() {
     let length = 2e-4;
     for points in [1024, 1025] {
         let built = |form: Option<Form>| {
-            let builder = ProfileBuilder::new(length, points).spectrum(line.clone()).seed(7);
-            form.map_or(builder.clone(), |form| builder.form(form)).build().unwrap()
+            let builder = ProfileBuilder::new(length, points)
+                .spectrum(line.clone())
+                .seed(7);
+            form.map_or(builder.clone(), |form| builder.form(form))
+                .build()
+                .unwrap()
         };
         // A flat face has the heights of the line themselves.
         let rough = line.heights(length, points, 7).unwrap();
         let summit = rough.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        assert!(built(None).gaps().iter().zip(&rough).all(|(gap, height)| *gap == summit - height));
+        assert!(
+            built(None)
+                .gaps()
+                .iter()
+                .zip(&rough)
+                .all(|(gap, height)| *gap == summit - height)
+        );
         let text = format!(
             "(version: 1, material: (effective_modulus: 1.0), length: {length}, form: Paraboloid(radius: 1.0e-3), \
              roughness: Measured(file: \"any.txt\", seed: 7), numerics: (points: {points}))"
@@ -132,8 +164,14 @@ fn a_profile_with_a_measured_spectrum_is_that_of_a_scene() {
         let document = Document::parse(&text, "scene").unwrap();
         let simulation = Simulation::default();
         let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
-        let profile = simulation.with_measured(measured).profile(document.scene()).unwrap();
-        assert!(built(Some(Form::Paraboloid { radius: 1e-3 })) == profile, "{points}");
+        let profile = simulation
+            .with_measured(measured)
+            .profile(document.scene())
+            .unwrap();
+        assert!(
+            built(Some(Form::Paraboloid { radius: 1e-3 })) == profile,
+            "{points}"
+        );
     }
 }
 
@@ -149,7 +187,11 @@ fn the_order_of_the_calls_of_a_builder_does_not_matter() {
     ];
     let built = |order: [usize; 5]| {
         let begun = ProfileBuilder::new(LENGTH, 512);
-        order.into_iter().fold(begun, |builder, index| calls[index](builder)).build().unwrap()
+        order
+            .into_iter()
+            .fold(begun, |builder, index| calls[index](builder))
+            .build()
+            .unwrap()
     };
     let expected = built([4, 1, 2, 3, 0]);
     assert!(built([4, 1, 2, 3, 1]) != expected, "the seed counts");
@@ -166,14 +208,30 @@ fn the_order_of_the_calls_of_a_builder_does_not_matter() {
     let surface = Topography::from_profile(&heights, 1e-6).unwrap();
     let line = EquivalentLine::from(&analyse(&[surface], &AnalysisOptions::default()).unwrap());
     let begun = ProfileBuilder::new(LENGTH, 512);
-    let late = begun.clone().spectrum(line.clone()).seed(9).build().unwrap();
-    assert!(begun.clone().seed(9).spectrum(line.clone()).build().unwrap() == late);
+    let late = begun
+        .clone()
+        .spectrum(line.clone())
+        .seed(9)
+        .build()
+        .unwrap();
+    assert!(
+        begun
+            .clone()
+            .seed(9)
+            .spectrum(line.clone())
+            .build()
+            .unwrap()
+            == late
+    );
     assert!(begun.clone().spectrum(line.clone()).build().unwrap() != late);
-    for both in [begun.clone().rms_height(1e-7).spectrum(line.clone()), begun.spectrum(line).rms_height(1e-7)]
-    {
+    for both in [
+        begun.clone().rms_height(1e-7).spectrum(line.clone()),
+        begun.spectrum(line).rms_height(1e-7),
+    ] {
         let refused = both.build().unwrap_err().to_string();
         assert!(
-            refused.contains("a measured spectrum and a self-affine roughness: allowed: one of them"),
+            refused
+                .contains("a measured spectrum and a self-affine roughness: allowed: one of them"),
             "{refused}"
         );
     }
@@ -181,20 +239,42 @@ fn the_order_of_the_calls_of_a_builder_does_not_matter() {
 
 #[test]
 fn wrong_values_of_a_profile_are_named_with_what_is_allowed() {
-    let rough = |points: usize| ProfileBuilder::new(LENGTH, points).self_affine(0.7).rms_height(1e-7);
+    let rough = |points: usize| {
+        ProfileBuilder::new(LENGTH, points)
+            .self_affine(0.7)
+            .rms_height(1e-7)
+    };
     let of = |refused: Result<_, Error>| refused.unwrap_err().to_string();
     for (refused, expected) in [
         (
             of(rough(1024).modes(1, 512).build()),
             "last mode = 512; allowed: from the first mode to a quarter of the number of points, for four springs to a wave",
         ),
-        (of(rough(1024).modes(10, 1).build()), "roughness.modes = (10, 1): "),
+        (
+            of(rough(1024).modes(10, 1).build()),
+            "roughness.modes = (10, 1): ",
+        ),
         (of(rough(1024).build()), "roughness: "),
-        (of(rough(1024).modes(1, 64).rms_gradient(0.1).build()), "roughness: "),
-        (of(ProfileBuilder::new(LENGTH, 64).rms_height(1e-7).modes(1, 8).build()), "roughness.hurst = NaN: "),
+        (
+            of(rough(1024).modes(1, 64).rms_gradient(0.1).build()),
+            "roughness: ",
+        ),
+        (
+            of(ProfileBuilder::new(LENGTH, 64)
+                .rms_height(1e-7)
+                .modes(1, 8)
+                .build()),
+            "roughness.hurst = NaN: ",
+        ),
         (of(rough(0).modes(1, 64).build()), "numerics.points = 0: "),
-        (of(ProfileBuilder::new(f64::NAN, 64).build()), "length = NaN: "),
-        (of(ProfileBuilder::new(LENGTH, 64).sphere(-1.0).build()), "form.radius = -1.0: "),
+        (
+            of(ProfileBuilder::new(f64::NAN, 64).build()),
+            "length = NaN: ",
+        ),
+        (
+            of(ProfileBuilder::new(LENGTH, 64).sphere(-1.0).build()),
+            "form.radius = -1.0: ",
+        ),
         (
             of(rough(64).build_with(vec![0.0; 63])),
             "number of heights = 63; allowed: the number of points of the profile",
@@ -204,6 +284,9 @@ fn wrong_values_of_a_profile_are_named_with_what_is_allowed() {
             "height with index 1 = NaN; allowed: from -1e50 to 1e50 m",
         ),
     ] {
-        assert!(refused.starts_with(expected), "{refused} instead of {expected}");
+        assert!(
+            refused.starts_with(expected),
+            "{refused} instead of {expected}"
+        );
     }
 }

@@ -25,24 +25,43 @@ fn with_line(line: &str) -> String {
 #[test]
 fn a_scene_that_asks_for_too_much_is_refused_at_once() {
     for (line, expected) in [
-        ("numerics: (points: 268435457),", "numerics.points = 268435457: allowed: a whole number from 1 to"),
-        ("numerics: (points: 18446744073709551615),", "numerics.points = 18446744073709551615: allowed"),
-        ("numerics: (points: 18446744073709551616),", "numerics.points = 18446744073709551616: allowed"),
-        ("numerics: (samples: 1000001),", "numerics.samples = 1000001: allowed: a whole number from 2 to"),
+        (
+            "numerics: (points: 268435457),",
+            "numerics.points = 268435457: allowed: a whole number from 1 to",
+        ),
+        (
+            "numerics: (points: 18446744073709551615),",
+            "numerics.points = 18446744073709551615: allowed",
+        ),
+        (
+            "numerics: (points: 18446744073709551616),",
+            "numerics.points = 18446744073709551616: allowed",
+        ),
+        (
+            "numerics: (samples: 1000001),",
+            "numerics.samples = 1000001: allowed: a whole number from 2 to",
+        ),
     ] {
         let all = message(&with_line(line));
         assert!(all.contains(expected), "{all}");
     }
     let line = format!("loading: [{}],", "ToTouch,".repeat(100_001));
     assert!(
-        message(&with_line(&line)).contains("loading = a list of 100001: allowed: a list of 1 to 100000")
+        message(&with_line(&line))
+            .contains("loading = a list of 100001: allowed: a list of 1 to 100000")
     );
     assert!(message(&" ".repeat(LONGEST_TEXT + 1)).contains("bytes long"));
 }
 
 #[test]
 fn nesting_does_not_overflow_the_stack() {
-    for (open, close) in [("(", ")"), ("[", "]"), ("Some(", ")"), ("{", "}"), ("/*", "*/")] {
+    for (open, close) in [
+        ("(", ")"),
+        ("[", "]"),
+        ("Some(", ")"),
+        ("{", "}"),
+        ("/*", "*/"),
+    ] {
         let deep = format!("{}{}", open.repeat(100_000), close.repeat(100_000));
         let _ = Document::parse(&deep, "scene.ron");
         let _ = Document::parse(&with_line(&format!("form: {deep},")), "scene.ron");
@@ -66,14 +85,17 @@ fn effects_are_on_where_their_stages_run() {
     let mut loadings: Vec<Vec<Move>> = legs.iter().map(|leg| vec![*leg]).collect();
     for length in 1..3 {
         let longer = loadings.iter().filter(|loading| loading.len() == length);
-        let longer: Vec<_> =
-            longer.flat_map(|loading| legs.iter().map(|leg| [&loading[..], &[*leg]].concat())).collect();
+        let longer: Vec<_> = longer
+            .flat_map(|loading| legs.iter().map(|leg| [&loading[..], &[*leg]].concat()))
+            .collect();
         loadings.extend(longer);
     }
     assert_eq!(loadings.len(), 7 + 49 + 343);
     for loading in loadings {
         // A loading that begins with a pull is refused.
-        let Ok(scene) = document.scene().with(|scene| scene.loading = loading) else { continue };
+        let Ok(scene) = document.scene().with(|scene| scene.loading = loading) else {
+            continue;
+        };
         let runs = Workload::of(&scene).runs(Stage::UnloadingPass);
         assert_eq!(Effect::Unloading.is_on(&scene), runs, "{:?}", scene.loading);
     }
@@ -89,10 +111,17 @@ fn effects_are_on_where_their_stages_run() {
         let runs = |stages: &[Stage]| stages.iter().any(|stage| plan.runs(*stage));
         for (effect, stages) in [
             (Effect::Form, &[Stage::Form][..]),
-            (Effect::Roughness, &[Stage::Synthesis, Stage::MeasuredProfile]),
+            (
+                Effect::Roughness,
+                &[Stage::Synthesis, Stage::MeasuredProfile],
+            ),
             (Effect::Adhesion, &[Stage::RuleOfHess]),
         ] {
-            assert_eq!(effect.is_on(document.scene()), runs(stages), "{path}={value}: {effect:?}");
+            assert_eq!(
+                effect.is_on(document.scene()),
+                runs(stages),
+                "{path}={value}: {effect:?}"
+            );
         }
     }
 }
@@ -113,19 +142,34 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
              align_rows: true, robust: true, surface_name: \"y\", channel: 1, continue_to: 1.0e-9, seed: 2)",
             "Stepwise(step: 1.0)",
         ),
-        ("Cone(angle: 0.1)", "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)", "Exact"),
+        (
+            "Cone(angle: 0.1)",
+            "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)",
+            "Exact",
+        ),
         (
             "Power(coefficient: 1.0, exponent: 1.0)",
             "SelfAffine(hurst: 0.5, wavelengths: (1.0e-4, 1.0e-6), roll_off: 1.0e-5, seed: 1, rms_gradient: 1.0)",
             "Exact",
         ),
-        ("Punch(radius: 1.0e-5)", "Measured(file: \"x\", column: 2, as_line: true)", "Exact"),
-        ("WavySphere(radius: 1.0e-3, amplitude: 1.0e-9, wavelength: 1.0e-6)", "None", "Exact"),
+        (
+            "Punch(radius: 1.0e-5)",
+            "Measured(file: \"x\", column: 2, as_line: true)",
+            "Exact",
+        ),
+        (
+            "WavySphere(radius: 1.0e-3, amplitude: 1.0e-9, wavelength: 1.0e-6)",
+            "None",
+            "Exact",
+        ),
         ("Table(file: \"x\", unit: \"nm\")", "None", "Exact"),
     ] {
         let stiffness = if solver == "Exact" { "1.0" } else { "None" };
         for (material, adhesion) in [
-            ("(effective_modulus: 1.0e6)", "(work: 0.1, closing_work: 0.05, range: 1.0e-9)"),
+            (
+                "(effective_modulus: 1.0e6)",
+                "(work: 0.1, closing_work: 0.05, range: 1.0e-9)",
+            ),
             ("(youngs_modulus: 1.0e6, poisson_ratio: 0.5)", "None"),
         ] {
             let text = format!(
@@ -133,7 +177,11 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
                  adhesion: {adhesion}, loading_stiffness: {stiffness}, numerics: (solver: {solver}))"
             );
             let document = Document::parse(&text, "x").unwrap_or_else(|errors| panic!("{errors}"));
-            paths_of(&serde_json::to_value(document.scene()).unwrap(), String::new(), &mut found);
+            paths_of(
+                &serde_json::to_value(document.scene()).unwrap(),
+                String::new(),
+                &mut found,
+            );
         }
     }
     found.extend(["adhesion.kappa", "adhesion.elastic_energy_ratio"].map(String::from));
@@ -142,7 +190,10 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
         assert!(table.contains(&path.as_str()), "{path} is not in the table");
     }
     for path in table {
-        assert!(found.iter().any(|found| found == path), "{path} is not in the model");
+        assert!(
+            found.iter().any(|found| found == path),
+            "{path} is not in the model"
+        );
     }
 }
 
@@ -172,7 +223,8 @@ fn the_choices_of_the_table_can_be_set() {
         match field.range {
             Range::Choice(choices) => {
                 for choice in choices {
-                    let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
+                    let roughness =
+                        "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
                     let document = match *choice {
                         "(kappa: 2.0)" | "(elastic_energy_ratio: 0.5)" => {
                             document.set("roughness", roughness).unwrap()
@@ -182,14 +234,26 @@ fn the_choices_of_the_table_can_be_set() {
                         }
                         _ => document.clone(),
                     };
-                    document.set(field.path, choice).unwrap_or_else(|errors| panic!("{choice}: {errors}"));
+                    document
+                        .set(field.path, choice)
+                        .unwrap_or_else(|errors| panic!("{choice}: {errors}"));
                 }
             }
             Range::List { of, .. } => {
                 let all = format!("[{}]", of.join(", "));
-                let measured = || document.set("roughness", "Measured(file: \"x\", as_line: false)").unwrap();
-                let document = if field.parent() == "roughness" { measured() } else { document.clone() };
-                document.set(field.path, &all).unwrap_or_else(|errors| panic!("{all}: {errors}"));
+                let measured = || {
+                    document
+                        .set("roughness", "Measured(file: \"x\", as_line: false)")
+                        .unwrap()
+                };
+                let document = if field.parent() == "roughness" {
+                    measured()
+                } else {
+                    document.clone()
+                };
+                document
+                    .set(field.path, &all)
+                    .unwrap_or_else(|errors| panic!("{all}: {errors}"));
             }
             _ => {}
         }
@@ -201,15 +265,29 @@ fn what_the_table_says_of_left_out_fields_is_so() {
     let smooth = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)";
     let document = Document::parse(smooth, "x").unwrap();
     let left_out = |path: &str| locate(smooth, path).is_none();
-    let fields = FIELDS.iter().filter(|field| field.variant.is_none() && !field.default.is_empty());
+    let fields = FIELDS
+        .iter()
+        .filter(|field| field.variant.is_none() && !field.default.is_empty());
     for field in fields.filter(|field| left_out(field.path)) {
-        let written = document.set(field.path, field.default).unwrap_or_else(|errors| panic!("{errors}"));
+        let written = document
+            .set(field.path, field.default)
+            .unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(written.scene(), document.scene(), "{}", field.path);
     }
-    for field in FIELDS.iter().filter(|field| field.parent().is_empty() && field.default.is_empty()) {
+    for field in FIELDS
+        .iter()
+        .filter(|field| field.parent().is_empty() && field.default.is_empty())
+    {
         let place = locate(smooth, field.path).unwrap();
-        let without = smooth.replace(&smooth[place.entry], "").replace("(,", "(").replace(", ,", ",");
-        assert!(message(&without.replace(", )", ")")).contains("missing"), "{}", field.path);
+        let without = smooth
+            .replace(&smooth[place.entry], "")
+            .replace("(,", "(")
+            .replace(", ,", ",");
+        assert!(
+            message(&without.replace(", )", ")")).contains("missing"),
+            "{}",
+            field.path
+        );
     }
 }
 
@@ -218,10 +296,19 @@ fn presets_say_only_what_differs_from_the_defaults() {
     for preset in presets() {
         let document = open(preset.name).unwrap();
         let canonical = to_ron(document.scene());
-        assert_eq!(Document::parse(&canonical, preset.name).unwrap().scene(), document.scene());
+        assert_eq!(
+            Document::parse(&canonical, preset.name).unwrap().scene(),
+            document.scene()
+        );
         for field in FIELDS {
             let written = |text: &str| locate(text, field.path).is_some();
-            assert_eq!(written(preset.text), written(&canonical), "{}: {}", preset.name, field.path);
+            assert_eq!(
+                written(preset.text),
+                written(&canonical),
+                "{}: {}",
+                preset.name,
+                field.path
+            );
         }
     }
 }
@@ -247,10 +334,16 @@ fn a_refused_scene_has_no_numbers() {
     ];
     for (field, change) in changes {
         let refused = document.scene().with(change).unwrap_err();
-        assert!(refused.iter().any(|error| error.field == field), "{field}: {refused}");
+        assert!(
+            refused.iter().any(|error| error.field == field),
+            "{field}: {refused}"
+        );
     }
     let simulation = &mut Simulation::default();
-    let coarse = document.scene().with(|scene| scene.numerics.points = 1024).unwrap();
+    let coarse = document
+        .scene()
+        .with(|scene| scene.numerics.points = 1024)
+        .unwrap();
     assert!(simulation.compute(&coarse).is_ok());
 }
 

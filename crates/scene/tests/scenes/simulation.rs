@@ -19,11 +19,15 @@ type Overrides<'a> = &'a [(&'a str, &'a str)];
 
 fn with(document: &Document, overrides: Overrides) -> Document {
     let owned = |&(path, value): &(&str, &str)| (path.to_string(), value.to_string());
-    document.set_all(&overrides.iter().map(owned).collect::<Vec<_>>()).unwrap()
+    document
+        .set_all(&overrides.iter().map(owned).collect::<Vec<_>>())
+        .unwrap()
 }
 
 fn scene(overrides: Overrides) -> CheckedScene {
-    with(&Document::parse(SCENE, "scene").unwrap(), overrides).scene().clone()
+    with(&Document::parse(SCENE, "scene").unwrap(), overrides)
+        .scene()
+        .clone()
 }
 
 fn outcome(simulation: &mut Simulation, scene: &CheckedScene) -> Outcome {
@@ -34,7 +38,9 @@ fn outcome(simulation: &mut Simulation, scene: &CheckedScene) -> Outcome {
 }
 
 fn work(overrides: Overrides) -> Work {
-    outcome(&mut Simulation::default(), &scene(overrides)).history.work
+    outcome(&mut Simulation::default(), &scene(overrides))
+        .history
+        .work
 }
 
 const KAPPA: (&str, &str) = ("adhesion.kappa", "20.0");
@@ -48,13 +54,26 @@ fn kept_stages_do_not_change_results() {
     let edits: [Overrides; 16] = [
         &[],
         &[KAPPA],
-        &[KAPPA, ("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(3.0e-5), ToSeparation]")],
+        &[
+            KAPPA,
+            (
+                "loading",
+                "[ToForce(1.0e-5), ToZeroForce, ToForce(3.0e-5), ToSeparation]",
+            ),
+        ],
         &[("material.youngs_modulus", "1.0e6")],
         &[("roughness.seed", "2")],
         &[("roughness.seed", "3"), KAPPA],
         &[("roughness.modes", "(1, 500)")],
-        &[("roughness.modes", "(1, 500)"), ("roughness.seed", "2"), KAPPA],
-        &[("roughness.hurst", "0.9"), ("roughness.rms_height", "1.0e-7")],
+        &[
+            ("roughness.modes", "(1, 500)"),
+            ("roughness.seed", "2"),
+            KAPPA,
+        ],
+        &[
+            ("roughness.hurst", "0.9"),
+            ("roughness.rms_height", "1.0e-7"),
+        ],
         &[BARE],
         &[("form", "Punch(radius: 2.0e-5)")],
         &[
@@ -62,9 +81,16 @@ fn kept_stages_do_not_change_results() {
             ("adhesion", "(work: 0.01)"),
             ("numerics.edges", "SubCell"),
         ],
-        &[("roughness", "None"), ("form", "Paraboloid(radius: 1.0e-4)"), ("adhesion", "(work: 0.05)")],
+        &[
+            ("roughness", "None"),
+            ("form", "Paraboloid(radius: 1.0e-4)"),
+            ("adhesion", "(work: 0.05)"),
+        ],
         &[("numerics.points", "40000")],
-        &[("loading", "[ToIndentation(-1.0e-8), ToIndentation(-1.0e-7)]")],
+        &[(
+            "loading",
+            "[ToIndentation(-1.0e-8), ToIndentation(-1.0e-7)]",
+        )],
         &[],
     ];
     for edit in edits {
@@ -72,18 +98,40 @@ fn kept_stages_do_not_change_results() {
         let found = outcome(&mut kept, &scene);
         let mut expected = outcome(&mut Simulation::default(), &scene);
         // Kept results are not computed again.
-        let Work { random_phases, transforms, heights_binned, .. } = found.history.work;
-        assert!([0, expected.history.work.random_phases].contains(&random_phases), "{edit:?}");
+        let Work {
+            random_phases,
+            transforms,
+            heights_binned,
+            ..
+        } = found.history.work;
+        assert!(
+            [0, expected.history.work.random_phases].contains(&random_phases),
+            "{edit:?}"
+        );
         let work = &mut expected.history.work;
         (work.random_phases, work.transforms, work.heights_binned) =
             (random_phases, transforms, heights_binned);
         assert_eq!(found, expected, "{edit:?}");
 
-        let without_preload = [found.first_touch_adhesion_force, found.zero_force_adhesion_force];
-        for (force, turn) in without_preload.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
-            let turned = scene.with(|scene| scene.loading = vec![turn, Move::ToSeparation]).unwrap();
-            let turned = outcome(&mut Simulation::default(), &turned).figures.adhesion_force;
-            assert_eq!(force, turned.filter(|_| scene.adhesion.is_some()), "{edit:?}, {turn:?}");
+        let without_preload = [
+            found.first_touch_adhesion_force,
+            found.zero_force_adhesion_force,
+        ];
+        for (force, turn) in without_preload
+            .into_iter()
+            .zip([Move::ToTouch, Move::ToZeroForce])
+        {
+            let turned = scene
+                .with(|scene| scene.loading = vec![turn, Move::ToSeparation])
+                .unwrap();
+            let turned = outcome(&mut Simulation::default(), &turned)
+                .figures
+                .adhesion_force;
+            assert_eq!(
+                force,
+                turned.filter(|_| scene.adhesion.is_some()),
+                "{edit:?}, {turn:?}"
+            );
         }
     }
 }
@@ -96,12 +144,19 @@ fn stages_are_computed_once_for_equal_inputs() {
         (&[OBSERVED], (0, 0, 1024)),
         (&[OBSERVED, KAPPA], (0, 0, 0)),
         (&[], (0, 0, 0)),
-        (&[OBSERVED, ("roughness.rms_height", "1.0e-7")], (0, 0, 1024)),
+        (
+            &[OBSERVED, ("roughness.rms_height", "1.0e-7")],
+            (0, 0, 1024),
+        ),
         (&[OBSERVED, ("roughness.seed", "2")], (64, 1, 1024)),
     ];
     for (overrides, expected) in steps {
         let work = outcome(&mut simulation, &scene(overrides)).history.work;
-        assert_eq!((work.random_phases, work.transforms, work.heights_binned), expected, "{overrides:?}");
+        assert_eq!(
+            (work.random_phases, work.transforms, work.heights_binned),
+            expected,
+            "{overrides:?}"
+        );
     }
 }
 
@@ -119,7 +174,10 @@ fn an_interrupted_run_does_not_affect_the_next() {
             Ok(found) => {
                 assert!(allowed > 2);
                 assert_eq!(found.history.legs, expected.history.legs);
-                assert_eq!(found.first_touch_adhesion_force, expected.first_touch_adhesion_force);
+                assert_eq!(
+                    found.first_touch_adhesion_force,
+                    expected.first_touch_adhesion_force
+                );
                 assert_eq!(found.histogram, expected.histogram);
                 return;
             }
@@ -129,8 +187,11 @@ fn an_interrupted_run_does_not_affect_the_next() {
 
 #[test]
 fn work_counts_match_the_snapshot() {
-    let smooth: Overrides =
-        &[("roughness", "None"), ("form", "Paraboloid(radius: 1.0e-4)"), ("adhesion", "(work: 0.05)")];
+    let smooth: Overrides = &[
+        ("roughness", "None"),
+        ("form", "Paraboloid(radius: 1.0e-4)"),
+        ("adhesion", "(work: 0.05)"),
+    ];
     let loops = (
         "loading",
         "[ToForce(2.0e-5), ToZeroForce, ToForce(1.0e-5), ToIndentation(1.0e-7), ToTouch, ToForce(3.0e-5), ToSeparation]",
@@ -148,10 +209,17 @@ fn work_counts_match_the_snapshot() {
     // The counts that are not zero.
     let counted = |(name, overrides): (&str, Overrides)| {
         let counts = serde_json::to_value(work(overrides)).unwrap();
-        let counts = counts.as_object().unwrap().iter().filter(|(_, count)| **count != 0);
+        let counts = counts
+            .as_object()
+            .unwrap()
+            .iter()
+            .filter(|(_, count)| **count != 0);
         format!(
             "{name}: {}",
-            counts.map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
+            counts
+                .map(|(name, count)| format!("{name} {count}"))
+                .collect::<Vec<_>>()
+                .join(", ")
         )
     };
     insta::assert_snapshot!(scenes.map(counted).join("\n"));

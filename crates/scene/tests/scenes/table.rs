@@ -28,7 +28,10 @@ fn scene(form: &str, length: f64) -> Document {
 
 fn text((radii, depths): &(Vec<f64>, Vec<f64>)) -> String {
     let mut text = "r [µm], f [nm]\n".to_owned();
-    radii.iter().zip(depths).for_each(|(r, f)| writeln!(text, "{:e}, {:e}", r * 1e6, f * 1e9).unwrap());
+    radii
+        .iter()
+        .zip(depths)
+        .for_each(|(r, f)| writeln!(text, "{:e}, {:e}", r * 1e6, f * 1e9).unwrap());
     text
 }
 
@@ -41,8 +44,14 @@ fn a_thousand_rows_are_their_closed_form() {
     let forms: [(&str, Depth); 5] = [
         ("Paraboloid(radius: 1e-4)", Box::new(|r| r * r / 2e-4)),
         ("Cone(angle: 0.2)", Box::new(|r| r * 0.2_f64.tan())),
-        ("Power(coefficient: 1e8, exponent: 3.0)", Box::new(|r| 1e8 * r.powi(3))),
-        ("Power(coefficient: 50.0, exponent: 1.5)", Box::new(|r| 50.0 * r.powf(1.5))),
+        (
+            "Power(coefficient: 1e8, exponent: 3.0)",
+            Box::new(|r| 1e8 * r.powi(3)),
+        ),
+        (
+            "Power(coefficient: 50.0, exponent: 1.5)",
+            Box::new(|r| 50.0 * r.powf(1.5)),
+        ),
         (
             "WavySphere(radius: 1e-4, amplitude: 2e-8, wavelength: 1e-5)",
             Box::new(|r| r * r / 2e-4 + 2e-8 * (1.0 - (std::f64::consts::TAU * r / 1e-5).cos())),
@@ -52,7 +61,9 @@ fn a_thousand_rows_are_their_closed_form() {
         std::fs::write(folder.path().join("tip.csv"), text(&rows(reach, depth))).unwrap();
         let run = |form: &str| {
             let mut simulation = Simulation::new(folder.path().to_owned());
-            simulation.compute(scene(form, 2.0 * reach).scene()).unwrap()
+            simulation
+                .compute(scene(form, 2.0 * reach).scene())
+                .unwrap()
         };
         let [exact, table] = [form, "Table(file: \"tip.csv\")"].map(run);
         let pull_off = |outcome: &Outcome| outcome.figures.adhesion_force.unwrap();
@@ -67,12 +78,15 @@ fn a_thousand_rows_are_their_closed_form() {
             }
         }
         if !form.starts_with("Wavy") {
-            let smooth = table.smooth_adhesion_force.unwrap() / exact.smooth_adhesion_force.unwrap();
+            let smooth =
+                table.smooth_adhesion_force.unwrap() / exact.smooth_adhesion_force.unwrap();
             assert!((smooth - 1.0).abs() < 1e-4, "{form}: F_smooth {smooth}");
         }
         let number = [&exact, &table].map(|outcome| outcome.tabor_number);
         match (number, form.starts_with("Power")) {
-            ([Some(one), Some(other)], _) => assert!((other / one - 1.0).abs() < 1e-2, "{form}: {number:?}"),
+            ([Some(one), Some(other)], _) => {
+                assert!((other / one - 1.0).abs() < 1e-2, "{form}: {number:?}")
+            }
             ([one, other], is_power) => assert!(one == other || is_power, "{form}: {number:?}"),
         }
     }
@@ -87,25 +101,48 @@ fn a_table_without_a_file_or_too_short_is_refused() {
         let mut simulation = Simulation::new(folder.path().to_owned());
         let outcome = simulation.compute(scene(form, 1e-4).scene());
         match outcome {
-            Err(RunError::Surface(error)) if error.field() == Some("form.file") => error.to_string(),
+            Err(RunError::Surface(error)) if error.field() == Some("form.file") => {
+                error.to_string()
+            }
             other => panic!("{other:?}"),
         }
     };
     let form = "Table(file: \"tip.csv\")";
     assert!(run(form).contains("tip.csv") || !run(form).is_empty());
     for (text, said) in [
-        ("1e-6 0\n2e-6 1e-9", "point 1: r = 1e-6 m; allowed: r = 0, the axis of the body, in the first row"),
-        ("0 0\n2e-6 1e-9\n1e-6 2e-9", "line 3: x = 1e-6 after 2e-6; allowed: ascending positions, as before"),
+        (
+            "1e-6 0\n2e-6 1e-9",
+            "point 1: r = 1e-6 m; allowed: r = 0, the axis of the body, in the first row",
+        ),
+        (
+            "0 0\n2e-6 1e-9\n1e-6 2e-9",
+            "line 3: x = 1e-6 after 2e-6; allowed: ascending positions, as before",
+        ),
         ("0 0", "1 points; allowed: from 2 to "),
         (
             "0 0\n1e-6 1e-9\n1.0000000000001e-6 1.0000001e-9\n6e-5 2e-9",
             "point 3: r = 1.0000000000001e-6 m after 1e-6 m; allowed: ",
         ),
-        ("0 0\n1e-6 NaN\n2e-6 1e-9", "point 2: the depth is missing; allowed: a number in each row"),
-        ("0 NaN\n1e-6 0\n2e-6 1e-9", "point 1: the depth is missing; allowed: a number in each row"),
-        ("0 0\n1e-6 1e-9\n2e-6 NaN", "point 3: the depth is missing; allowed: a number in each row"),
-        ("0 0\n1e-6 what\n2e-6 1e-9", "line 2: \"what\"; allowed: a number"),
-        ("0 0\n1e-6 1e-9\n2e-6 4e-9", "the table ends at r = 2e-6 m; allowed: length at most 4e-6 m"),
+        (
+            "0 0\n1e-6 NaN\n2e-6 1e-9",
+            "point 2: the depth is missing; allowed: a number in each row",
+        ),
+        (
+            "0 NaN\n1e-6 0\n2e-6 1e-9",
+            "point 1: the depth is missing; allowed: a number in each row",
+        ),
+        (
+            "0 0\n1e-6 1e-9\n2e-6 NaN",
+            "point 3: the depth is missing; allowed: a number in each row",
+        ),
+        (
+            "0 0\n1e-6 what\n2e-6 1e-9",
+            "line 2: \"what\"; allowed: a number",
+        ),
+        (
+            "0 0\n1e-6 1e-9\n2e-6 4e-9",
+            "the table ends at r = 2e-6 m; allowed: length at most 4e-6 m",
+        ),
     ] {
         write(text);
         assert!(run(form).contains(said), "{text}: {}", run(form));
@@ -119,26 +156,34 @@ fn a_table_without_a_file_or_too_short_is_refused() {
 type Precise = FBig<HalfEven, 2>;
 
 fn precise(value: f64) -> Precise {
-    Precise::try_from(value).unwrap().with_precision(170).value()
+    Precise::try_from(value)
+        .unwrap()
+        .with_precision(170)
+        .value()
 }
 
 /// Nodes and weights of Gauss-Legendre quadrature in (−1, 1).
 fn quadrature(count: usize) -> Vec<(Precise, Precise)> {
     let one = precise(1.0);
     let node = |index: usize| {
-        let mut x = precise((std::f64::consts::PI * (index as f64 + 0.75) / (count as f64 + 0.5)).cos());
+        let mut x =
+            precise((std::f64::consts::PI * (index as f64 + 0.75) / (count as f64 + 0.5)).cos());
         let mut slope = one.clone();
         for _ in 0..6 {
             let (mut before, mut value) = (one.clone(), x.clone());
             for k in 2..=count {
-                let next = (precise(2.0 * k as f64 - 1.0) * &x * &value - precise(k as f64 - 1.0) * &before)
+                let next = (precise(2.0 * k as f64 - 1.0) * &x * &value
+                    - precise(k as f64 - 1.0) * &before)
                     / precise(k as f64);
                 (before, value) = (value, next);
             }
             slope = precise(count as f64) * (&x * &value - &before) / (&x * &x - &one);
             x = &x - &value / &slope;
         }
-        (x.clone(), precise(2.0) / ((&one - &x * &x) * &slope * &slope))
+        (
+            x.clone(),
+            precise(2.0) / ((&one - &x * &x) * &slope * &slope),
+        )
     };
     (0..count).map(node).collect()
 }
@@ -169,7 +214,10 @@ fn stated_depth(radii: &[f64], depths: &[f64], x: f64, rule: &[(Precise, Precise
                     * (precise(radii[row]) - middle(one))
         };
         let beside = [&secants[row.saturating_sub(1)], &secants[row.min(last)]];
-        if beside.iter().any(|secant| *secant * &parabola <= Precise::ZERO) {
+        if beside
+            .iter()
+            .any(|secant| *secant * &parabola <= Precise::ZERO)
+        {
             return Precise::ZERO;
         }
         let most = precise(3.0)
@@ -189,13 +237,21 @@ fn stated_depth(radii: &[f64], depths: &[f64], x: f64, rule: &[(Precise, Precise
     let tangent = |r: &Precise| r / (&at + (&at * &at - r * r).sqrt());
     let mut sum = Precise::ZERO;
     for gap in 0..secants.len() {
-        let (from, is_last) = (precise(radii[gap]), gap + 1 == secants.len() || radii[gap + 1] >= x);
+        let (from, is_last) = (
+            precise(radii[gap]),
+            gap + 1 == secants.len() || radii[gap + 1] >= x,
+        );
         if radii[gap] >= x {
             break;
         }
-        let to = if is_last { at.clone() } else { precise(radii[gap + 1]) };
+        let to = if is_last {
+            at.clone()
+        } else {
+            precise(radii[gap + 1])
+        };
         let (width, [low, high]) = (width(gap), [slope(gap), slope(gap + 1)]);
-        let bend = (precise(6.0) * &secants[gap] - precise(4.0) * &low - precise(2.0) * &high) / &width;
+        let bend =
+            (precise(6.0) * &secants[gap] - precise(4.0) * &low - precise(2.0) * &high) / &width;
         let twist = precise(3.0) * (&low + &high - precise(2.0) * &secants[gap]) / &width / &width;
         let [start, end] = [&from, &to].map(tangent);
         let half = (&end - &start) / &two;
@@ -223,28 +279,49 @@ fn nasty_tables() -> Vec<(Vec<f64>, Vec<f64>)> {
         radii.sort_by(f64::total_cmp);
         radii
     };
-    let wall = |close: f64| (vec![0.0, 0.2, 0.2 + close, 0.5, 1.0], vec![0.0, 0.0, 0.05, 0.06, 0.07]);
+    let wall = |close: f64| {
+        (
+            vec![0.0, 0.2, 0.2 + close, 0.5, 1.0],
+            vec![0.0, 0.0, 0.05, 0.06, 0.07],
+        )
+    };
     let mut noise = 1_u64;
     let mut random = move || {
-        noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        noise = noise
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (noise >> 11) as f64 / (1_u64 << 53) as f64
     };
-    let mut tables: Vec<_> = [1e-2, 1e-4, 1e-6, 1e-8, 2e-9].map(|close| of(beside(close), &flat_end)).into();
+    let mut tables: Vec<_> = [1e-2, 1e-4, 1e-6, 1e-8, 2e-9]
+        .map(|close| of(beside(close), &flat_end))
+        .into();
     tables.extend([1e-3, 1e-5, 1e-7, 1.1e-9].map(wall));
     tables.extend([0.0, 1e-3, 0.1].map(|size| {
         let radii: Vec<f64> = even(30).collect();
-        let depths = radii.iter().map(|r| 0.5 * r * r + size * random()).collect();
+        let depths = radii
+            .iter()
+            .map(|r| 0.5 * r * r + size * random())
+            .collect();
         (radii, depths)
     }));
     tables.extend((0..4).map(|_| {
-        let mut radii: Vec<f64> = (0..20).map(|_| random().powi(6)).chain([0.0, 1.0]).collect();
+        let mut radii: Vec<f64> = (0..20)
+            .map(|_| random().powi(6))
+            .chain([0.0, 1.0])
+            .collect();
         radii.sort_by(f64::total_cmp);
         radii.dedup_by(|next, row| *next - *row < 1e-9);
         of(radii, &|r| (1e3 * r).floor() * 1e-3)
     }));
     let saw = |r: f64| r + 0.2 * (10.0 * r).fract();
-    tables.extend([of(even(64).collect(), &saw), of(even(11).collect(), &|r| -0.1 * r * r)]);
-    tables.extend([(vec![0.0, 1.0], vec![0.0, 0.3]), (vec![0.0, 1e-8, 1.0], vec![0.0, 1e-3, 1e-3])]);
+    tables.extend([
+        of(even(64).collect(), &saw),
+        of(even(11).collect(), &|r| -0.1 * r * r),
+    ]);
+    tables.extend([
+        (vec![0.0, 1.0], vec![0.0, 0.3]),
+        (vec![0.0, 1e-8, 1.0], vec![0.0, 1e-3, 1e-3]),
+    ]);
     let squares = || even(40).map(|share| share * share).collect::<Vec<_>>();
     let bodies: [&dyn Fn(f64) -> f64; 10] = [
         &|r| 0.5 * r * r,
@@ -272,12 +349,19 @@ fn tables_of_any_kind_have_the_profile_of_their_interpolant() {
     for (number, (radii, depths)) in tables.iter().enumerate() {
         let table = FormTable::new(radii.clone(), depths).unwrap();
         let count = 1 << 12;
-        let found = table.depths(1.0 / f64::from(count), count as usize + 1).unwrap();
-        let largest = found.iter().fold(0.0_f64, |most, depth| most.max(depth.abs()));
+        let found = table
+            .depths(1.0 / f64::from(count), count as usize + 1)
+            .unwrap();
+        let largest = found
+            .iter()
+            .fold(0.0_f64, |most, depth| most.max(depth.abs()));
         for place in [37, 819, 820, 821, 2000, count] {
             let expected = stated_depth(radii, depths, f64::from(place) / f64::from(count), &rule);
             let error = (found[place as usize] - expected).abs() / largest.max(1e-300);
-            assert!(error < 1e-12, "table {number} at {place}: {error:e} of {largest}");
+            assert!(
+                error < 1e-12,
+                "table {number} at {place}: {error:e} of {largest}"
+            );
         }
     }
     let falls = |depth: &dyn Fn(f64) -> f64| {
@@ -295,7 +379,9 @@ fn tips_with_edges_have_their_own_forces() {
     let run = |rows: &str, force: f64| {
         std::fs::write(folder.path().join("tip.csv"), rows).unwrap();
         let document = scene("Table(file: \"tip.csv\")", 1e-4);
-        let document = document.set("loading", &format!("[ToForce({force:e}), ToSeparation]")).unwrap();
+        let document = document
+            .set("loading", &format!("[ToForce({force:e}), ToSeparation]"))
+            .unwrap();
         let mut simulation = Simulation::new(folder.path().to_owned());
         simulation.compute(document.scene()).unwrap()
     };
@@ -305,11 +391,17 @@ fn tips_with_edges_have_their_own_forces() {
     let share = punch.figures.adhesion_force.unwrap() / kendall;
     assert!((share - 1.0).abs() < 5e-3, "{share}");
     // Beyond the edge the profile is b h/√(x² − b²) deep, nowhere above the end.
-    assert!(punch.line.summit == 0.0 && punch.line.deepest < 1e-4, "{:?}", punch.line);
+    assert!(
+        punch.line.summit == 0.0 && punch.line.deepest < 1e-4,
+        "{:?}",
+        punch.line
+    );
     // A flat end of 10 µm goes over into a cone; rows 1 pm beside the corner.
     let corner = |close: f64| {
-        let mut rows: Vec<f64> =
-            (0..=200).map(|row| 5e-5 * f64::from(row) / 200.0).chain([1e-5 - close, 1e-5 + close]).collect();
+        let mut rows: Vec<f64> = (0..=200)
+            .map(|row| 5e-5 * f64::from(row) / 200.0)
+            .chain([1e-5 - close, 1e-5 + close])
+            .collect();
         rows.sort_by(f64::total_cmp);
         let line = |r: &f64| format!("{r:e},{:e}\n", 0.3 * (r - 1e-5).max(0.0));
         run(&rows.iter().map(line).collect::<String>(), 1e-4)
@@ -318,7 +410,13 @@ fn tips_with_edges_have_their_own_forces() {
     for outcome in [&close, &wide] {
         // g = 0.3 x arccos(b/x): F_n and pull-off of the closed form, on a fine grid of contact radii.
         let (b, modulus, work) = (1e-5, 1e6, 0.05);
-        let profile = |x: f64| if x <= b { 0.0 } else { 0.3 * x * (b / x).acos() };
+        let profile = |x: f64| {
+            if x <= b {
+                0.0
+            } else {
+                0.3 * x * (b / x).acos()
+            }
+        };
         let (mut area, step) = (0.0, 5e-10);
         let (mut least, mut pressed) = (0.0_f64, 0.0);
         for k in 1..=100_000 {
@@ -332,8 +430,14 @@ fn tips_with_edges_have_their_own_forces() {
             }
         }
         let figures = outcome.figures;
-        assert!((figures.adhesion_force.unwrap() / -least - 1.0).abs() < 2e-3, "{figures:?} {least}");
-        assert!((figures.preload_indentation.unwrap() / pressed - 1.0).abs() < 1e-3, "{figures:?} {pressed}");
+        assert!(
+            (figures.adhesion_force.unwrap() / -least - 1.0).abs() < 2e-3,
+            "{figures:?} {least}"
+        );
+        assert!(
+            (figures.preload_indentation.unwrap() / pressed - 1.0).abs() < 1e-3,
+            "{figures:?} {pressed}"
+        );
         assert!((outcome.smooth_adhesion_force.unwrap() / -least - 1.0).abs() < 2e-3);
     }
 }

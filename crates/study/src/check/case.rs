@@ -45,7 +45,15 @@ impl Case {
         bounds: &'static [(Edges, f64)],
         subject: Subject,
     ) -> Case {
-        Case { name, family, holds, evidence, error_of, bounds, subject }
+        Case {
+            name,
+            family,
+            holds,
+            evidence,
+            error_of,
+            bounds,
+            subject,
+        }
     }
 }
 
@@ -55,7 +63,10 @@ pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
 }
 
 pub(super) fn with(scene: &CheckedScene, path: &str, value: f64) -> Measured<CheckedScene> {
-    Ok(Document::from_scene(scene, "check")?.set(path, &format!("{value:e}"))?.scene().clone())
+    Ok(Document::from_scene(scene, "check")?
+        .set(path, &format!("{value:e}"))?
+        .scene()
+        .clone())
 }
 
 pub(super) fn outcome(scene: &CheckedScene) -> Measured<Outcome> {
@@ -78,7 +89,11 @@ pub(super) fn relative_errors<const N: usize>(pairs: [(f64, f64); N]) -> Measure
 pub(super) fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
     errors.into_iter().try_fold(0.0, |most: f64, error| {
         let error = error?;
-        Ok(if error.is_nan() { f64::INFINITY } else { most.max(error) })
+        Ok(if error.is_nan() {
+            f64::INFINITY
+        } else {
+            most.max(error)
+        })
     })
 }
 
@@ -121,20 +136,30 @@ impl Body {
                     roll_off_mode: 0.0,
                 };
                 let heights = spectrum.heights(seed, points)?;
-                Line::new(LENGTH, points, None, Some(&heights), HEIGHT)?.heights().collect()
+                Line::new(LENGTH, points, None, Some(&heights), HEIGHT)?
+                    .heights()
+                    .collect()
             }
             1 => (0..points).map(|_| HEIGHT * next()).collect(),
-            _ => (0..points).map(|_| 0.25 * HEIGHT * (5.0 * next()).floor()).collect(),
+            _ => (0..points)
+                .map(|_| 0.25 * HEIGHT * (5.0 * next()).floor())
+                .collect(),
         };
-        Ok(Body { heights, length: LENGTH, modulus: MODULUS, work, edges })
+        Ok(Body {
+            heights,
+            length: LENGTH,
+            modulus: MODULUS,
+            work,
+            edges,
+        })
     }
 
     /// Returns the height difference between the lowest and the highest point of the profile, m.
     pub fn depth(&self) -> f64 {
-        let (least, most) =
-            self.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
-                (height.min(least), height.max(most))
-            });
+        let (least, most) = self.heights.iter().fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(least, most), height| (height.min(least), height.max(most)),
+        );
         most - least
     }
 
@@ -150,7 +175,10 @@ impl Body {
 
     /// Returns irregular indentations in m, from just before separation to full contact, as turning points.
     pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
-        let (low, high) = (-0.9 * self.stretch(), 1.1 * self.depth() + 1e-3 * self.stretch());
+        let (low, high) = (
+            -0.9 * self.stretch(),
+            1.1 * self.depth() + 1e-3 * self.stretch(),
+        );
         let mut turns = phases(seed, 1).map(|phase| low + (high - low) * phase / TAU);
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
@@ -159,11 +187,18 @@ impl Body {
     /// `samples` is the number of points in the curve of each stage.
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
-        let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();
-        let profile =
-            Profile::from_heights(self.heights.as_slice(), self.length / self.heights.len() as f64)?;
+        let legs: Vec<Move> = turns
+            .chain(separates.then_some(Move::ToSeparation))
+            .collect();
+        let profile = Profile::from_heights(
+            self.heights.as_slice(),
+            self.length / self.heights.len() as f64,
+        )?;
         let contact = Contact::builder(&profile, Modulus::effective(self.modulus)?);
-        let contact = contact.work_of_adhesion(self.work).edges(self.edges).build()?;
+        let contact = contact
+            .work_of_adhesion(self.work)
+            .edges(self.edges)
+            .build()?;
         Ok(contact.load_with(&legs, LoadOptions::default().samples(samples))?)
     }
 }

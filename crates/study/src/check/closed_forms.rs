@@ -17,7 +17,8 @@ const HERTZ: &str =
 const SPHERE: &str =
     "(version: 1, material: (effective_modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5),
     adhesion: (work: 0.5), loading: [ToIndentation(0.75), ToSeparation], numerics: (points: 4001))";
-const CONE: &str = "(version: 1, material: (effective_modulus: 1.0), length: 8.0, form: Cone(angle: 1.0),
+const CONE: &str =
+    "(version: 1, material: (effective_modulus: 1.0), length: 8.0, form: Cone(angle: 1.0),
     adhesion: (work: 0.5), loading: [ToIndentation(2.0), ToSeparation], numerics: (points: 4001))";
 const FLAT: &str =
     "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, adhesion: (work: 2.0e-5),
@@ -41,9 +42,15 @@ pub const CASES: &[Case] = &[
 ];
 
 fn power_law(scene: &CheckedScene) -> Measured<ClosedForm> {
-    let work = scene.adhesion.and_then(|adhesion| adhesion.work()).unwrap_or(0.0);
+    let work = scene
+        .adhesion
+        .and_then(|adhesion| adhesion.work())
+        .unwrap_or(0.0);
     let modulus = scene.material.effective_modulus();
-    let closed = scene.form.as_ref().and_then(|form| closed_form(form, modulus, work));
+    let closed = scene
+        .form
+        .as_ref()
+        .and_then(|form| closed_form(form, modulus, work));
     Ok(closed.ok_or("no closed form")?)
 }
 
@@ -51,7 +58,10 @@ fn hertz(scene: &CheckedScene) -> Measured {
     let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
     let force = |d: f64| closed.force((d / closed.line_coefficient).powf(closed.exponent.recip()));
     let leg = &outcome.history.legs[0];
-    let errors = leg.curve.iter().map(|point| (point.force - force(point.indentation)).abs());
+    let errors = leg
+        .curve
+        .iter()
+        .map(|point| (point.force - force(point.indentation)).abs());
     Ok(errors.fold(0.0, f64::max) / force(leg.end()))
 }
 
@@ -64,19 +74,28 @@ fn pull_off(scene: &CheckedScene) -> Measured {
 }
 
 fn flat(scene: &CheckedScene) -> Measured {
-    let width = scene.form.as_ref().and_then(Form::flat_end).map_or(scene.length, |radius| 2.0 * radius);
+    let width = scene
+        .form
+        .as_ref()
+        .and_then(Form::flat_end)
+        .map_or(scene.length, |radius| 2.0 * radius);
     largest([5, 1000, 100_000].map(|points| {
         let outcome = outcome(&scene.with(|scene| scene.numerics.points = points)?)?;
         let stiffness = outcome.governing.effective_modulus * width;
         let work = outcome.governing.adhesive_work().unwrap_or(0.0);
         let place = -(PI * width * work / outcome.governing.effective_modulus).sqrt();
-        let [loading, unloading] = &outcome.history.legs[..] else { return Ok(f64::NAN) };
+        let [loading, unloading] = &outcome.history.legs[..] else {
+            return Ok(f64::NAN);
+        };
         relative_errors([
             (loading.largest.force, stiffness * loading.end()),
             (unloading.smallest.force, stiffness * place),
             (unloading.smallest.indentation, place),
             (unloading.end(), place),
-            (outcome.figures.dissipated_energy.unwrap_or(0.0), 0.5 * stiffness * place * place),
+            (
+                outcome.figures.dissipated_energy.unwrap_or(0.0),
+                0.5 * stiffness * place * place,
+            ),
         ])
     }))
 }

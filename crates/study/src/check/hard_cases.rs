@@ -2,7 +2,8 @@
 
 use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
-    Body, CLOSED_FORM, Case, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, relative_error, with,
+    Body, CLOSED_FORM, Case, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome,
+    relative_error, with,
 };
 use super::laws::{end, only_scales};
 use asperity_contact::Move;
@@ -36,10 +37,17 @@ fn full_contact(outcome: &Outcome, indentation: f64) -> f64 {
 
 fn near_ties(body: &Body) -> Measured {
     // A few units in the last place of each height.
-    let jitter = |(height, phase): (&f64, f64)| height * (1.0 + f64::EPSILON * (phase - PI).round());
-    let near = Body { heights: body.heights.iter().zip(phases(9, 1)).map(jitter).collect(), ..body.clone() };
+    let jitter =
+        |(height, phase): (&f64, f64)| height * (1.0 + f64::EPSILON * (phase - PI).round());
+    let near = Body {
+        heights: body.heights.iter().zip(phases(9, 1)).map(jitter).collect(),
+        ..body.clone()
+    };
     largest([0.0, 0.01, 1.0].map(|share| {
-        let [one, other] = [body, &near].map(|body| Body { work: share * body.work, ..body.clone() });
+        let [one, other] = [body, &near].map(|body| Body {
+            work: share * body.work,
+            ..body.clone()
+        });
         let far = [1.037, 100.0].map(|share| share * (body.depth() + body.stretch()));
         let turns = [&far[..], &body.turns::<8>(16)].concat();
         let (exact, near) = (one.load(&turns, false, 2)?, other.load(&turns, false, 2)?);
@@ -53,26 +61,47 @@ fn near_ties(body: &Body) -> Measured {
 fn heights_of_any_size(body: &Body) -> Measured {
     let of = |powers: [i32; 4]| powers.map(|power| [0, power, 0]);
     // A modulus of 1 Pa keeps γ within its range.
-    only_scales(&Body { modulus: 1.0, work: 0.5e-6 * body.work, ..body.clone() }, &of([-400, -200, 10, 23]))?;
-    only_scales(&Body { work: 0.0, ..body.clone() }, &of([-850, -500, 20, 39]))
+    only_scales(
+        &Body {
+            modulus: 1.0,
+            work: 0.5e-6 * body.work,
+            ..body.clone()
+        },
+        &of([-400, -200, 10, 23]),
+    )?;
+    only_scales(
+        &Body {
+            work: 0.0,
+            ..body.clone()
+        },
+        &of([-850, -500, 20, 39]),
+    )
 }
 
 /// Presses a scene to large indentations and to the forces found there. Returns the largest error of a force, in units of
 /// its change by one rounding of the indentation.
 fn far_loads(scene: &CheckedScene) -> Measured {
-    let (depth, bare) = (outcome(scene)?.line.deepest, with(scene, "adhesion.work", 0.0)?);
-    largest((0..=20).flat_map(|power| [scene, &bare].map(|scene| (scene, 10.0_f64.powi(power) * depth))).map(
-        |(scene, load)| {
-            let pressed = |target| outcome(&scene.with(|scene| scene.loading = vec![target])?);
-            let there = pressed(Move::ToIndentation(load))?;
-            let (expected, there) = (full_contact(&there, load), end(&there.history.legs[0]));
-            let again = end(&pressed(Move::ToForce(there.force))?.history.legs[0]);
-            let is_whole = relative_error(there.contact_length, scene.length) <= 2.0 * f64::EPSILON;
-            ensure(is_whole, || format!("{:e} m in contact at {load:e} m", there.contact_length))?;
-            let stiffness = scene.material.effective_modulus() * scene.length;
-            let rounding = stiffness * (load - load.next_down()) + f64::EPSILON * there.force;
-            let errors = [there.force - expected, again.force - there.force];
-            largest(errors.map(|error| Ok(error.abs() / rounding)))
-        },
-    ))
+    let (depth, bare) = (
+        outcome(scene)?.line.deepest,
+        with(scene, "adhesion.work", 0.0)?,
+    );
+    largest(
+        (0..=20)
+            .flat_map(|power| [scene, &bare].map(|scene| (scene, 10.0_f64.powi(power) * depth)))
+            .map(|(scene, load)| {
+                let pressed = |target| outcome(&scene.with(|scene| scene.loading = vec![target])?);
+                let there = pressed(Move::ToIndentation(load))?;
+                let (expected, there) = (full_contact(&there, load), end(&there.history.legs[0]));
+                let again = end(&pressed(Move::ToForce(there.force))?.history.legs[0]);
+                let is_whole =
+                    relative_error(there.contact_length, scene.length) <= 2.0 * f64::EPSILON;
+                ensure(is_whole, || {
+                    format!("{:e} m in contact at {load:e} m", there.contact_length)
+                })?;
+                let stiffness = scene.material.effective_modulus() * scene.length;
+                let rounding = stiffness * (load - load.next_down()) + f64::EPSILON * there.force;
+                let errors = [there.force - expected, again.force - there.force];
+                largest(errors.map(|error| Ok(error.abs() / rounding)))
+            }),
+    )
 }

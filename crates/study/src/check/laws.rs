@@ -37,16 +37,34 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
 }
 
 fn no_adhesion(body: &Body) -> Measured {
-    let cycle = Body { work: 0.0, ..body.clone() }.load(&[0.8 * body.depth()], true, 301)?;
-    let [loading, unloading] = cycle.stages() else { return Ok(f64::NAN) };
+    let cycle = Body {
+        work: 0.0,
+        ..body.clone()
+    }
+    .load(&[0.8 * body.depth()], true, 301)?;
+    let [loading, unloading] = cycle.stages() else {
+        return Ok(f64::NAN);
+    };
     let is_lossless = cycle.stages().iter().all(|leg| leg.released_energy == 0.0);
     ensure(is_lossless, || "energy is lost".into())?;
-    ensure(loading.curve.len() == unloading.curve.len(), || "other points on the way back".into())?;
-    largest(loading.curve.iter().zip(unloading.curve.iter().rev()).map(|(one, other)| {
-        let place = |point: &CurvePoint| (point.indentation.to_bits(), point.springs, point.fragments);
-        ensure(place(one) == place(other), || format!("at {:e} m another contact", one.indentation))?;
-        Ok((one.force - other.force).abs() / loading.largest.force)
-    }))
+    ensure(loading.curve.len() == unloading.curve.len(), || {
+        "other points on the way back".into()
+    })?;
+    largest(
+        loading
+            .curve
+            .iter()
+            .zip(unloading.curve.iter().rev())
+            .map(|(one, other)| {
+                let place = |point: &CurvePoint| {
+                    (point.indentation.to_bits(), point.springs, point.fragments)
+                };
+                ensure(place(one) == place(other), || {
+                    format!("at {:e} m another contact", one.indentation)
+                })?;
+                Ok((one.force - other.force).abs() / loading.largest.force)
+            }),
+    )
 }
 
 fn memory(body: &Body) -> Measured {
@@ -56,11 +74,16 @@ fn memory(body: &Body) -> Measured {
     let pairs: [(&[f64], &[f64]); 3] = [
         (&[high], &[middle, low, middle, high]),
         (&[high, low], &[high, low, middle, low]),
-        (&[high, low, middle], &[high, middle, high, low, middle, low, middle]),
+        (
+            &[high, low, middle],
+            &[high, middle, high, low, middle, low, middle],
+        ),
     ];
     largest(pairs.map(|(short, long)| {
         let (one, other) = (body.load(short, false, 2)?, body.load(long, false, 2)?);
-        ensure(one.patches() == other.patches(), || format!("{long:?} leaves another contact"))?;
+        ensure(one.patches() == other.patches(), || {
+            format!("{long:?} leaves another contact")
+        })?;
         let force = |legs: &[LegRecord]| legs.last().map_or(f64::NAN, |leg| end(leg).force);
         Ok((force(one.stages()) - force(other.stages())).abs() / body.force_unit())
     }))
@@ -80,7 +103,12 @@ fn energy(body: &Body) -> Measured {
     let trapezium = |pair: &[CurvePoint]| {
         0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
     };
-    let done: f64 = cycle.stages().iter().flat_map(|leg| leg.curve.windows(2)).map(trapezium).sum();
+    let done: f64 = cycle
+        .stages()
+        .iter()
+        .flat_map(|leg| leg.curve.windows(2))
+        .map(trapezium)
+        .sum();
     Ok((lost(cycle.stages()) - done).abs() / scale)
 }
 
@@ -91,10 +119,16 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let one = body.load(&turns, false, 33)?;
     // The sum with 0 makes −0 the same as 0.
     let bits = |cycle: &Cycle, height: f64, force: f64| -> Vec<_> {
-        let points =
-            cycle.points().map(|point| ([point.indentation * height, point.force * force], point.springs));
-        let lost =
-            cycle.stages().iter().map(|leg| ([leg.released_energy * force * height, 0.0], leg.detached));
+        let points = cycle.points().map(|point| {
+            (
+                [point.indentation * height, point.force * force],
+                point.springs,
+            )
+        });
+        let lost = cycle
+            .stages()
+            .iter()
+            .map(|leg| ([leg.released_energy * force * height, 0.0], leg.detached));
         points
             .chain(lost)
             .map(|(values, springs)| (values.map(|value| (value + 0.0).to_bits()), springs))
@@ -112,7 +146,9 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
         };
         let cycle = other.load(&turns.map(|turn| height * turn), false, 33)?;
         let is_same = bits(&one, height, length * height * stress) == bits(&cycle, 1.0, 1.0);
-        ensure(is_same, || format!("2 to the powers {factors:?}: other bits"))?;
+        ensure(is_same, || {
+            format!("2 to the powers {factors:?}: other bits")
+        })?;
     }
     Ok(0.0)
 }
@@ -120,18 +156,42 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
 fn units(body: &Body) -> Measured {
     only_scales(
         body,
-        &[[-15, 0, 0], [16, 0, 0], [-15, -15, 0], [16, 16, 0], [0, 0, -20], [0, 0, 22], [7, -9, 5]],
+        &[
+            [-15, 0, 0],
+            [16, 0, 0],
+            [-15, -15, 0],
+            [16, 16, 0],
+            [0, 0, -20],
+            [0, 0, 22],
+            [7, -9, 5],
+        ],
     )
 }
 
 fn stepwise(scene: &CheckedScene) -> Measured {
-    largest([0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3].into_iter().zip(1..).map(|(work, tenths)| {
-        let scene = with(&with(scene, "adhesion.work", work)?, "roughness.hurst", 0.1 * f64::from(tenths))?;
-        let exact = outcome(&scene)?;
-        let steps = outcome(&scene.with(|scene| scene.numerics.solver = Solver::Stepwise { step: 1.0e-8 })?)?;
-        ensure(exact.fragments == steps.fragments, || format!("γ = {work:e} J/m²: another contact"))?;
-        let unit = exact.governing.effective_modulus * scene.length * exact.line.deepest;
-        let legs = exact.history.legs.iter().zip(&steps.history.legs);
-        largest(legs.map(|(one, other)| Ok((end(one).force - end(other).force).abs() / unit)))
-    }))
+    largest(
+        [0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3]
+            .into_iter()
+            .zip(1..)
+            .map(|(work, tenths)| {
+                let scene = with(
+                    &with(scene, "adhesion.work", work)?,
+                    "roughness.hurst",
+                    0.1 * f64::from(tenths),
+                )?;
+                let exact = outcome(&scene)?;
+                let steps =
+                    outcome(&scene.with(|scene| {
+                        scene.numerics.solver = Solver::Stepwise { step: 1.0e-8 }
+                    })?)?;
+                ensure(exact.fragments == steps.fragments, || {
+                    format!("γ = {work:e} J/m²: another contact")
+                })?;
+                let unit = exact.governing.effective_modulus * scene.length * exact.line.deepest;
+                let legs = exact.history.legs.iter().zip(&steps.history.legs);
+                largest(
+                    legs.map(|(one, other)| Ok((end(one).force - end(other).force).abs() / unit)),
+                )
+            }),
+    )
 }

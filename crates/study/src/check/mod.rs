@@ -36,8 +36,16 @@ impl Check {
     /// assert!(verdicts.iter().all(|verdict| verdict.passes()));
     /// ```
     pub fn of(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
-        let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
-        Case::all().into_iter().filter(|case| choose(case)).flat_map(of).collect()
+        let of = |case: Case| {
+            case.bounds
+                .iter()
+                .map(move |&(edges, bound)| Check { case, edges, bound })
+        };
+        Case::all()
+            .into_iter()
+            .filter(|case| choose(case))
+            .flat_map(of)
+            .collect()
     }
 
     /// Computes the case, and the error of the quantity that [`Case::error_of`] names.
@@ -79,12 +87,16 @@ impl Verdict {
     /// Returns true if the error was measured and is at most [`Check::bound`].
     pub fn passes(&self) -> bool {
         // NaN is not within any bound.
-        self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
+        self.error
+            .as_ref()
+            .is_ok_and(|&error| error <= self.check.bound)
     }
 }
 
 fn scene(text: &str, edges: Edges) -> Measured<CheckedScene> {
-    Ok(Document::parse(text, "check")?.scene().with(|scene| scene.numerics.edges = edges)?)
+    Ok(Document::parse(text, "check")?
+        .scene()
+        .with(|scene| scene.numerics.edges = edges)?)
 }
 
 #[cfg(test)]
@@ -99,7 +111,11 @@ mod tests {
         names.dedup();
         assert_eq!(names.len(), count);
         for case in Case::all() {
-            assert!(case.holds.ends_with('.') && !case.holds.contains("  "), "{}", case.holds);
+            assert!(
+                case.holds.ends_with('.') && !case.holds.contains("  "),
+                "{}",
+                case.holds
+            );
             assert!(!case.bounds.is_empty(), "{}", case.name);
         }
         assert!(Check::of(|_| true).iter().all(|check| check.bound >= 0.0));
@@ -109,8 +125,18 @@ mod tests {
     fn an_error_above_the_bound_fails() {
         let check = Check::of(|case| case.name == "hertz-sphere")[0];
         assert!(Check::judge(check).passes());
-        assert!(!Check::judge(Check { bound: 1e-12, ..check }).passes());
-        let nothing = Verdict { check, error: Ok(f64::NAN), seconds: 0.0 };
+        assert!(
+            !Check::judge(Check {
+                bound: 1e-12,
+                ..check
+            })
+            .passes()
+        );
+        let nothing = Verdict {
+            check,
+            error: Ok(f64::NAN),
+            seconds: 0.0,
+        };
         assert!(!nothing.passes());
     }
 }

@@ -35,7 +35,9 @@ pub struct EquivalentLine {
 
 impl From<&Analysis> for EquivalentLine {
     fn from(face: &Analysis) -> Self {
-        EquivalentLine { faces: vec![face.isotropic.clone()] }
+        EquivalentLine {
+            faces: vec![face.isotropic.clone()],
+        }
     }
 }
 
@@ -45,8 +47,12 @@ impl EquivalentLine {
     /// # Errors
     /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
-        let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
-        Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
+        let spectra = faces
+            .iter()
+            .map(|face| Ok(options.analyse(face)?.isotropic));
+        Ok(EquivalentLine {
+            faces: spectra.collect::<Result<_, SurfaceError>>()?,
+        })
     }
 
     /// Computes the heights in m of a random profile of this length in m, at the middles of `points` equal cells. The seed
@@ -56,7 +62,9 @@ impl EquivalentLine {
     /// Returns an error if no wave of the spectrum fits the length and is resolved by the points, or if the memory is too
     /// small.
     pub fn heights(&self, length: f64, points: usize, seed: u64) -> Result<Vec<f64>, SurfaceError> {
-        let (modes, of_mode) = (self.modes(length, points)?, |mode: u64| self.amplitude(mode, length));
+        let (modes, of_mode) = (self.modes(length, points)?, |mode: u64| {
+            self.amplitude(mode, length)
+        });
         check_room(TRANSFORM_BYTES * points as u64).map_err(SurfaceError::of_springs)?;
         Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
     }
@@ -68,7 +76,9 @@ impl EquivalentLine {
             // Faces are independent of each other.
             spectrum.drawn(number ^ face.rotate_right(1), share)
         };
-        EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
+        EquivalentLine {
+            faces: (0..).zip(&self.faces).map(of_face).collect(),
+        }
     }
 
     /// Computes the moments of the line, such as the rms height, with their standard errors.
@@ -85,7 +95,9 @@ impl EquivalentLine {
     /// spectra of all faces have, the last the largest of any face.
     pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
-        ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
+        ranges.fold([0.0, 0.0], |[first, last], [low, high]| {
+            [first.max(low), last.max(high)]
+        })
     }
 
     /// Returns the first and the last mode k of a line of the length L = `length` in m on `points` springs. Mode k is the
@@ -95,7 +107,9 @@ impl EquivalentLine {
         let [low, high] = self.range();
         let waves = length / TAU;
         let first = (low * waves * (1.0 - ROUNDING)).ceil().max(1.0);
-        let last = (high * waves * (1.0 + ROUNDING)).floor().min((points / 2) as f64);
+        let last = (high * waves * (1.0 + ROUNDING))
+            .floor()
+            .min((points / 2) as f64);
         if first > last {
             let [long, short] = [low, high].map(|wave_number| TAU / wave_number);
             let fault = format!(
@@ -110,7 +124,13 @@ impl EquivalentLine {
 
     /// Returns the same line without the waves whose wave number is above this one, in rad/m.
     pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
-        EquivalentLine { faces: self.faces.iter().map(|face| face.up_to(wave_number)).collect() }
+        EquivalentLine {
+            faces: self
+                .faces
+                .iter()
+                .map(|face| face.up_to(wave_number))
+                .collect(),
+        }
     }
 
     /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k² = 4 C(q_k)/L. Here C is
@@ -135,7 +155,11 @@ impl EquivalentLine {
         let power = |face: &IsotropicSpectrum| {
             // A wave may exceed the end by rounding.
             let end = face.range()[1];
-            face.line(if wave_number <= end * (1.0 + ROUNDING) { wave_number.min(end) } else { wave_number })
+            face.line(if wave_number <= end * (1.0 + ROUNDING) {
+                wave_number.min(end)
+            } else {
+                wave_number
+            })
         };
         4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
@@ -186,15 +210,27 @@ mod tests {
     use std::path::PathBuf;
 
     fn face() -> Face {
-        let height =
-            |i: u32| (0..120).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
+        let height = |i: u32| {
+            (0..120)
+                .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k))
+                .sum::<f64>()
+        };
         let text: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
-        vec![(PathBuf::new(), format!("x [um] z [nm]\n{text}").into_bytes())]
+        vec![(
+            PathBuf::new(),
+            format!("x [um] z [nm]\n{text}").into_bytes(),
+        )]
     }
 
     fn continued() -> MeasuredOptions {
-        let spectrum = AnalysisOptions { end: End::Continues(TAU / 0.5e-6), ..AnalysisOptions::default() };
-        MeasuredOptions { spectrum, ..MeasuredOptions::default() }
+        let spectrum = AnalysisOptions {
+            end: End::Continues(TAU / 0.5e-6),
+            ..AnalysisOptions::default()
+        };
+        MeasuredOptions {
+            spectrum,
+            ..MeasuredOptions::default()
+        }
     }
 
     fn line_with(options: &MeasuredOptions) -> EquivalentLine {
@@ -208,11 +244,20 @@ mod tests {
         let line = line_with(&continued()).up_to(64.0 * TAU / side);
         let (first, last) = line.modes(side, 4096).unwrap();
         assert_eq!((first, last), (1, 64));
-        let of_line = line.amplitude_of_modes(side, (first, last)).rms_height.powi(2);
-        let waves =
-            (-70..=70_i32).flat_map(|x| (-70..=70_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
-        let of_surface: f64 = waves.filter(|k| *k > 0.0).map(|k| line.variance_of_surface(k, side)).sum();
-        assert!((of_surface / of_line - 1.0).abs() < 0.1, "{of_surface} {of_line}");
+        let of_line = line
+            .amplitude_of_modes(side, (first, last))
+            .rms_height
+            .powi(2);
+        let waves = (-70..=70_i32)
+            .flat_map(|x| (-70..=70_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
+        let of_surface: f64 = waves
+            .filter(|k| *k > 0.0)
+            .map(|k| line.variance_of_surface(k, side))
+            .sum();
+        assert!(
+            (of_surface / of_line - 1.0).abs() < 0.1,
+            "{of_surface} {of_line}"
+        );
     }
 
     #[test]
@@ -222,8 +267,18 @@ mod tests {
         assert_eq!(line.modes(scan, 1024).unwrap(), (1, 127));
         assert_eq!(line.modes(scan, 64).unwrap(), (1, 32));
         assert_eq!(line.modes(4.0 * scan, 4096).unwrap().0, 4);
-        assert!(line.modes(scan, 1).unwrap_err().to_string().contains("allowed: at least 2 springs"));
-        assert!(line.modes(1e-6, 64).unwrap_err().to_string().contains("no wave of the spectrum"));
+        assert!(
+            line.modes(scan, 1)
+                .unwrap_err()
+                .to_string()
+                .contains("allowed: at least 2 springs")
+        );
+        assert!(
+            line.modes(1e-6, 64)
+                .unwrap_err()
+                .to_string()
+                .contains("no wave of the spectrum")
+        );
         let further = continued();
         let longer = line_with(&further);
         assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));
@@ -241,14 +296,21 @@ mod tests {
         let length = 256e-6;
         assert_eq!(both.modes(length, 4096).unwrap(), (1, 512));
         for mode in [1, 127, 128, 512] {
-            let [a, b, sum] = [&one, &other, &both].map(|line| line.amplitude(mode, length).powi(2));
-            assert!((sum - a - b).abs() <= 1e-12 * sum && sum > 0.0, "{mode}: {a} {b} {sum}");
+            let [a, b, sum] =
+                [&one, &other, &both].map(|line| line.amplitude(mode, length).powi(2));
+            assert!(
+                (sum - a - b).abs() <= 1e-12 * sum && sum > 0.0,
+                "{mode}: {a} {b} {sum}"
+            );
             assert_eq!(a == 0.0, mode > 127, "{mode}");
         }
         // Also moments, over the waves common to both scans.
         let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
         let squares = |a: Moment, b: Moment, sum: Moment| {
-            assert!((sum.value.powi(2) / (a.value.powi(2) + b.value.powi(2)) - 1.0).abs() < 1e-12, "{sum:?}");
+            assert!(
+                (sum.value.powi(2) / (a.value.powi(2) + b.value.powi(2)) - 1.0).abs() < 1e-12,
+                "{sum:?}"
+            );
             let error = (a.value * a.error).hypot(b.value * b.error) / sum.value;
             assert!((sum.error / error - 1.0).abs() < 1e-9, "{sum:?} {error}");
         };
@@ -256,7 +318,9 @@ mod tests {
         squares(one.rms_gradient, other.rms_gradient, both.rms_gradient);
         let energies = [one, other, both].map(|moments| moments.energy_per_modulus);
         assert!((energies[2].value / (energies[0].value + energies[1].value) - 1.0).abs() < 1e-12);
-        assert!((energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9);
+        assert!(
+            (energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9
+        );
         assert!(EquivalentLine::new(&[Vec::new()], &further).is_err());
     }
 }

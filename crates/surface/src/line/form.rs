@@ -64,12 +64,19 @@ impl Form {
     /// folder of the scene file, and `length` the length of the profile in m. Returns an error if the file holds no table,
     /// or if the table ends before the profile does.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
-        let Form::Table { file, unit, rows } = self else { return Ok(()) };
+        let Form::Table { file, unit, rows } = self else {
+            return Ok(());
+        };
         let in_file = |error: SurfaceError| {
-            error.within(|place| Place::FileOf("form.file", folder.join(file).display().to_string(), place))
+            error.within(|place| {
+                Place::FileOf("form.file", folder.join(file).display().to_string(), place)
+            })
         };
         if rows.0.get().is_none() {
-            let unit = Some(unit.as_str()).filter(|unit| !unit.is_empty()).map(str::parse).transpose();
+            let unit = Some(unit.as_str())
+                .filter(|unit| !unit.is_empty())
+                .map(str::parse)
+                .transpose();
             let unit = unit.map_err(in_file)?;
             let table = FormTable::read(&folder.join(file), unit).map_err(in_file)?;
             rows.0.get_or_init(|| table);
@@ -79,12 +86,20 @@ impl Form {
             return Ok(());
         }
         let (fault, most) = (format!("the table ends at r = {reach:e} m"), 2.0 * reach);
-        Err(in_file(refused(Place::File, fault, format!("length at most {most:e} m"))))
+        Err(in_file(refused(
+            Place::File,
+            fault,
+            format!("length at most {most:e} m"),
+        )))
     }
 
     /// Returns the table of a [`Form::Table`]; `None` for other forms, and before [`Form::load`] has read the table.
     pub fn table(&self) -> Option<&FormTable> {
-        if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
+        if let Form::Table { rows, .. } = self {
+            rows.0.get()
+        } else {
+            None
+        }
     }
 
     /// Returns the index ⌊N/2⌋ of the spring on the axis of the form, for N = `points` springs. For a punch the axis is in
@@ -97,7 +112,11 @@ impl Form {
     /// Returns the distance, in spring spacings, from the middle of the length to the axis of the form. It is ½ for an even
     /// number of springs, and 0 for an odd number and for a punch.
     pub fn shift(&self, points: u64) -> f64 {
-        if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
+        if points.is_multiple_of(2) && self.flat_end().is_none() {
+            0.5
+        } else {
+            0.0
+        }
     }
 
     /// Returns the range of indices of the springs under the form, for `points` springs on the length `length` in m. All
@@ -109,7 +128,9 @@ impl Form {
     /// assert_eq!(asperity_surface::Form::Punch { radius: 2e-6 }.springs_under(1e-5, 10), 3..7);
     /// ```
     pub fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
-        let Some(radius) = self.flat_end() else { return 0..points };
+        let Some(radius) = self.flat_end() else {
+            return 0..points;
+        };
         let cells = (2.0 * radius / (length / points as f64)).round() as u64;
         let cells = cells.min(points);
         let first = Form::spring_on_axis(points) - cells / 2;
@@ -135,16 +156,20 @@ impl Form {
     /// Returns the radius of a sphere or a punch in m as a mutable reference; `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
-            Form::Paraboloid { radius } | Form::WavySphere { radius, .. } | Form::Punch { radius } => {
-                Some(radius)
-            }
+            Form::Paraboloid { radius }
+            | Form::WavySphere { radius, .. }
+            | Form::Punch { radius } => Some(radius),
             _ => None,
         }
     }
 
     /// Returns the radius in m of a [`Form::Paraboloid`], a sphere without waves; `None` for other forms.
     pub fn sphere_radius(&self) -> Option<f64> {
-        if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
+        if let Form::Paraboloid { radius } = self {
+            Some(*radius)
+        } else {
+            None
+        }
     }
 
     /// Returns the curvature at the summit in 1/m. Returns `None` for a cone, for a power law, and for a table that has not
@@ -152,9 +177,11 @@ impl Form {
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
-            Form::WavySphere { radius, amplitude, wavelength } => {
-                Some(1.0 / radius + amplitude * (TAU / wavelength).powi(2))
-            }
+            Form::WavySphere {
+                radius,
+                amplitude,
+                wavelength,
+            } => Some(1.0 / radius + amplitude * (TAU / wavelength).powi(2)),
             Form::Punch { .. } => Some(0.0),
             Form::Cone { .. } | Form::Power { .. } => None,
             Form::Table { .. } => self.table()?.summit_curvature(),
@@ -176,11 +203,17 @@ impl Form {
         match *self {
             Form::Paraboloid { radius } => x * x / radius,
             Form::Cone { angle } => FRAC_PI_2 * x * angle.tan(),
-            Form::Power { coefficient, exponent } => {
-                power_law_factor(exponent) * coefficient * x.powf(exponent)
-            }
-            Form::WavySphere { radius, amplitude, wavelength } => {
-                x * x / radius + PI * PI * amplitude / wavelength * x * struve_0(2.0 * PI * x / wavelength)
+            Form::Power {
+                coefficient,
+                exponent,
+            } => power_law_factor(exponent) * coefficient * x.powf(exponent),
+            Form::WavySphere {
+                radius,
+                amplitude,
+                wavelength,
+            } => {
+                x * x / radius
+                    + PI * PI * amplitude / wavelength * x * struve_0(2.0 * PI * x / wavelength)
             }
             Form::Punch { .. } => 0.0,
             Form::Table { .. } => self.table().map_or(0.0, |table| table.mdr_profile(x)),
@@ -197,9 +230,17 @@ impl Form {
         Some(match *self {
             Form::Paraboloid { radius: curvature } => radius * radius / (2.0 * curvature),
             Form::Cone { angle } => radius * angle.tan(),
-            Form::Power { coefficient, exponent } => coefficient * radius.powf(exponent),
-            Form::WavySphere { radius: curvature, amplitude, wavelength } => {
-                radius * radius / (2.0 * curvature) + amplitude * (1.0 - (TAU * radius / wavelength).cos())
+            Form::Power {
+                coefficient,
+                exponent,
+            } => coefficient * radius.powf(exponent),
+            Form::WavySphere {
+                radius: curvature,
+                amplitude,
+                wavelength,
+            } => {
+                radius * radius / (2.0 * curvature)
+                    + amplitude * (1.0 - (TAU * radius / wavelength).cos())
             }
             Form::Punch { radius: end } => return (radius <= end).then_some(0.0),
             Form::Table { .. } => self.table().map_or(0.0, |table| table.depth(radius)),
@@ -217,9 +258,10 @@ impl Form {
         match *self {
             Form::Paraboloid { radius } => Some((radius.recip(), 2.0)),
             Form::Cone { angle } => Some((FRAC_PI_2 * angle.tan(), 1.0)),
-            Form::Power { coefficient, exponent } => {
-                Some((power_law_factor(exponent) * coefficient, exponent))
-            }
+            Form::Power {
+                coefficient,
+                exponent,
+            } => Some((power_law_factor(exponent) * coefficient, exponent)),
             Form::WavySphere { .. } | Form::Punch { .. } | Form::Table { .. } => None,
         }
     }
@@ -229,9 +271,11 @@ impl Form {
     /// for r < λ. It is 0 for all other forms.
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
-            Form::WavySphere { amplitude, wavelength, .. } => {
-                PI * amplitude * (distance / wavelength).max(1.0).sqrt()
-            }
+            Form::WavySphere {
+                amplitude,
+                wavelength,
+                ..
+            } => PI * amplitude * (distance / wavelength).max(1.0).sqrt(),
             _ => 0.0,
         }
     }
@@ -255,7 +299,9 @@ static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarte
 /// Computes the Struve function H₀(z) for z ≥ 0.
 pub fn struve_0(z: f64) -> f64 {
     if z < LARGE {
-        let terms = RULE.iter().map(|&(angle, weight)| weight * (z * angle.cos()).sin());
+        let terms = RULE
+            .iter()
+            .map(|&(angle, weight)| weight * (z * angle.cos()).sin());
         return FRAC_2_PI * terms.sum::<f64>();
     }
     // H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1), down to rounding.
@@ -279,7 +325,11 @@ mod tests {
     fn by_definition(slope: impl Fn(f64) -> f64, x: f64) -> f64 {
         let steps = 20_000;
         let width = std::f64::consts::FRAC_PI_2 / f64::from(steps);
-        (0..steps).map(|k| slope(x * ((f64::from(k) + 0.5) * width).sin())).sum::<f64>() * width * x
+        (0..steps)
+            .map(|k| slope(x * ((f64::from(k) + 0.5) * width).sin()))
+            .sum::<f64>()
+            * width
+            * x
     }
 
     #[test]
@@ -287,19 +337,41 @@ mod tests {
         let x = 0.7;
         let (radius, angle) = (2.5, 0.3_f64);
         type Slope = Box<dyn Fn(f64) -> f64>;
-        let wavy = Form::WavySphere { radius, amplitude: 0.02, wavelength: 0.3 };
+        let wavy = Form::WavySphere {
+            radius,
+            amplitude: 0.02,
+            wavelength: 0.3,
+        };
         let wave = 2.0 * PI / 0.3;
         let cases: [(Form, Slope); 5] = [
             (Form::Paraboloid { radius }, Box::new(move |r| r / radius)),
             (Form::Cone { angle }, Box::new(move |_| angle.tan())),
-            (wavy, Box::new(move |r| r / radius + 0.02 * wave * (wave * r).sin())),
-            (Form::Power { coefficient: 0.4, exponent: 3.7 }, Box::new(|r: f64| 0.4 * 3.7 * r.powf(2.7))),
-            (Form::Power { coefficient: 0.4, exponent: 60.0 }, Box::new(|r: f64| 24.0 * r.powf(59.0))),
+            (
+                wavy,
+                Box::new(move |r| r / radius + 0.02 * wave * (wave * r).sin()),
+            ),
+            (
+                Form::Power {
+                    coefficient: 0.4,
+                    exponent: 3.7,
+                },
+                Box::new(|r: f64| 0.4 * 3.7 * r.powf(2.7)),
+            ),
+            (
+                Form::Power {
+                    coefficient: 0.4,
+                    exponent: 60.0,
+                },
+                Box::new(|r: f64| 24.0 * r.powf(59.0)),
+            ),
         ];
         for (form, slope) in cases {
             let expected = by_definition(slope, x);
             let found = form.mdr_profile(-x);
-            assert!((found - expected).abs() < 1e-7 * expected, "{form:?}: {found} against {expected}");
+            assert!(
+                (found - expected).abs() < 1e-7 * expected,
+                "{form:?}: {found} against {expected}"
+            );
         }
         // The special cases of the power law: n = 1 is the cone, n = 2 doubles.
         assert!((power_law_factor(1.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
@@ -310,7 +382,10 @@ mod tests {
     fn a_punch_covers_the_nearest_number_of_whole_cells() {
         let under = |radius, points| Form::Punch { radius }.springs_under(1.0, points);
         // Whole cells, also numbers that the axis cannot halve.
-        assert_eq!((under(0.2, 10), under(0.25, 10), under(0.3, 10)), (3..7, 3..8, 2..8));
+        assert_eq!(
+            (under(0.2, 10), under(0.25, 10), under(0.3, 10)),
+            (3..7, 3..8, 2..8)
+        );
         assert_eq!((under(0.2, 5), under(0.3, 5)), (1..3, 1..4));
         // The minimum is a quarter of a cell on either side of the axis.
         assert_eq!((under(0.026, 10).count(), under(0.024, 10).count()), (1, 0));
@@ -344,7 +419,10 @@ mod tests {
         for k in 0..100 {
             let z = 0.05 * f64::from(k);
             let (found, expected) = (struve_0(z), series(z));
-            assert!((found - expected).abs() <= 1e-14 * expected.abs().max(0.1), "{z}: {found} {expected}");
+            assert!(
+                (found - expected).abs() <= 1e-14 * expected.abs().max(0.1),
+                "{z}: {found} {expected}"
+            );
         }
     }
 
@@ -355,8 +433,14 @@ mod tests {
         for z in [0.3, 3.0, 20.0, 39.9, 40.1, 300.0] {
             let step = 1e-3;
             let [below, at, above] = [-step, 0.0, step].map(|by| struve_0(z + by));
-            let (slope, bend) = ((above - below) / (2.0 * step), (above - 2.0 * at + below) / (step * step));
-            assert!((z * (bend + at) + slope - FRAC_2_PI).abs() < 2e-7 * z.max(1.0), "{z}: {slope} {bend}");
+            let (slope, bend) = (
+                (above - below) / (2.0 * step),
+                (above - 2.0 * at + below) / (step * step),
+            );
+            assert!(
+                (z * (bend + at) + slope - FRAC_2_PI).abs() < 2e-7 * z.max(1.0),
+                "{z}: {slope} {bend}"
+            );
         }
     }
 }

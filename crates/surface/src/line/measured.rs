@@ -55,7 +55,8 @@ impl MeasuredProfile {
 
     /// Returns the length in m that the profile covers.
     pub fn length(&self) -> f64 {
-        self.cell().map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
+        self.cell()
+            .map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
     }
 
     fn span(&self) -> f64 {
@@ -65,7 +66,9 @@ impl MeasuredProfile {
     /// Returns the distance between points in m, if the points are centres of cells that begin at x = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
-        first_uneven(&self.positions, 0.5 * cell, cell).is_none().then_some(cell)
+        first_uneven(&self.positions, 0.5 * cell, cell)
+            .is_none()
+            .then_some(cell)
     }
 
     /// Computes the root mean square height (m) about the mean and the root mean square gradient of the polyline through the
@@ -75,15 +78,23 @@ impl MeasuredProfile {
         // Differences of heights, not heights: an offset may be far larger than the roughness.
         let level = self.heights[0];
         let pieces = || {
-            let heights = self.heights.windows(2).map(|z| (z[0] - level, z[1] - level));
-            self.positions.windows(2).zip(heights).map(|(x, (a, b))| (x[1] - x[0], a, b))
+            let heights = self
+                .heights
+                .windows(2)
+                .map(|z| (z[0] - level, z[1] - level));
+            self.positions
+                .windows(2)
+                .zip(heights)
+                .map(|(x, (a, b))| (x[1] - x[0], a, b))
         };
         let mean = pieces().map(|(dx, a, b)| dx * (a + b) / 2.0).sum::<f64>() / length;
         let square = pieces()
             .map(|(dx, a, b)| (a - mean, b - mean, dx))
             .map(|(a, b, dx)| dx * (a * a + a * b + b * b) / 3.0)
             .sum::<f64>();
-        let gradient = pieces().map(|(dx, a, b)| (b - a) * (b - a) / dx).sum::<f64>();
+        let gradient = pieces()
+            .map(|(dx, a, b)| (b - a) * (b - a) / dx)
+            .sum::<f64>();
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
@@ -98,16 +109,25 @@ impl MeasuredProfile {
         join_ends(&mut heights);
         let plan = plan_real_forward(points);
         let mut modes = plan.make_output_vec();
-        plan.process(&mut heights, &mut modes).map_err(|error| SurfaceError::Transform(error.to_string()))?;
+        plan.process(&mut heights, &mut modes)
+            .map_err(|error| SurfaceError::Transform(error.to_string()))?;
         let squares = (1_u64..).zip(&modes[1..]).map(|(mode, coefficient)| {
             // For a wave of two points both exponentials are in one coefficient.
             let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
-            (mode, exponentials * (coefficient / points as f64).norm_sqr())
+            (
+                mode,
+                exponentials * (coefficient / points as f64).norm_sqr(),
+            )
         });
         let of_modes = Amplitude::from_modes(squares, self.length());
         let mean = of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2);
         let mean_wave_number = if mean.is_finite() { mean } else { 0.0 };
-        Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
+        Ok(Amplitude {
+            rms_height,
+            rms_gradient,
+            rms_curvature: curvature,
+            mean_wave_number,
+        })
     }
 
     /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation.
@@ -129,7 +149,11 @@ impl MeasuredProfile {
     pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, SurfaceError> {
         let begins = self.begins(length).map_err(|covers| {
             let fault = format!("the profile covers {covers:e} m");
-            refused(Place::File, fault, format!("at least length = {length:e} m"))
+            refused(
+                Place::File,
+                fault,
+                format!("at least length = {length:e} m"),
+            )
         })?;
         Ok(self.heights_from(begins, length / points as f64, points, shift)?)
     }
@@ -144,7 +168,10 @@ impl MeasuredProfile {
         shift: f64,
     ) -> Result<Vec<f64>, OutOfMemory> {
         let places = (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * cell);
-        gathered(points, interpolated(&self.positions, &self.heights, self.level(), places))
+        gathered(
+            points,
+            interpolated(&self.positions, &self.heights, self.level(), places),
+        )
     }
 
     /// Returns the position in m at which a line of this length (m) begins on the profile. If the profile is too short, the
@@ -164,7 +191,11 @@ impl MeasuredProfile {
         };
         // The last half cell may be displaced as far as points may.
         let covers = points * distance;
-        if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
+        if length <= covers + UNEVEN * distance {
+            Ok(begins)
+        } else {
+            Err(covers)
+        }
     }
 
     /// Returns the height in m to subtract from all heights: the first one, if all differences from it are exact, else 0.
@@ -173,13 +204,20 @@ impl MeasuredProfile {
         let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());
         // By Sterbenz' lemma.
         let is_exact = |height: &f64| (low..=high).contains(&(height * first.signum()));
-        if self.heights.iter().all(is_exact) { first } else { 0.0 }
+        if self.heights.iter().all(is_exact) {
+            first
+        } else {
+            0.0
+        }
     }
 }
 
 /// Computes the root mean square curvature in 1/m of heights at this spacing in m, from second differences.
 fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
-    let squares = heights.windows(3).map(|z| ((z[0] - z[1]) + (z[2] - z[1])).powi(2)).sum::<f64>();
+    let squares = heights
+        .windows(3)
+        .map(|z| ((z[0] - z[1]) + (z[2] - z[1])).powi(2))
+        .sum::<f64>();
     let count = heights.len().saturating_sub(2).max(1);
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
@@ -189,7 +227,9 @@ fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
     let slope = (beside - (heights[0] - heights[last])) / heights.len() as f64;
-    (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
+    (0..)
+        .zip(heights)
+        .for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
 /// Paths and contents of the measured files of one face, one of the two surfaces that touch each other.
@@ -201,7 +241,10 @@ pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
         Ok(content) => Ok((path.clone(), content)),
         Err(error) => Err(error.in_measured(path)),
     };
-    faces.iter().map(|face| face.iter().map(read).collect()).collect()
+    faces
+        .iter()
+        .map(|face| face.iter().map(read).collect())
+        .collect()
 }
 
 impl MeasuredOptions {
@@ -212,7 +255,8 @@ impl MeasuredOptions {
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let (mut surfaces, mut files) = (Vec::new(), Vec::new());
         for (path, content) in face {
-            let read = parse_all(content, &self.reading).map_err(|error| error.in_measured(path))?;
+            let read =
+                parse_all(content, &self.reading).map_err(|error| error.in_measured(path))?;
             files.resize(files.len() + read.len(), path);
             surfaces.extend(read);
         }
@@ -231,8 +275,17 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn parsed(text: &str) -> Result<MeasuredProfile, SurfaceError> {
-        let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
-        MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
+        let reading = ReadOptions {
+            convention: Some(Unit::METRE),
+            ..ReadOptions::default()
+        };
+        MeasuredProfile::new(
+            text.as_bytes(),
+            &MeasuredOptions {
+                reading,
+                ..MeasuredOptions::default()
+            },
+        )
     }
 
     #[test]
@@ -241,24 +294,36 @@ mod tests {
         assert_eq!(profile.length(), 3.0);
         assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
         // Before the first and behind the last point at its height, halfway between points at their mean.
-        assert_eq!(profile.sample(3.0, 6, 0.5).unwrap(), [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]);
+        assert_eq!(
+            profile.sample(3.0, 6, 0.5).unwrap(),
+            [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]
+        );
         assert_eq!(profile.sample(3.0, 12, 0.0).unwrap()[11], -1.0);
         assert_eq!(profile.sample(1.0, 1, 0.0).unwrap(), [3.0]);
-        assert!(profile.sample(3.01, 3, 0.0).unwrap_err().to_string().contains("covers 3e0 m"));
+        assert!(
+            profile
+                .sample(3.01, 3, 0.0)
+                .unwrap_err()
+                .to_string()
+                .contains("covers 3e0 m")
+        );
         // With the digits of a file.
         let rounded = parsed("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
         // Any other profile covers the distance between its points.
-        for (text, length) in
-            [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)]
-        {
+        for (text, length) in [
+            ("0 3\n1 4\n2 -1", 2.0),
+            ("0.5 3\n1.5 4\n2.4 -1", 1.9),
+            ("1 3\n2 4\n3 -1", 2.0),
+        ] {
             let profile = parsed(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
             assert!(profile.sample(length, 3, 0.0).is_ok());
             // If equally spaced, half a distance beyond each end.
             let longest = if length == 1.9 { length } else { 3.0 };
             assert!(
-                profile.sample(longest, 3, 0.0).is_ok() && profile.sample(1.01 * longest, 3, 0.0).is_err()
+                profile.sample(longest, 3, 0.0).is_ok()
+                    && profile.sample(1.01 * longest, 3, 0.0).is_err()
             );
         }
         let even = parsed("1 3\n2 4\n3 -1").unwrap();
@@ -282,9 +347,13 @@ mod tests {
         assert!(wrong("0 1").contains("1 points; allowed: from 2 to"));
         let long = wrong(&format!("0 1\n1 {}", "κ".repeat(1000)));
         assert!(long.chars().count() < 160, "{long}");
-        assert_eq!(wrong("-1e308 0\n1e308 0"), "line 1: \"-1e308\"; allowed: a number from -1e9 to 1e9");
+        assert_eq!(
+            wrong("-1e308 0\n1e308 0"),
+            "line 1: \"-1e308\"; allowed: a number from -1e9 to 1e9"
+        );
         assert!(
-            wrong("-1e10 0\n1 0").contains("point 1: a position of -1e10 m; allowed: from -1e9 to 1e9 m")
+            wrong("-1e10 0\n1 0")
+                .contains("point 1: a position of -1e10 m; allowed: from -1e9 to 1e9 m")
         );
         assert!(wrong("0 0\n1 -1.1e9").contains("point 2: a height of -1.1e9 m"));
         assert_eq!(
@@ -301,21 +370,38 @@ mod tests {
         let text = |points: u32, middles: f64, tilt: f64| -> String {
             let place = |i: u32| (f64::from(i) + middles) / f64::from(points);
             let height = |x: f64| tilt * x + 2e-3 * (15.0 * TAU * x + 0.3).cos();
-            (0..points).map(|i| format!("{:e} {:e}\n", place(i), height(place(i)))).collect()
+            (0..points)
+                .map(|i| format!("{:e} {:e}\n", place(i), height(place(i))))
+                .collect()
         };
         for (points, middles) in [(1000, 0.5), (1001, 0.5), (1000, 0.0)] {
-            let level = parsed(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
-            assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
+            let level = parsed(&text(points, middles, 0.0))
+                .unwrap()
+                .amplitude()
+                .unwrap();
+            assert!(
+                (level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01,
+                "{level:?}"
+            );
             let curvature = 2e-3 * 0.5_f64.sqrt() * (15.0 * TAU).powi(2);
-            assert!((level.rms_curvature / curvature - 1.0).abs() < 0.01, "{level:?}");
+            assert!(
+                (level.rms_curvature / curvature - 1.0).abs() < 0.01,
+                "{level:?}"
+            );
             // A tilt has no energy.
-            let tilted = parsed(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
+            let tilted = parsed(&text(points, middles, 0.1))
+                .unwrap()
+                .amplitude()
+                .unwrap();
             assert!(tilted.rms_height > 10.0 * level.rms_height);
             let change = tilted.elastic_energy(1.0) / level.elastic_energy(1.0) - 1.0;
             assert!(change.abs() < 0.01, "{change}");
         }
         let flat = parsed("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
-        assert_eq!((flat.mean_wave_number, flat.elastic_energy(1e6)), (0.0, 0.0));
+        assert_eq!(
+            (flat.mean_wave_number, flat.elastic_energy(1e6)),
+            (0.0, 0.0)
+        );
     }
 
     #[test]
@@ -328,7 +414,10 @@ mod tests {
             ("6e-5 5\n1 5\n3 5", 0.0, 0.0),
         ] {
             let (height, gradient) = parsed(text).unwrap().rms_height_and_gradient();
-            assert!((height - f64::sqrt(square)).abs() < 1e-15 && (gradient - slope).abs() < 1e-15, "{text}");
+            assert!(
+                (height - f64::sqrt(square)).abs() < 1e-15 && (gradient - slope).abs() < 1e-15,
+                "{text}"
+            );
             assert!(square > 0.0 || (height, gradient) == (0.0, 0.0), "{text}");
         }
         let level = parsed("0 1e9\n1 1e9").unwrap();

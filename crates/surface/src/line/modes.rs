@@ -100,7 +100,11 @@ impl Modes {
     /// Returns half the amplitudes of the block that follows the mode `before`.
     fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
         // Below a roll-off each mode is computed by itself.
-        match if (before as f64) < self.spectrum.roll_off_mode { 0 } else { before } {
+        match if (before as f64) < self.spectrum.roll_off_mode {
+            0
+        } else {
+            before
+        } {
             0..512 => std::array::from_fn(|lane| self.half_amplitude(before + 1 + lane as u64)),
             512..2048 => self.half_amplitudes_in_series::<16, TERMS>(before),
             2048..32_768 => self.half_amplitudes_in_series::<64, TERMS>(before),
@@ -111,7 +115,10 @@ impl Modes {
     /// Returns half the amplitudes of the block that follows the mode `before`. Each is expanded about the middle of its `SPAN`
     /// modes with the first `COUNT` terms of the series.
     #[inline(always)]
-    fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(&self, before: u64) -> [f64; BLOCK] {
+    fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(
+        &self,
+        before: u64,
+    ) -> [f64; BLOCK] {
         let mut amplitudes = [0.0; BLOCK];
         let mut middle = before + SPAN as u64 / 2;
         for span in amplitudes.as_chunks_mut::<SPAN>().0 {
@@ -148,7 +155,10 @@ fn sine_and_cosine(turns: f64) -> (f64, f64) {
     let sine_sign = (quarters & 2) << 62;
     let cosine_sign = (quarters.wrapping_add(1) & 2) << 62;
     let chosen = |one: u64, other: u64| (one & !swap) | (other & swap);
-    (f64::from_bits(chosen(sine, cosine) ^ sine_sign), f64::from_bits(chosen(cosine, sine) ^ cosine_sign))
+    (
+        f64::from_bits(chosen(sine, cosine) ^ sine_sign),
+        f64::from_bits(chosen(cosine, sine) ^ cosine_sign),
+    )
 }
 
 /// Computes Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the two sums do
@@ -228,7 +238,9 @@ mod tests {
             let quarters = (4.0 * turns).round();
             let (s, c) = (TAU * (turns - 0.25 * quarters)).sin_cos();
             let expected = [(s, c), (c, -s), (-s, -c), (-c, s)][quarters as usize % 4];
-            worst = worst.max((sine - expected.0).abs()).max((cosine - expected.1).abs());
+            worst = worst
+                .max((sine - expected.0).abs())
+                .max((cosine - expected.1).abs());
         }
         assert!(worst <= 2.3e-16, "{worst:e}");
         for quarter in 0..8 {
@@ -240,12 +252,28 @@ mod tests {
     #[test]
     fn amplitudes_are_their_powers_to_rounding() {
         for hurst in [1e-300, 0.3, 0.7, 1.0_f64.next_down()] {
-            let spectrum = SelfAffine { hurst, first: 1, last: 1, roll_off_mode: 0.0 };
+            let spectrum = SelfAffine {
+                hurst,
+                first: 1,
+                last: 1,
+                roll_off_mode: 0.0,
+            };
             let modes = Modes::new(spectrum, 1, 10, 0.5);
-            for before in [0, 448, 512, 1984, 2048, 32_704, 32_768, 1 << 20, (1 << 27) - 64] {
+            for before in [
+                0,
+                448,
+                512,
+                1984,
+                2048,
+                32_704,
+                32_768,
+                1 << 20,
+                (1 << 27) - 64,
+            ] {
                 for (mode, amplitude) in (before + 1..).zip(modes.half_amplitudes(before)) {
                     // A spectrum of mode 1 alone has the rms height √½.
-                    let error = amplitude / (0.5_f64.sqrt() * spectrum.relative_amplitude(mode)) - 1.0;
+                    let error =
+                        amplitude / (0.5_f64.sqrt() * spectrum.relative_amplitude(mode)) - 1.0;
                     assert!(error.abs() <= 1e-15, "H = {hurst}, mode {mode}: {error:e}");
                 }
             }
@@ -254,14 +282,23 @@ mod tests {
 
     #[test]
     fn modes_are_the_same_wherever_drawing_begins_and_on_any_number_of_threads() {
-        let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 5000, roll_off_mode: 0.0 };
+        let spectrum = SelfAffine {
+            hurst: 0.7,
+            first: 1,
+            last: 5000,
+            roll_off_mode: 0.0,
+        };
         let modes = Modes::new(spectrum, 3, 10_000, 0.5);
         let mut all = vec![Complex64::ZERO; 5000];
         modes.draw(1, &mut all);
         for (mode, (coefficient, phase)) in (1..).zip(all.iter().zip(phases(3, 1))) {
             let amplitude = spectrum.relative_amplitude(mode) / spectrum.relative_rms();
-            let expected = Complex64::from_polar(0.5 * amplitude, phase + PI * mode as f64 / 10_000.0);
-            assert!((coefficient - expected).norm() <= 4e-15 * expected.norm(), "mode {mode}");
+            let expected =
+                Complex64::from_polar(0.5 * amplitude, phase + PI * mode as f64 / 10_000.0);
+            assert!(
+                (coefficient - expected).norm() <= 4e-15 * expected.norm(),
+                "mode {mode}"
+            );
         }
         for threads in [1, 2, 3, 8] {
             let mut shared = vec![Complex64::ZERO; all.len()];
@@ -273,10 +310,23 @@ mod tests {
             });
             assert_eq!(shared, all, "{threads} threads");
         }
-        for (first, count) in [(1, 0), (1, 1), (2, 63), (64, 1), (64, 2), (65, 64), (100, 4000), (4999, 2)] {
+        for (first, count) in [
+            (1, 0),
+            (1, 1),
+            (2, 63),
+            (64, 1),
+            (64, 2),
+            (65, 64),
+            (100, 4000),
+            (4999, 2),
+        ] {
             let mut some = vec![Complex64::ZERO; count];
             modes.draw(first as u64, &mut some);
-            assert_eq!(some, all[first - 1..][..count], "{count} modes from {first} on");
+            assert_eq!(
+                some,
+                all[first - 1..][..count],
+                "{count} modes from {first} on"
+            );
         }
     }
 

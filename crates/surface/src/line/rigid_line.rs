@@ -64,7 +64,9 @@ impl Line {
         scale: f64,
     ) -> Result<Self, SurfaceError> {
         let (points, spacing) = (gaps.len(), length / gaps.len() as f64);
-        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        let under = form.map_or(0..points as u64, |form| {
+            form.springs_under(length, points as u64)
+        });
         if under.is_empty() {
             return Err(no_springs(spacing));
         }
@@ -76,19 +78,33 @@ impl Line {
             Some(form) => {
                 // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
                 let axis = Form::spring_on_axis(points as u64) as f64;
-                let depths = form.table().map(|table| table.depths(spacing, points / 2 + 1)).transpose()?;
+                let depths = form
+                    .table()
+                    .map(|table| table.depths(spacing, points / 2 + 1))
+                    .transpose()?;
                 let depth = |index: usize| match &depths {
                     Some(depths) => depths[index.abs_diff(points / 2)],
                     None => form.mdr_profile((index as f64 - axis) * spacing),
                 };
-                (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
+                (first..)
+                    .zip(&mut gaps)
+                    .for_each(|(index, z)| *z = scale * *z - depth(index));
             }
         }
         let not_finite = |index| not_finite(first + index);
         let summit = largest(&gaps).map_err(not_finite)?;
-        gaps.iter_mut().for_each(|height| *height = summit - *height);
+        gaps.iter_mut()
+            .for_each(|height| *height = summit - *height);
         let deepest = largest(&gaps).map_err(not_finite)?;
-        Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
+        Ok(Line {
+            gaps: Arc::new(gaps),
+            first,
+            points,
+            length,
+            spacing,
+            summit,
+            deepest,
+        })
     }
 
     /// Returns the heights z in m of the points under the body.
@@ -101,7 +117,10 @@ impl Line {
         let height = self.summit - gap;
         // The gap of the rounded height may be one digit off; then that of a neighbouring number is exact.
         let nearby = [height, height.next_up(), height.next_down()];
-        nearby.into_iter().find(|height| self.summit - height == gap).unwrap_or(height)
+        nearby
+            .into_iter()
+            .find(|height| self.summit - height == gap)
+            .unwrap_or(height)
     }
 
     /// Returns the position x in m of the spring number `index` under the body, from 0.
@@ -130,7 +149,10 @@ fn largest(values: &[f64]) -> Result<f64, usize> {
     whole.iter().for_each(|eight| take(eight));
     take(rest);
     if !all_finite {
-        return Err(values.iter().position(|value| !value.is_finite()).unwrap_or(0));
+        return Err(values
+            .iter()
+            .position(|value| !value.is_finite())
+            .unwrap_or(0));
     }
     Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
@@ -169,13 +191,21 @@ impl Histogram {
 /// Returns the error of a punch without a spring below it. Its diameter is rounded to whole cells of this width in m.
 fn no_springs(spacing: f64) -> SurfaceError {
     let allowed = format!("at least a quarter of the spacing, {:e} m", spacing / 4.0);
-    refused(Place::Field("form.radius"), "no spring lies under the punch", allowed)
+    refused(
+        Place::Field("form.radius"),
+        "no spring lies under the punch",
+        allowed,
+    )
 }
 
 /// Returns the error of the first height that is not finite, at the spring with this index.
 fn not_finite(spring: usize) -> SurfaceError {
     let allowed = "a form and roughness whose heights are finite";
-    refused(Place::Point(spring + 1), "the line has a height that is not finite", allowed)
+    refused(
+        Place::Point(spring + 1),
+        "the line has a height that is not finite",
+        allowed,
+    )
 }
 
 #[cfg(test)]
@@ -188,7 +218,10 @@ mod tests {
         for form in [
             Form::Cone { angle: 0.2 },
             Form::Paraboloid { radius: 3.0 },
-            Form::Power { coefficient: 0.4, exponent: 1.5 },
+            Form::Power {
+                coefficient: 0.4,
+                exponent: 1.5,
+            },
         ] {
             for points in 1..30 {
                 let line = Line::new(1.0, points, Some(&form), None, 0.0).unwrap();
@@ -197,7 +230,10 @@ mod tests {
                 let middle = line.position(axis) - 0.5;
                 assert!((0.0..=0.5 * line.spacing + 1e-15).contains(&middle.abs()));
                 let left = line.gaps[..axis].iter().rev();
-                assert!(left.zip(&line.gaps[axis + 1..]).all(|(left, right)| left == right));
+                assert!(
+                    left.zip(&line.gaps[axis + 1..])
+                        .all(|(left, right)| left == right)
+                );
             }
         }
     }
@@ -213,8 +249,11 @@ mod tests {
     #[test]
     fn roughness_becomes_the_same_gaps_in_its_own_memory() {
         let rough: Vec<f64> = phases(7, 1).take(40).collect();
-        let forms =
-            [Form::Paraboloid { radius: 3.0 }, Form::Cone { angle: 0.2 }, Form::Punch { radius: 0.2 }];
+        let forms = [
+            Form::Paraboloid { radius: 3.0 },
+            Form::Cone { angle: 0.2 },
+            Form::Punch { radius: 0.2 },
+        ];
         for form in forms.iter().map(Some).chain([None]) {
             let expected = Line::new(1.0, 40, form, Some(&rough), 0.3).unwrap();
             let own = rough.clone();
@@ -235,14 +274,29 @@ mod tests {
         let digit = f64::EPSILON;
         // The gap is 1, and summit − 1 = −1 would have a gap of 1 − ε/2.
         let line = Line::new(1.0, 2, None, Some(&[-0.5 * digit, -1.0 - digit]), 1.0).unwrap();
-        assert_eq!((line.gaps[1], line.summit - (line.summit - 1.0)), (1.0, 1.0 - 0.5 * digit));
-        assert_eq!(Line::new(1.0, 2, None, Some(&written(&line)), 1.0).unwrap(), line);
+        assert_eq!(
+            (line.gaps[1], line.summit - (line.summit - 1.0)),
+            (1.0, 1.0 - 0.5 * digit)
+        );
+        assert_eq!(
+            Line::new(1.0, 2, None, Some(&written(&line)), 1.0).unwrap(),
+            line
+        );
         for seed in 0..200 {
-            let rough: Vec<f64> = phases(seed, 1).take(64).map(|phase| phase - 0.1 * seed as f64).collect();
+            let rough: Vec<f64> = phases(seed, 1)
+                .take(64)
+                .map(|phase| phase - 0.1 * seed as f64)
+                .collect();
             let form = Form::Paraboloid { radius: 3.0 };
             let line = Line::new(1.0, 64, Some(&form), Some(&rough), 0.3).unwrap();
-            assert_eq!(Line::new(1.0, 64, None, Some(&written(&line)), 1.0).unwrap(), line);
-            assert_eq!(line.lowest(), written(&line).into_iter().fold(f64::INFINITY, f64::min));
+            assert_eq!(
+                Line::new(1.0, 64, None, Some(&written(&line)), 1.0).unwrap(),
+                line
+            );
+            assert_eq!(
+                line.lowest(),
+                written(&line).into_iter().fold(f64::INFINITY, f64::min)
+            );
         }
     }
 
@@ -252,14 +306,23 @@ mod tests {
         assert_eq!(result, Err(not_finite(1)));
         // The first spring under the punch is the second of the foundation.
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
-        let result = Line::new(1.0, 6, Some(&Form::Punch { radius: 0.3 }), Some(&rough), 1.0);
+        let result = Line::new(
+            1.0,
+            6,
+            Some(&Form::Punch { radius: 0.3 }),
+            Some(&rough),
+            1.0,
+        );
         assert_eq!(result, Err(not_finite(4)));
         for points in 1..40 {
             for bad in 0..points {
                 let mut rough: Vec<f64> = (0..points).map(|i| (i * i % 7) as f64).collect();
                 let expected = rough.iter().copied().fold(0.0, f64::max);
                 let line = Line::new(1.0, points, None, Some(&rough), 1.0).unwrap();
-                assert_eq!((line.summit, line.gaps[bad]), (expected, expected - rough[bad]));
+                assert_eq!(
+                    (line.summit, line.gaps[bad]),
+                    (expected, expected - rough[bad])
+                );
                 assert_eq!(line.deepest, line.gaps.iter().copied().fold(0.0, f64::max));
                 rough[bad..].fill(f64::NAN);
                 let result = Line::new(1.0, points, None, Some(&rough), 1.0);
@@ -273,7 +336,13 @@ mod tests {
         let heights = [0.0, 0.1, 0.49, 0.5, 0.99, 1.0];
         let histogram = Histogram::new(heights.into_iter(), 0.0, 1.0, 2);
         assert_eq!(histogram.counts, [3, 3]);
-        assert_eq!(Histogram::new([2.0; 5].into_iter(), 2.0, 2.0, 3).counts, [5, 0, 0]);
-        assert_eq!(Histogram::new([f64::NAN, -1.0].into_iter(), 0.0, 1.0, 3).counts, [0; 3]);
+        assert_eq!(
+            Histogram::new([2.0; 5].into_iter(), 2.0, 2.0, 3).counts,
+            [5, 0, 0]
+        );
+        assert_eq!(
+            Histogram::new([f64::NAN, -1.0].into_iter(), 0.0, 1.0, 3).counts,
+            [0; 3]
+        );
     }
 }

@@ -35,7 +35,12 @@ impl Transform {
         let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
         let coefficients = zeros(points / 2 + 1)?;
         let scratch = zeros(plan.get_scratch_len())?;
-        Ok(Transform { points, plan, coefficients, scratch })
+        Ok(Transform {
+            points,
+            plan,
+            coefficients,
+            scratch,
+        })
     }
 }
 
@@ -80,7 +85,8 @@ impl Synthesizer {
         let advance = TAU * (0.5 - shift) / points as f64;
         self.transform((first, last), points, memory, |_, drawn| {
             for ((mode, phase), coefficient) in (first..).zip(phases(seed, first)).zip(drawn) {
-                *coefficient = Complex64::from_polar(0.5 * amplitude(mode), phase + advance * mode as f64);
+                *coefficient =
+                    Complex64::from_polar(0.5 * amplitude(mode), phase + advance * mode as f64);
             }
         })
     }
@@ -113,7 +119,11 @@ impl Synthesizer {
 
         transform
             .plan
-            .process_with_scratch(&mut transform.coefficients, &mut heights, &mut transform.scratch)
+            .process_with_scratch(
+                &mut transform.coefficients,
+                &mut heights,
+                &mut transform.scratch,
+            )
             .map_err(|error| SurfaceError::Transform(error.to_string()))?;
         if points <= LONGEST_KEPT {
             self.transform = Some(transform);
@@ -151,7 +161,8 @@ mod tests {
         let sum: f64 = (spectrum.first..=spectrum.last)
             .zip(phases(seed, spectrum.first))
             .map(|(k, phase)| {
-                spectrum.relative_amplitude(k) * (std::f64::consts::TAU * k as f64 * position + phase).cos()
+                spectrum.relative_amplitude(k)
+                    * (std::f64::consts::TAU * k as f64 * position + phase).cos()
             })
             .sum();
         sum / spectrum.relative_rms()
@@ -167,10 +178,16 @@ mod tests {
             (2, 1, 1, 0.0),
             (1400, 2, 700, 600.0),
         ] {
-            let spectrum = SelfAffine { hurst: 0.6, first, last, roll_off_mode: roll_off };
+            let spectrum = SelfAffine {
+                hurst: 0.6,
+                first,
+                last,
+                roll_off_mode: roll_off,
+            };
             for shift in [0.0, 0.5] {
-                let line =
-                    Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
+                let line = Synthesizer::default()
+                    .synthesize(spectrum, 42, points, shift, Vec::new())
+                    .unwrap();
                 for (i, &height) in line.iter().enumerate() {
                     let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
                     assert!(
@@ -181,8 +198,14 @@ mod tests {
             }
         }
         // The rms height is 1.
-        let heights =
-            SelfAffine { hurst: 0.8, first: 1, last: 100, roll_off_mode: 0.0 }.heights(3, 1000).unwrap();
+        let heights = SelfAffine {
+            hurst: 0.8,
+            first: 1,
+            last: 100,
+            roll_off_mode: 0.0,
+        }
+        .heights(3, 1000)
+        .unwrap();
         let rms = (heights.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
         assert!((rms - 1.0).abs() < 1e-12, "{rms}");
     }
@@ -202,8 +225,15 @@ mod tests {
             (2 * many as usize, 0.8, 1, many, 3),
             (64, 0.8, 1, 32, 3),
         ] {
-            let spectrum = SelfAffine { hurst, first, last, roll_off_mode: 0.0 };
-            let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
+            let spectrum = SelfAffine {
+                hurst,
+                first,
+                last,
+                roll_off_mode: 0.0,
+            };
+            let kept = synthesizer
+                .synthesize(spectrum, seed, points, 0.0, memory)
+                .unwrap();
             assert_eq!(kept, spectrum.heights(seed, points).unwrap());
             // The same as on one thread and by another plan.
             let alone = on_this_thread(|| spectrum.heights(seed, points).unwrap());

@@ -26,7 +26,11 @@ impl SelfAffine {
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
         let decay = mode.max(self.roll_off_mode).powf(self.amplitude_exponent());
-        if mode < self.roll_off_mode { decay * (mode / self.roll_off_mode).sqrt() } else { decay }
+        if mode < self.roll_off_mode {
+            decay * (mode / self.roll_off_mode).sqrt()
+        } else {
+            decay
+        }
     }
 
     /// Returns the exponent −H − 1/2 of the amplitudes.
@@ -42,8 +46,14 @@ impl SelfAffine {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
         }
-        let decay = waves.max(self.roll_off_mode).powf(2.0 * self.amplitude_exponent());
-        let square = if waves < self.roll_off_mode { decay * waves / self.roll_off_mode } else { decay };
+        let decay = waves
+            .max(self.roll_off_mode)
+            .powf(2.0 * self.amplitude_exponent());
+        let square = if waves < self.roll_off_mode {
+            decay * waves / self.roll_off_mode
+        } else {
+            decay
+        };
         square / (4.0 * std::f64::consts::PI * waves)
     }
 
@@ -110,7 +120,9 @@ impl SelfAffine {
     /// Computes Σ k^power A_k² over the modes with the relative amplitudes, with a relative error of a few units in the last
     /// place.
     fn moment(&self, power: i32) -> f64 {
-        let begins = (self.roll_off_mode.ceil() as u64).max(self.first).min(self.last.saturating_add(1));
+        let begins = (self.roll_off_mode.ceil() as u64)
+            .max(self.first)
+            .min(self.last.saturating_add(1));
         let decays = sum_of_powers(self.exponent(power), begins, self.last);
         if begins == self.first {
             return decays;
@@ -209,15 +221,24 @@ mod tests {
 
     #[test]
     fn integrals_stay_accurate_as_hurst_goes_to_one() {
-        let spectrum = |hurst| SelfAffine { hurst, first: 1, last: 4096, roll_off_mode: 0.0 };
+        let spectrum = |hurst| SelfAffine {
+            hurst,
+            first: 1,
+            last: 4096,
+            roll_off_mode: 0.0,
+        };
         let limit = spectrum(1.0).continuum_gradient_per_height(1.0);
         // At H = 1: ∫dq/q = ln 4096 over ∫q⁻³dq = (1 − 4096⁻²)/2.
-        let exact = std::f64::consts::TAU * (4096_f64.ln() * 2.0 / (1.0 - 4096_f64.powi(-2))).sqrt();
+        let exact =
+            std::f64::consts::TAU * (4096_f64.ln() * 2.0 / (1.0 - 4096_f64.powi(-2))).sqrt();
         assert!((limit - exact).abs() < 4.0 * f64::EPSILON * exact);
         for distance in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
             let found = spectrum(1.0 - distance).continuum_gradient_per_height(1.0);
             // The logarithm of the ratio changes by about ln 4096 for a unit change of H.
-            assert!((found / limit - 1.0).abs() < 10.0 * distance + 1e-14, "{distance}: {found}");
+            assert!(
+                (found / limit - 1.0).abs() < 10.0 * distance + 1e-14,
+                "{distance}: {found}"
+            );
         }
     }
 
@@ -225,15 +246,26 @@ mod tests {
     fn the_elastic_energy_of_the_modes_is_that_of_the_spectrum() {
         let (modulus, height, length) = (2.0e6, 3.0e-7, 1.0e-3);
         for hurst in [0.1, 0.5, 0.9] {
-            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000, roll_off_mode: 0.0 };
-            let modes = spectrum.unit_amplitude(length).scaled(height).elastic_energy(modulus);
+            let spectrum = SelfAffine {
+                hurst,
+                first: 10_000,
+                last: 400_000,
+                roll_off_mode: 0.0,
+            };
+            let modes = spectrum
+                .unit_amplitude(length)
+                .scaled(height)
+                .elastic_energy(modulus);
             // (E*/4) ∫ q C2D d²q over the surface with ⟨h²⟩ = ∫ C2D d²q: C2D ∝ q^(−2−2H).
             let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
             let (low, high) = (q(spectrum.first), q(spectrum.last));
             let power = |exponent: f64| (high.powf(exponent) - low.powf(exponent)) / exponent;
-            let expected =
-                0.25 * modulus * height.powi(2) * power(1.0 - 2.0 * hurst + 1e-9) / power(-2.0 * hurst);
-            assert!((modes / expected - 1.0).abs() < 2e-4, "H = {hurst}: {modes} against {expected}");
+            let expected = 0.25 * modulus * height.powi(2) * power(1.0 - 2.0 * hurst + 1e-9)
+                / power(-2.0 * hurst);
+            assert!(
+                (modes / expected - 1.0).abs() < 2e-4,
+                "H = {hurst}: {modes} against {expected}"
+            );
             // e_el/γ = (κ²/4) S₁/√(S₀S₂) with S_j = Σ k^(j−1−2H).
             let sum = |j: i32| spectrum.moment(j);
             let kappa_squared = modulus * height.powi(2) * spectrum.gradient_per_height(length);
@@ -245,37 +277,56 @@ mod tests {
     #[test]
     fn below_the_roll_off_the_spectrum_of_the_surface_is_flat() {
         let (length, height) = (2e-4, 3e-7);
-        for (hurst, first, last, roll_off) in
-            [(0.3, 1, 500, 40.5), (0.8, 3, 4096, 700.0), (0.8, 3, 90, 90.0), (0.5, 7, 7, 7.4)]
-        {
-            let spectrum = SelfAffine { hurst, first, last, roll_off_mode: roll_off };
+        for (hurst, first, last, roll_off) in [
+            (0.3, 1, 500, 40.5),
+            (0.8, 3, 4096, 700.0),
+            (0.8, 3, 90, 90.0),
+            (0.5, 7, 7, 7.4),
+        ] {
+            let spectrum = SelfAffine {
+                hurst,
+                first,
+                last,
+                roll_off_mode: roll_off,
+            };
             // C1D = π q C2D with C2D flat up to q_r and ∝ q^(−2−2H) above; A² ∝ C1D.
             let squares = (first..=last).rev().map(|mode| {
                 let power = (mode as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
                 (mode, mode as f64 * power)
             });
             let summed = Amplitude::from_modes(squares.clone(), length);
-            let (expected, found) =
-                (summed.scaled(height / summed.rms_height), spectrum.unit_amplitude(length).scaled(height));
+            let (expected, found) = (
+                summed.scaled(height / summed.rms_height),
+                spectrum.unit_amplitude(length).scaled(height),
+            );
             let energies = [expected, found].map(|amplitude| amplitude.elastic_energy(2e6));
             for (one, other) in [
                 (found.rms_gradient, expected.rms_gradient),
                 (found.rms_curvature, expected.rms_curvature),
                 (energies[1], energies[0]),
             ] {
-                assert!((one / other - 1.0).abs() < 1e-12, "{spectrum:?}: {one} {other}");
+                assert!(
+                    (one / other - 1.0).abs() < 1e-12,
+                    "{spectrum:?}: {one} {other}"
+                );
             }
             let level = spectrum.relative_amplitude(first).powi(2) / (first as f64);
             for (mode, square) in squares.map(|(mode, square)| (mode, square * level)) {
                 let found = spectrum.relative_amplitude(mode).powi(2);
                 let first_square = (first as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
-                assert!((found * first_square / square - 1.0).abs() < 1e-12, "{spectrum:?}, mode {mode}");
+                assert!(
+                    (found * first_square / square - 1.0).abs() < 1e-12,
+                    "{spectrum:?}, mode {mode}"
+                );
             }
             // Integrals over the continuum, by the rule of midpoints.
             let integral = |power: i32| -> f64 {
                 let (low, step) = ((first as f64).ln(), (last as f64 / first as f64).ln() / 4e5);
-                let values = (0..400_000).map(|index| (low + (f64::from(index) + 0.5) * step).exp());
-                values.map(|q| q.powi(power + 2) * (q / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst)).sum()
+                let values =
+                    (0..400_000).map(|index| (low + (f64::from(index) + 0.5) * step).exp());
+                values
+                    .map(|q| q.powi(power + 2) * (q / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst))
+                    .sum()
             };
             let expected = std::f64::consts::TAU / length * (integral(2) / integral(0)).sqrt();
             let found = spectrum.continuum_gradient_per_height(length);
@@ -284,7 +335,19 @@ mod tests {
                 "{spectrum:?}: {found} {expected}"
             );
         }
-        let flat = SelfAffine { hurst: 0.7, first: 4, last: 512, roll_off_mode: 4.0 };
-        assert_eq!(flat.unit_amplitude(1.0), SelfAffine { roll_off_mode: 0.0, ..flat }.unit_amplitude(1.0));
+        let flat = SelfAffine {
+            hurst: 0.7,
+            first: 4,
+            last: 512,
+            roll_off_mode: 4.0,
+        };
+        assert_eq!(
+            flat.unit_amplitude(1.0),
+            SelfAffine {
+                roll_off_mode: 0.0,
+                ..flat
+            }
+            .unit_amplitude(1.0)
+        );
     }
 }

@@ -23,7 +23,14 @@ const CLOSEST: f64 = 1e-9;
 /// Sine of the angle of an interval between rows below which power series are accurate to rounding.
 const NARROW: f64 = 0.05;
 /// Power series of (arcsin s)/s in s².
-const ARCSINE: [f64; 6] = [1.0, 1.0 / 6.0, 3.0 / 40.0, 15.0 / 336.0, 105.0 / 3456.0, 945.0 / 42240.0];
+const ARCSINE: [f64; 6] = [
+    1.0,
+    1.0 / 6.0,
+    3.0 / 40.0,
+    15.0 / 336.0,
+    105.0 / 3456.0,
+    945.0 / 42240.0,
+];
 /// Power series of (1 − cos δ)/δ² in δ².
 const VERSINE: [f64; 4] = [0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0];
 /// Power series of (δ − sin δ)/δ³ in δ².
@@ -49,7 +56,10 @@ pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
 impl PartialEq for Rows {
     fn eq(&self, other: &Self) -> bool {
-        self.0.get().zip(other.0.get()).is_none_or(|(one, other)| one == other)
+        self.0
+            .get()
+            .zip(other.0.get())
+            .is_none_or(|(one, other)| one == other)
     }
 }
 
@@ -57,10 +67,19 @@ impl FormTable {
     /// Reads a table of two columns in m, unless the file states a unit or `unit` is given.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let convention = Some(Unit::METRE);
-        let options = ReadOptions { unit, convention, interpolate: true, ..ReadOptions::default() };
+        let options = ReadOptions {
+            unit,
+            convention,
+            interpolate: true,
+            ..ReadOptions::default()
+        };
         let surface = parse(&content(path)?, &options)?;
         if let Some(row) = surface.first_missing() {
-            return Err(refused(Place::Point(row + 1), "the depth is missing", "a number in each row"));
+            return Err(refused(
+                Place::Point(row + 1),
+                "the depth is missing",
+                "a number in each row",
+            ));
         }
         let (radii, depths) = surface.into_profile()?;
         FormTable::new(radii, &depths)
@@ -84,27 +103,45 @@ impl FormTable {
         let row = |index: usize| Place::Point(index + 1);
         if rows < 2 || depths.len() != rows {
             let fault = format!("{rows} radii and {} depths", depths.len());
-            return Err(refused(Place::File, fault, "two or more rows of a radius and a depth"));
+            return Err(refused(
+                Place::File,
+                fault,
+                "two or more rows of a radius and a depth",
+            ));
         }
         let is_finite = |index: &usize| radii[*index].is_finite() && depths[*index].is_finite();
         if let Some(index) = (0..rows).find(|index| !is_finite(index)) {
-            return Err(refused(row(index), "a number that is not finite", "finite numbers"));
+            return Err(refused(
+                row(index),
+                "a number that is not finite",
+                "finite numbers",
+            ));
         }
         if radii[0] != 0.0 {
             let fault = format!("r = {:e} m", radii[0]);
-            return Err(refused(row(0), fault, "r = 0, the axis of the body, in the first row"));
+            return Err(refused(
+                row(0),
+                fault,
+                "r = 0, the axis of the body, in the first row",
+            ));
         }
         let widths: Vec<f64> = radii.windows(2).map(|r| r[1] - r[0]).collect();
         let least = CLOSEST * reach;
-        if let Some(index) = widths.iter().position(|&width| !(width >= least && width > 0.0)) {
+        if let Some(index) = widths
+            .iter()
+            .position(|&width| !(width >= least && width > 0.0))
+        {
             let fault = format!("r = {:e} m after {:e} m", radii[index + 1], radii[index]);
             let allowed = format!(
                 "ascending radii at least {least:e} m, a billionth of the last one, beyond each other"
             );
             return Err(refused(row(index + 1), fault, allowed));
         }
-        let secants: Vec<f64> =
-            depths.windows(2).zip(&widths).map(|(f, width)| (f[1] - f[0]) / width).collect();
+        let secants: Vec<f64> = depths
+            .windows(2)
+            .zip(&widths)
+            .map(|(f, width)| (f[1] - f[0]) / width)
+            .collect();
         let slope = |row: usize| limited_slope(&radii, &secants, row);
         let cubic = |row: usize| {
             let (width, secant) = (widths[row], secants[row]);
@@ -128,8 +165,14 @@ impl FormTable {
             distance * (a + distance * (b / 2.0 + distance * (c / 3.0)))
         };
         let last = self.slopes.len() - 1;
-        let row = self.radii.partition_point(|start| *start <= radius).clamp(1, last + 1) - 1;
-        let before: f64 = (0..row).map(|row| along(row, self.radii[row + 1] - self.radii[row])).sum();
+        let row = self
+            .radii
+            .partition_point(|start| *start <= radius)
+            .clamp(1, last + 1)
+            - 1;
+        let before: f64 = (0..row)
+            .map(|row| along(row, self.radii[row + 1] - self.radii[row]))
+            .sum();
         let beyond = (radius - self.reach()).max(0.0);
         let width = radius - beyond - self.radii[row];
         let [a, b, c] = self.slopes[row];
@@ -158,17 +201,23 @@ impl FormTable {
         let [from, to] = [root(u), root(end)];
         let sine = (end - u) * (end + u) / (end * from + u * to);
         if sine < NARROW {
-            let series = |terms: &[f64], z: f64| terms.iter().rev().fold(0.0, |sum, term| sum * z + term);
+            let series =
+                |terms: &[f64], z: f64| terms.iter().rev().fold(0.0, |sum, term| sum * z + term);
             let angle = sine * series(&ARCSINE, sine * sine);
             let z = angle * angle;
             let versine = z * series(&VERSINE, z);
             let along = from * versine - u * angle * z * series(&ANGLE_LESS_SINE, z);
-            let square = from * from * angle * z * series(&SQUARED_SINE, z) - from * u * versine * versine
+            let square = from * from * angle * z * series(&SQUARED_SINE, z)
+                - from * u * versine * versine
                 + u * u * angle * z * z * series(&SQUARED_VERSINE, z);
             return a * angle + b * along + c * square;
         }
         let cosine = (u * end + from * to) / (x * x);
-        let angle = if sine < cosine { sine.asin() } else { cosine.acos() };
+        let angle = if sine < cosine {
+            sine.asin()
+        } else {
+            cosine.acos()
+        };
         let slope = |&(node, weight): &(f64, f64)| {
             let (sin, cos) = (0.5 * node / FRAC_PI_2 * angle).sin_cos();
             let beyond = 2.0 * sin * (from * cos - u * sin);
@@ -197,7 +246,11 @@ impl FormTable {
         for gap in 0..self.slopes.len() {
             let (low, high) = (self.radii[gap], self.radii[gap + 1]);
             let is_last = gap + 1 == self.slopes.len();
-            let end = if is_last { count } else { ((high / spacing).ceil() as usize).min(count) };
+            let end = if is_last {
+                count
+            } else {
+                ((high / spacing).ceil() as usize).min(count)
+            };
             let points = depths.len()..end.max(depths.len());
             let mut near = 0;
             let mut series = [0.0; NODES];
@@ -235,7 +288,10 @@ impl FormTable {
         let depths = self.depths(step, STEPS + 1).ok()?;
         // Rounded numbers of a file.
         let slack = 1e-9 * depths.iter().copied().fold(0.0, f64::max);
-        depths.windows(2).position(|pair| pair[1] < pair[0] - slack).map(|place| place as f64 * step)
+        depths
+            .windows(2)
+            .position(|pair| pair[1] < pair[0] - slack)
+            .map(|place| place as f64 * step)
     }
 }
 
@@ -248,10 +304,20 @@ fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {
     let other = (one + 1).min(last);
     let middle = |secant: usize| 0.5 * (radii[secant] + radii[secant + 1]);
     let apart = middle(other) - middle(one);
-    let rise = if apart > 0.0 { (secants[other] - secants[one]) / apart } else { 0.0 };
+    let rise = if apart > 0.0 {
+        (secants[other] - secants[one]) / apart
+    } else {
+        0.0
+    };
     let parabola = secants[one] + rise * (radii[row] - middle(one));
     let beside = [secants[row.saturating_sub(1)], secants[row.min(last)]];
     let most = 3.0 * beside[0].abs().min(beside[1].abs());
-    let agree = beside.iter().all(|secant| (*secant > 0.0) == (parabola > 0.0));
-    if agree { parabola.clamp(-most, most) } else { 0.0 }
+    let agree = beside
+        .iter()
+        .all(|secant| (*secant > 0.0) == (parabola > 0.0));
+    if agree {
+        parabola.clamp(-most, most)
+    } else {
+        0.0
+    }
 }

@@ -126,7 +126,10 @@ struct Powers {
 /// assert_eq!(found.isotropic.line(high), 0.5 * high * found.isotropic.c2d(high));
 /// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
-pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Analysis, SurfaceError> {
+pub fn analyse(
+    surfaces: &[Topography],
+    options: &AnalysisOptions,
+) -> Result<Analysis, SurfaceError> {
     if surfaces.is_empty() {
         return Err(refused(Place::File, "no surface", "at least one"));
     }
@@ -145,7 +148,10 @@ pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Ana
         let points = interlaced::displacement(heights, columns).map(|points| points * distances[0]);
         displaced = displaced.into_iter().chain(points).reduce(f64::max);
         let scan = columns as f64 * distances[0];
-        for ((most, sums), size) in [(&mut of_longest, scan), (&mut of_finest, 1.0 / distances[0])] {
+        for ((most, sums), size) in [
+            (&mut of_longest, scan),
+            (&mut of_finest, 1.0 / distances[0]),
+        ] {
             if size > *most * (1.0 + SAME) {
                 (*most, *sums) = (size, Sums::default());
             }
@@ -172,12 +178,22 @@ pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Ana
         return Err(refused(Place::File, found, allowed));
     }
     let fitted = |observations: &[Observation], end: End| {
-        Model::new(observations, range, end).fit().ok_or_else(no_maximum)
+        Model::new(observations, range, end)
+            .fit()
+            .ok_or_else(no_maximum)
     };
     let self_affine = |observations: &[Observation], spectrum: &IsotropicSpectrum| {
         // The powers of the last waves depend on how the spectrum ends.
-        let last = if ends_inside { range[1] - BEFORE_END * range[0] } else { f64::INFINITY };
-        let before: Vec<_> = observations.iter().filter(|one| one.wave_number < last).cloned().collect();
+        let last = if ends_inside {
+            range[1] - BEFORE_END * range[0]
+        } else {
+            f64::INFINITY
+        };
+        let before: Vec<_> = observations
+            .iter()
+            .filter(|one| one.wave_number < last)
+            .cloned()
+            .collect();
         fit_power_law(&Model::new(&before, range, options.end), spectrum)
     };
     let mut isotropic = fitted(&observations, options.end)?;
@@ -185,15 +201,24 @@ pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Ana
     let mut power_law = self_affine(&observations, &isotropic).filter(|_| apart == 0.0);
     let mut largest = [0.0_f64; 4];
     let is_resampled = surfaces.iter().any(Topography::is_resampled);
-    let places = 1..if has_gaps { 4 } else { 1 + usize::from(is_resampled) };
+    let places = 1..if has_gaps {
+        4
+    } else {
+        1 + usize::from(is_resampled)
+    };
     for quarters in places {
         let powers = Powers::of(surfaces, options, quarters, |_, _, _| Ok(()))?;
         let observations = powers.observations(range[1]);
         let again = fitted(&observations, options.end)?;
         let hurst = self_affine(&observations, &again).zip(power_law);
-        let change = hurst.map_or(0.0, |(again, before)| again.hurst.value - before.hurst.value);
+        let change = hurst.map_or(0.0, |(again, before)| {
+            again.hurst.value - before.hurst.value
+        });
         let changes = isotropic.changes(&again).into_iter().chain([change]);
-        largest.iter_mut().zip(changes).for_each(|(largest, change)| *largest = largest.max(change.abs()));
+        largest
+            .iter_mut()
+            .zip(changes)
+            .for_each(|(largest, change)| *largest = largest.max(change.abs()));
     }
     if let Some(fit) = &mut power_law {
         fit.hurst.error = fit.hurst.error.hypot(largest[3]);
@@ -204,8 +229,14 @@ pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Ana
     if options.end == End::Ends && !ends_inside {
         // Without such a fit nothing is known of the missing waves.
         let change = |longer: IsotropicSpectrum| {
-            let within = Nodes { end: range[1], ..longer.nodes };
-            let within = IsotropicSpectrum { nodes: within, ..longer.clone() };
+            let within = Nodes {
+                end: range[1],
+                ..longer.nodes
+            };
+            let within = IsotropicSpectrum {
+                nodes: within,
+                ..longer.clone()
+            };
             let (within, all) = (isotropic.changes(&within), isotropic.changes(&longer));
             [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()))
         };
@@ -220,7 +251,10 @@ pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Ana
     }
     let line = line_moments(std::slice::from_ref(&isotropic));
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
-    if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
+    if values
+        .iter()
+        .any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite()))
+    {
         return Err(no_maximum());
     }
     Ok(Analysis {
@@ -244,12 +278,20 @@ pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Ana
 
 /// Checks that the heights without the removed polynomial exceed the rounding errors of the original heights.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SurfaceError> {
-    let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
+    let largest = |heights: &[f64]| {
+        heights
+            .iter()
+            .fold(0.0_f64, |largest, z| largest.max(z.abs()))
+    };
     let left = largest(after);
     if left > 1e-12 * largest(before) && left > 1e-100 {
         return Ok(());
     }
-    Err(refused(Place::File, "no roughness is left after detrending", "heights that differ"))
+    Err(refused(
+        Place::File,
+        "no roughness is left after detrending",
+        "heights that differ",
+    ))
 }
 
 impl Powers {
@@ -274,10 +316,24 @@ impl Powers {
             }
             let mut heights = surface.copied_heights(quarters).map_err(within)?;
             let periodic = options.periodic || surface.periodic;
-            let default = if periodic { Detrend::Mean } else { Detrend::Tilt };
-            options.detrend.or(surface.detrend).unwrap_or(default).remove(&mut heights, columns);
+            let default = if periodic {
+                Detrend::Mean
+            } else {
+                Detrend::Tilt
+            };
+            options
+                .detrend
+                .or(surface.detrend)
+                .unwrap_or(default)
+                .remove(&mut heights, columns);
             check(surface, &heights, distances)?;
-            powers.add(&heights, [columns, rows], distances, !periodic, surface.aligned)?;
+            powers.add(
+                &heights,
+                [columns, rows],
+                distances,
+                !periodic,
+                surface.aligned,
+            )?;
         }
         Ok(powers)
     }
@@ -294,7 +350,13 @@ impl Powers {
         // Rows, or columns.
         let lines = |axis: usize| {
             let (first, step) = [(columns, 1), (1, columns)][axis];
-            let line = move |line: usize| heights.iter().skip(line * first).step_by(step).take(points[axis]);
+            let line = move |line: usize| {
+                heights
+                    .iter()
+                    .skip(line * first)
+                    .step_by(step)
+                    .take(points[axis])
+            };
             (0..points[1 - axis]).map(move |number| line(number).copied())
         };
         if rows == 1 {
@@ -317,15 +379,25 @@ impl Powers {
     }
 
     fn observations(&self, last: f64) -> Vec<Observation> {
-        let profiles = self.profiles.iter().flat_map(|power| observation::of_profiles(power, last));
+        let profiles = self
+            .profiles
+            .iter()
+            .flat_map(|power| observation::of_profiles(power, last));
         let strips = self.strips.iter().flat_map(|(power, end)| {
             // Neighbouring rows are nearly equal in waves that long: they count as one.
-            let one = |of: Observation| Observation { waves: of.waves / power.profiles as f64, ..of };
+            let one = |of: Observation| Observation {
+                waves: of.waves / power.profiles as f64,
+                ..of
+            };
             observation::of_profiles(power, *end).into_iter().map(one)
         });
         profiles
             .chain(strips)
-            .chain(self.maps.iter().flat_map(|power| observation::of_map(power, last)))
+            .chain(
+                self.maps
+                    .iter()
+                    .flat_map(|power| observation::of_map(power, last)),
+            )
             .collect()
     }
 
@@ -338,21 +410,38 @@ impl Powers {
         });
         let maps = self.maps.iter().map(|map| {
             let step = map.steps[0].min(map.steps[1]);
-            [step, last(&map.waves).checked_sub(1).map_or(step, |index| map.waves[index].0)]
+            [
+                step,
+                last(&map.waves)
+                    .checked_sub(1)
+                    .map_or(step, |index| map.waves[index].0),
+            ]
         });
-        profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
+        profiles
+            .chain(maps)
+            .fold([f64::INFINITY, 0.0], |[low, high], [a, b]| {
+                [low.min(a), high.max(b)]
+            })
     }
 
     fn spectra(&self) -> Vec<(Along, Vec<Bin>)> {
         let mean = |powers: &mut dyn Iterator<Item = &ProfilePower>| {
             bins(powers.flat_map(|power| {
-                power.waves.iter().map(|(q, sum)| (*q, sum / power.profiles as f64, power.profiles))
+                power
+                    .waves
+                    .iter()
+                    .map(|(q, sum)| (*q, sum / power.profiles as f64, power.profiles))
             }))
         };
-        let radial =
-            self.maps.iter().flat_map(|map| map.waves.iter().map(|(q, power)| (*q, q * power / PI, 1)));
+        let radial = self
+            .maps
+            .iter()
+            .flat_map(|map| map.waves.iter().map(|(q, power)| (*q, q * power / PI, 1)));
         [
-            (Along::X, mean(&mut self.profiles.iter().chain(&self.axes[0]))),
+            (
+                Along::X,
+                mean(&mut self.profiles.iter().chain(&self.axes[0])),
+            ),
             (Along::Y, mean(&mut self.axes[1].iter())),
             (Along::Radial, bins(radial)),
         ]
@@ -369,7 +458,11 @@ fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     let sum = |waves: &[(f64, f64)]| waves.iter().map(square).sum::<f64>();
     let squares = |waves: &[(f64, f64)]| waves.iter().map(|(q, _)| q * q).sum::<f64>();
     let last = &waves[waves.len() - waves.len() / FLOOR..];
-    let floor = if has_floor && !last.is_empty() { sum(last) / squares(last) } else { 0.0 };
+    let floor = if has_floor && !last.is_empty() {
+        sum(last) / squares(last)
+    } else {
+        0.0
+    };
     let negligible = NEGLIGIBLE * sum(waves) + CHANCE * floor * squares(waves);
     let (mut end, mut excess) = (waves.len(), 0.0);
     let excess_of = |wave: &(f64, f64)| square(wave) - floor * wave.0 * wave.0;
@@ -381,12 +474,23 @@ fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     let beyond = waves.len() - end;
     let before = beyond.min(end);
     let as_many = sum(&waves[end - before..end]);
-    if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { waves.len() }
+    if rest * before as f64 <= DROP * as_many * beyond as f64 {
+        end
+    } else {
+        waves.len()
+    }
 }
 
 /// Returns the power spectrum of profiles with this number and spacing of points, a new one if there is none yet.
-fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: bool) -> &mut ProfilePower {
-    let same = |power: &ProfilePower| power.points == points && (power.spacing / spacing - 1.0).abs() < SAME;
+fn group(
+    powers: &mut Vec<ProfilePower>,
+    points: usize,
+    spacing: f64,
+    windowed: bool,
+) -> &mut ProfilePower {
+    let same = |power: &ProfilePower| {
+        power.points == points && (power.spacing / spacing - 1.0).abs() < SAME
+    };
     let index = powers.iter().position(same).unwrap_or_else(|| {
         powers.push(ProfilePower::new(points, spacing, windowed));
         powers.len() - 1

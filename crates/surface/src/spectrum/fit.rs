@@ -32,23 +32,36 @@ impl<'a> Model<'a> {
     /// Creates a model with nodes over the range of wave numbers of the observations in rad/m.
     pub fn new(observations: &'a [Observation], [low, high]: [f64; 2], end: End) -> Self {
         let nodes = Nodes::new(low, high, NODES_PER_DECADE, end);
-        let terms = observations.iter().map(|observation| observation.terms(&nodes)).collect();
-        Model { observations, terms, nodes }
+        let terms = observations
+            .iter()
+            .map(|observation| observation.terms(&nodes))
+            .collect();
+        Model {
+            observations,
+            terms,
+            nodes,
+        }
     }
 
     /// Computes the objective without the penalty, for given means of the powers.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         let each = self.observations.iter().zip(means);
-        each.map(|(observed, mean)| observed.waves * (observed.power / mean + mean.ln())).sum()
+        each.map(|(observed, mean)| observed.waves * (observed.power / mean + mean.ln()))
+            .sum()
     }
 
     /// Returns the means of the observed powers for these values of ln C2D at the nodes.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
-        self.terms.iter().map(|terms| terms.iter().map(|term| term.value(values)).sum::<f64>())
+        self.terms
+            .iter()
+            .map(|terms| terms.iter().map(|term| term.value(values)).sum::<f64>())
     }
 
     fn objective(&self, values: &[f64]) -> f64 {
-        let rough: f64 = values.windows(3).map(|x| (x[0] - 2.0 * x[1] + x[2]).powi(2)).sum();
+        let rough: f64 = values
+            .windows(3)
+            .map(|x| (x[0] - 2.0 * x[1] + x[2]).powi(2))
+            .sum();
         self.misfit(self.means(values)) + SMOOTHNESS * rough
     }
 
@@ -71,7 +84,8 @@ impl<'a> Model<'a> {
             for row in 0..count {
                 gradient[row] += residual * slope[row];
                 for column in 0..=row {
-                    information[row * count + column] += observed.waves * slope[row] * slope[column];
+                    information[row * count + column] +=
+                        observed.waves * slope[row] * slope[column];
                 }
             }
         }
@@ -95,22 +109,32 @@ impl<'a> Model<'a> {
         for (observed, terms) in self.observations.iter().zip(&self.terms) {
             // The mean of a spectrum of ones is the normalisation.
             let ln_q = observed.wave_number.ln();
-            let weights = terms.iter().map(|term| term.weight * ((ln_q - term.ln_q) * 3.0).exp());
+            let weights = terms
+                .iter()
+                .map(|term| term.weight * ((ln_q - term.ln_q) * 3.0).exp());
             let weight: f64 = weights.sum();
             if observed.power > 0.0 && weight > 0.0 {
                 let (index, share) = self.nodes.place(ln_q);
-                let nearest = if share < 0.5 { index } else { (index + 1).min(count - 1) };
+                let nearest = if share < 0.5 {
+                    index
+                } else {
+                    (index + 1).min(count - 1)
+                };
                 sums[nearest].0 += observed.waves * (observed.power / weight).ln();
                 sums[nearest].1 += observed.waves;
             }
         }
         let known = (0..count).filter(|index| sums[*index].1 > 0.0);
-        let known: Vec<_> = known.map(|index| (index, sums[index].0 / sums[index].1)).collect();
+        let known: Vec<_> = known
+            .map(|index| (index, sums[index].0 / sums[index].1))
+            .collect();
         let between = |index: usize| {
             let after = known.iter().find(|(place, _)| *place >= index);
             let before = known.iter().rev().find(|(place, _)| *place <= index);
             match (before, after) {
-                (Some((i, a)), Some((j, b))) if i < j => a + (b - a) * (index - i) as f64 / (j - i) as f64,
+                (Some((i, a)), Some((j, b))) if i < j => {
+                    a + (b - a) * (index - i) as f64 / (j - i) as f64
+                }
                 (Some((_, value)), _) | (None, Some((_, value))) => *value,
                 (None, None) => 0.0,
             }
@@ -122,17 +146,28 @@ impl<'a> Model<'a> {
     /// that are zero or not finite.
     pub fn fit(&self) -> Option<IsotropicSpectrum> {
         let moved = |values: &Vec<f64>, step: &[f64], share: f64| {
-            let largest = step.iter().fold(0.0_f64, |largest, change| largest.max(change.abs()));
+            let largest = step
+                .iter()
+                .fold(0.0_f64, |largest, change| largest.max(change.abs()));
             let limited = share * (LARGEST_STEP / largest).min(1.0);
-            values.iter().zip(step).map(|(x, change)| x - limited * change).collect()
+            values
+                .iter()
+                .zip(step)
+                .map(|(x, change)| x - limited * change)
+                .collect()
         };
         let objective = |values: &Vec<f64>| self.objective(values);
         let linearise = |values: &Vec<f64>| self.linearise(values);
         let (values, _) = descend(self.start(), MOST_STEPS, objective, linearise, moved)?;
         let (_, information) = self.linearise(&values);
         let information = Cholesky::new(information, values.len())?;
-        let mut found =
-            IsotropicSpectrum { nodes: self.nodes, values, information, method: [0.0; 3], missing: [0.0; 3] };
+        let mut found = IsotropicSpectrum {
+            nodes: self.nodes,
+            values,
+            information,
+            method: [0.0; 3],
+            missing: [0.0; 3],
+        };
         found.method = self.departure(&found);
         Some(found)
     }
@@ -143,12 +178,17 @@ impl<'a> Model<'a> {
     fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
         let mut largest = [0.0_f64; 3];
         let mut means = self.means(&found.values);
-        let kinds: Vec<_> = self.observations.chunk_by(|one, next| one.kind == next.kind).collect();
+        let kinds: Vec<_> = self
+            .observations
+            .chunk_by(|one, next| one.kind == next.kind)
+            .collect();
         for kind in &kinds {
             let (mut sums, mut variances) = ([0.0; 3], [0.0; 3]);
             for (observed, mean) in kind.iter().zip(&mut means) {
-                let (differences, scatter) =
-                    (observed.moments(observed.power - mean), observed.moments(mean));
+                let (differences, scatter) = (
+                    observed.moments(observed.power - mean),
+                    observed.moments(mean),
+                );
                 for index in 0..3 {
                     sums[index] += differences[index];
                     variances[index] += scatter[index].powi(2) / observed.waves;
@@ -156,7 +196,11 @@ impl<'a> Model<'a> {
             }
             for ((largest, sum), variance) in largest.iter_mut().zip(sums).zip(variances) {
                 // Scans that share a spectrum depart from it by chance, which is in the statistical error.
-                let chance = if kinds.len() > 1 { 2.0 * f64::sqrt(variance) } else { 0.0 };
+                let chance = if kinds.len() > 1 {
+                    2.0 * f64::sqrt(variance)
+                } else {
+                    0.0
+                };
                 *largest = largest.max(sum.abs() - chance);
             }
         }
@@ -180,7 +224,9 @@ pub(super) fn descend<P>(
         let (gradient, information) = linearise(&parameters);
         let step = Cholesky::new(information, gradient.len())?.solve(gradient);
         let shares = (0..30).map(|halvings| moved(&parameters, &step, 0.5_f64.powi(halvings)));
-        let lower = shares.map(|next| (objective(&next), next)).find(|(found, _)| *found < least);
+        let lower = shares
+            .map(|next| (objective(&next), next))
+            .find(|(found, _)| *found < least);
         let Some((found, next)) = lower else { break };
         let decrease = least - found;
         (parameters, least) = (next, found);
@@ -222,7 +268,11 @@ impl SelfAffineFit {
     pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
         let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);
-        cut(|q| level * (q / corner).max(1.0).powf(exponent), wave_number, last)
+        cut(
+            |q| level * (q / corner).max(1.0).powf(exponent),
+            wave_number,
+            last,
+        )
     }
 }
 
@@ -244,8 +294,10 @@ impl Parameters {
     }
 
     fn moved(&self, step: &[f64], share: f64, [low, high]: [f64; 2]) -> Parameters {
-        let limited =
-            |index: usize, most: f64| step.get(index).map_or(0.0, |step| (share * step).clamp(-most, most));
+        let limited = |index: usize, most: f64| {
+            step.get(index)
+                .map_or(0.0, |step| (share * step).clamp(-most, most))
+        };
         Parameters {
             level: self.level - limited(0, 3.0),
             hurst: (self.hurst - limited(1, 0.3)).clamp(HURST[0], HURST[1]),
@@ -256,12 +308,17 @@ impl Parameters {
 
 /// Fits a self-affine spectrum to the observations of a model. `spectrum` is the fit with nodes to the same observations. `None`
 /// if the fit does not converge or no exponent between 0 and 1 fits.
-pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<SelfAffineFit> {
+pub(super) fn fit_power_law(
+    model: &Model<'_>,
+    spectrum: &IsotropicSpectrum,
+) -> Option<SelfAffineFit> {
     let low = model.nodes.first;
     let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
     // Above a third of the range no exponent could be determined.
     let bounds = [low, low + 0.67 * (high - low)];
-    let count = (STARTS_PER_DECADE * (bounds[1] - low) / std::f64::consts::LN_10).ceil().max(1.0);
+    let count = (STARTS_PER_DECADE * (bounds[1] - low) / std::f64::consts::LN_10)
+        .ceil()
+        .max(1.0);
     let without = search(model, start(model, low), 2, bounds, MOST_SEARCHED)?;
     let mut best: Option<(Parameters, f64)> = None;
     for index in 1..=count as usize {
@@ -269,8 +326,10 @@ pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> 
         // Level and exponent first, then all three.
         let near = search(model, start(model, roll_off), 2, bounds, FEW_STEPS);
         let found = near.and_then(|(near, _)| search(model, near, 3, bounds, FEW_STEPS));
-        best =
-            best.into_iter().chain(found).reduce(|best, found| if found.1 < best.1 { found } else { best });
+        best = best
+            .into_iter()
+            .chain(found)
+            .reduce(|best, found| if found.1 < best.1 { found } else { best });
     }
     let best = best.and_then(|(parameters, _)| search(model, parameters, 3, bounds, MOST_SEARCHED));
     let with_roll_off = best.map_or(without.0.hurst, |(parameters, _)| parameters.hurst);
@@ -278,12 +337,16 @@ pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> 
     let ((parameters, misfit), free) = found.map_or((without, 2), |found| (found, 3));
     // Of a self-affine surface twice the difference has as its mean the number of further parameters of the spectrum.
     let excess = 2.0 * (misfit - model.misfit(model.means(&spectrum.values)));
-    let scale = (excess / (spectrum.values.len() - free) as f64).max(1.0).sqrt();
+    let scale = (excess / (spectrum.values.len() - free) as f64)
+        .max(1.0)
+        .sqrt();
     let (_, information) = linearise(model, &parameters, free);
     let information = Cholesky::new(information, free)?;
     let error = |index: usize| scale * information.standard_error(index);
-    let exponential =
-        |value: f64, error: f64| ValueWithError { value: value.exp(), error: value.exp() * error };
+    let exponential = |value: f64, error: f64| ValueWithError {
+        value: value.exp(),
+        error: value.exp() * error,
+    };
     (0.0 < parameters.hurst && parameters.hurst < 1.0).then(|| SelfAffineFit {
         // A roll-off may be there even though chance could show it.
         hurst: ValueWithError {
@@ -296,7 +359,11 @@ pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> 
 }
 
 fn start(model: &Model<'_>, roll_off: f64) -> Parameters {
-    let mut parameters = Parameters { level: 0.0, hurst: 0.7, roll_off };
+    let mut parameters = Parameters {
+        level: 0.0,
+        hurst: 0.7,
+        roll_off,
+    };
     let (mut sum, mut waves) = (0.0, 0.0);
     for (observed, mean) in model.observations.iter().zip(means(model, &parameters)) {
         if observed.power > 0.0 && mean > 0.0 {
@@ -309,7 +376,12 @@ fn start(model: &Model<'_>, roll_off: f64) -> Parameters {
 }
 
 fn means<'a>(model: &'a Model<'_>, parameters: &'a Parameters) -> impl Iterator<Item = f64> + 'a {
-    model.terms.iter().map(|terms| terms.iter().map(|term| term.weight * parameters.value(term.ln_q)).sum())
+    model.terms.iter().map(|terms| {
+        terms
+            .iter()
+            .map(|term| term.weight * parameters.value(term.ln_q))
+            .sum()
+    })
 }
 
 /// Minimises the misfit over the first `free` parameters, from initial values.
@@ -322,7 +394,8 @@ fn search(
 ) -> Option<(Parameters, f64)> {
     let misfit = |parameters: &Parameters| model.misfit(means(model, parameters));
     let linearise = |parameters: &Parameters| linearise(model, parameters, free);
-    let moved = |parameters: &Parameters, step: &[f64], share: f64| parameters.moved(step, share, bounds);
+    let moved =
+        |parameters: &Parameters, step: &[f64], share: f64| parameters.moved(step, share, bounds);
     descend(start, most_steps, misfit, linearise, moved)
 }
 
@@ -337,7 +410,11 @@ fn linearise(model: &Model<'_>, parameters: &Parameters, free: usize) -> (Vec<f6
             mean += value;
             slope[0] += value;
             slope[1] -= 2.0 * above * value;
-            slope[2] += if above > 0.0 { parameters.exponent() * value } else { 0.0 };
+            slope[2] += if above > 0.0 {
+                parameters.exponent() * value
+            } else {
+                0.0
+            };
         }
         let residual = observed.waves * (1.0 - observed.power / mean);
         for row in 0..free {

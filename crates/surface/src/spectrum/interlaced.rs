@@ -26,7 +26,8 @@ pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
                 *sum += variance(one.iter().zip(&next[moved..]).map(|(z, beside)| beside - z));
             }
         }
-        let least = (0..=2 * reach).min_by(|one, other| differences[*one].total_cmp(&differences[*other]))?;
+        let least = (0..=2 * reach)
+            .min_by(|one, other| differences[*one].total_cmp(&differences[*other]))?;
         (differences[least] < LEFT * differences[reach]).then_some(least as f64 - reach as f64)
     });
     let (one, other) = (from_even?, from_odd?);
@@ -53,7 +54,12 @@ mod tests {
             (along + angle).sin() / f64::from(k).powf(1.4)
         };
         let height = |x: f64, y: f64| (1..40).map(|k| wave(k, x, y)).sum::<f64>();
-        let point = |index: usize| height((index % 64) as f64 + displaced(index / 64), (index / 64) as f64);
+        let point = |index: usize| {
+            height(
+                (index % 64) as f64 + displaced(index / 64),
+                (index / 64) as f64,
+            )
+        };
         (0..64 * 48).map(point).collect()
     }
 
@@ -65,13 +71,18 @@ mod tests {
         // No displacement, drift, and a lay askew.
         assert_eq!(displacement(&rows(|_| 0.0), 64), None);
         assert_eq!(displacement(&rows(|row| 2.0 * row as f64), 64), None);
-        let lay: Vec<f64> = (0..64 * 48).map(|i| (0.3 * (i % 64 + 4 * (i / 64)) as f64).sin()).collect();
+        let lay: Vec<f64> = (0..64 * 48)
+            .map(|i| (0.3 * (i % 64 + 4 * (i / 64)) as f64).sin())
+            .collect();
         assert_eq!(displacement(&lay, 64), None);
         // Noise, and rows at two levels in turn.
         let noise: Vec<f64> = (0..64 * 48_u32).map(|i| f64::from(i * i % 8191)).collect();
         assert_eq!(displacement(&noise, 64), None);
-        let levels: Vec<f64> =
-            rows(|_| 0.0).iter().enumerate().map(|(i, z)| z + 5.0 * parity(i / 64)).collect();
+        let levels: Vec<f64> = rows(|_| 0.0)
+            .iter()
+            .enumerate()
+            .map(|(i, z)| z + 5.0 * parity(i / 64))
+            .collect();
         assert_eq!(displacement(&levels, 64), None);
     }
 }

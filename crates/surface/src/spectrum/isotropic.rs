@@ -27,9 +27,9 @@ const CUT_PIECES: f64 = 8.0;
 /// Returns the points and weights of the quadrature from `low` to `high`.
 pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    GAUSS
-        .into_iter()
-        .flat_map(move |(place, weight)| [-place, place].map(|place| (middle + half * place, half * weight)))
+    GAUSS.into_iter().flat_map(move |(place, weight)| {
+        [-place, place].map(|place| (middle + half * place, half * weight))
+    })
 }
 
 /// Computes C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt in m³ by the substitution t = k sinh u. The spectrum ends at the wave number
@@ -84,7 +84,13 @@ impl Moment {
     fn new(value: f64, statistical: f64, method: f64, missing_short_waves: f64) -> Self {
         let [statistical, method, missing_short_waves] =
             [statistical, method, missing_short_waves].map(|error| error * value);
-        Moment { value, error: statistical.hypot(method), statistical, method, missing_short_waves }
+        Moment {
+            value,
+            error: statistical.hypot(method),
+            statistical,
+            method,
+            missing_short_waves,
+        }
     }
 
     /// Returns the moment multiplied by a factor, with its errors.
@@ -99,7 +105,12 @@ impl Moment {
     pub fn root(self) -> Self {
         let relative = |error: f64| 0.5 * error / self.value;
         let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
-        Moment::new(self.value.sqrt(), relative(self.statistical), relative(self.method), missing)
+        Moment::new(
+            self.value.sqrt(),
+            relative(self.statistical),
+            relative(self.method),
+            missing,
+        )
     }
 }
 
@@ -139,7 +150,12 @@ impl Nodes {
             End::Ends => high,
             End::Continues(end) => end.max(high),
         };
-        Nodes { first, step: (high / low).ln() / pieces, count: pieces as usize + 1, end }
+        Nodes {
+            first,
+            step: (high / low).ln() / pieces,
+            count: pieces as usize + 1,
+            end,
+        }
     }
 
     /// Returns the wave number of a node in rad/m.
@@ -160,21 +176,32 @@ impl Nodes {
     pub fn pieces_from(self, low: f64) -> impl Iterator<Item = (f64, f64)> {
         let index = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
         // The logarithm of zero is below all nodes.
-        let (first, last) = ((index(low).floor() + 1.0).max(0.0) as usize, index(self.end).ceil() as usize);
+        let (first, last) = (
+            (index(low).floor() + 1.0).max(0.0) as usize,
+            index(self.end).ceil() as usize,
+        );
         let node = move |index: usize| self.wave_number(index).min(self.end);
         let mut begin = low.min(self.end);
-        (first..=last).map(node).chain([self.end]).filter_map(move |bound| {
-            let piece = (begin, bound);
-            begin = begin.max(bound);
-            (piece.1 > piece.0).then_some(piece)
-        })
+        (first..=last)
+            .map(node)
+            .chain([self.end])
+            .filter_map(move |bound| {
+                let piece = (begin, bound);
+                begin = begin.max(bound);
+                (piece.1 > piece.0).then_some(piece)
+            })
     }
 
     /// Returns the term `weight` × C2D(q) of a sum over the spectrum, at a wave number q in rad/m.
     pub fn term(&self, q: f64, weight: f64) -> Term {
         let ln_q = q.ln();
         let (index, share) = self.place(ln_q);
-        Term { weight, ln_q, index, share }
+        Term {
+            weight,
+            ln_q,
+            index,
+            share,
+        }
     }
 }
 
@@ -190,7 +217,8 @@ pub(super) struct Term {
 impl Term {
     /// Returns the value of the term for these values of ln C2D at the nodes.
     pub fn value(&self, values: &[f64]) -> f64 {
-        self.weight * ((1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]).exp()
+        self.weight
+            * ((1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]).exp()
     }
 }
 
@@ -227,7 +255,11 @@ impl IsotropicSpectrum {
     /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is constant below the first node
     /// and zero beyond the last wave number of the spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
-        if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
+        if wave_number > self.nodes.end {
+            0.0
+        } else {
+            self.value(wave_number.ln())
+        }
     }
 
     /// Returns the power spectral density of the equivalent line, q C2D/2 in m³, at a wave number q in rad/m.
@@ -252,8 +284,14 @@ impl IsotropicSpectrum {
 
     /// Returns the same spectrum without the waves beyond a wave number in rad/m.
     pub(crate) fn up_to(&self, wave_number: f64) -> IsotropicSpectrum {
-        let nodes = Nodes { end: self.nodes.end.min(wave_number), ..self.nodes };
-        IsotropicSpectrum { nodes, ..self.clone() }
+        let nodes = Nodes {
+            end: self.nodes.end.min(wave_number),
+            ..self.nodes
+        };
+        IsotropicSpectrum {
+            nodes,
+            ..self.clone()
+        }
     }
 
     /// Returns the spectrum and its error at each node, in the order of the wave numbers.
@@ -261,7 +299,12 @@ impl IsotropicSpectrum {
         self.values.iter().enumerate().map(|(index, value)| {
             let wave_number = self.nodes.wave_number(index);
             let relative_error = self.information.standard_error(index);
-            Node { wave_number, c2d: value.exp(), relative_error, line: self.line(wave_number) }
+            Node {
+                wave_number,
+                c2d: value.exp(),
+                relative_error,
+                line: self.line(wave_number),
+            }
         })
     }
 
@@ -275,12 +318,21 @@ impl IsotropicSpectrum {
         // From above 0 to 1, by Box and Muller.
         let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
         let mut normal = || (-2.0 * uniform().ln()).sqrt() * (TAU * uniform()).cos();
-        let steps = self.information.solve_transposed(self.values.iter().map(|_| normal()).collect());
+        let steps = self
+            .information
+            .solve_transposed(self.values.iter().map(|_| normal()).collect());
         // The error of the method moves all values alike.
         let common = normal() * self.method.into_iter().fold(0.0, f64::max);
-        let values =
-            self.values.iter().zip(steps).map(|(value, step)| value + share * (step + common)).collect();
-        IsotropicSpectrum { values, ..self.clone() }
+        let values = self
+            .values
+            .iter()
+            .zip(steps)
+            .map(|(value, step)| value + share * (step + common))
+            .collect();
+        IsotropicSpectrum {
+            values,
+            ..self.clone()
+        }
     }
 
     fn value(&self, ln_q: f64) -> f64 {
@@ -324,12 +376,20 @@ impl IsotropicSpectrum {
         let departure = |moment: Moment, least: f64, most: f64| {
             let beyond = (least - moment.value).max(moment.value - most);
             // The squares have twice the relative error.
-            if beyond > 3.0 * moment.error { 2.0 * beyond / moment.value } else { 0.0 }
+            if beyond > 3.0 * moment.error {
+                2.0 * beyond / moment.value
+            } else {
+                0.0
+            }
         };
         let height = height.map_or(0.0, |height| departure(resolved.rms_height, height, height));
         // Differences of neighbours reduce the slope of a wave of two points by π/2.
         let gradient = departure(resolved.rms_gradient, gradient, FRAC_PI_2 * gradient);
-        for (error, departure) in self.method.iter_mut().zip([height, height.max(gradient), gradient]) {
+        for (error, departure) in
+            self.method
+                .iter_mut()
+                .zip([height, height.max(gradient), gradient])
+        {
             *error = error.hypot(departure);
         }
     }
@@ -338,8 +398,16 @@ impl IsotropicSpectrum {
 /// Computes the moments of the equivalent line of faces with independent spectra, whose sum is its spectrum. Its waves begin at
 /// half the first wave number known for all faces, because wave 1 of a length represents the range from ½ to 1½.
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
-    let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
-    let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();
+    let from = faces
+        .iter()
+        .map(|face| 0.5 * face.nodes.wave_number(0))
+        .fold(0.0, f64::max);
+    let moments = |power: i32| {
+        faces
+            .iter()
+            .map(|face| face.moment(power, from))
+            .collect::<Vec<_>>()
+    };
     let sum = |moments: &[(f64, Vec<f64>)]| moments.iter().map(|(sum, _)| sum).sum::<f64>();
     let all = [1, 2, 3].map(moments);
     let totals = [0, 1, 2].map(|index| sum(&all[index]));
@@ -359,8 +427,11 @@ pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
             statistical += face.information.variance(&logarithm);
             method += departure * departure;
         }
-        let changed: f64 =
-            missing.into_iter().zip(exponents).map(|(change, power)| change.powf(power)).product();
+        let changed: f64 = missing
+            .into_iter()
+            .zip(exponents)
+            .map(|(change, power)| change.powf(power))
+            .product();
         Moment::new(value, statistical.sqrt(), method.sqrt(), changed - 1.0)
     };
     let two_pi = 0.5 / PI;
@@ -379,11 +450,19 @@ mod tests {
 
     /// Spectrum with these values of ln C2D, known exactly.
     pub fn known(nodes: Nodes, c2d: impl Fn(f64) -> f64) -> IsotropicSpectrum {
-        let values = (0..nodes.count).map(|index| c2d(nodes.wave_number(index)).ln()).collect();
+        let values = (0..nodes.count)
+            .map(|index| c2d(nodes.wave_number(index)).ln())
+            .collect();
         let mut identity = vec![0.0; nodes.count * nodes.count];
         (0..nodes.count).for_each(|index| identity[index * (nodes.count + 1)] = 1.0);
         let information = Cholesky::new(identity, nodes.count).unwrap();
-        IsotropicSpectrum { nodes, values, information, method: [0.0; 3], missing: [0.0; 3] }
+        IsotropicSpectrum {
+            nodes,
+            values,
+            information,
+            method: [0.0; 3],
+            missing: [0.0; 3],
+        }
     }
 
     #[test]
@@ -393,21 +472,29 @@ mod tests {
         let moments = line_moments(std::slice::from_ref(&spectrum));
         // ∫ q C2D from ½ to 1 is 3/8, from 1 to 100 it is 1 − 1/100.
         let expected = ((0.375 + 0.99) / (2.0 * PI)).sqrt();
-        assert!((moments.rms_height.value / expected - 1.0).abs() < 1e-8, "{moments:?}");
+        assert!(
+            (moments.rms_height.value / expected - 1.0).abs() < 1e-8,
+            "{moments:?}"
+        );
         let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
         assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
         // The error of a product is at most the sum of those of its factors, and at least their difference.
         let relative = |moment: Moment| moment.error / moment.value;
         let (height, gradient) = (relative(moments.rms_height), relative(moments.rms_gradient));
         let product = relative(moments.height_gradient);
-        assert!(product <= height + gradient && product >= (height - gradient).abs(), "{moments:?}");
+        assert!(
+            product <= height + gradient && product >= (height - gradient).abs(),
+            "{moments:?}"
+        );
         let values = moments.rms_height.value * moments.rms_gradient.value;
         assert_eq!(moments.height_gradient.value, values);
         let expected = (7.0 / 24.0 + 100.0_f64.ln()) / (8.0 * PI);
         assert!((moments.energy_per_modulus.value / expected - 1.0).abs() < 1e-8);
         assert_eq!((spectrum.c2d(200.0), spectrum.c2d(0.1)), (0.0, 1.0));
         assert!((spectrum.line(10.0) / 5e-3 - 1.0).abs() < 1e-12);
-        let further = known(Nodes::new(1.0, 100.0, 6.0, End::Continues(200.0)), |q| q.powi(-3));
+        let further = known(Nodes::new(1.0, 100.0, 6.0, End::Continues(200.0)), |q| {
+            q.powi(-3)
+        });
         assert!((further.c2d(200.0) / 1.25e-7 - 1.0).abs() < 1e-12);
     }
 
@@ -424,7 +511,10 @@ mod tests {
             }
         }
         let information = Cholesky::new(information, count).unwrap();
-        let spectrum = IsotropicSpectrum { information, ..known(nodes, |q| q.powi(-3)) };
+        let spectrum = IsotropicSpectrum {
+            information,
+            ..known(nodes, |q| q.powi(-3))
+        };
         assert_eq!(spectrum.drawn(7, 1.0), spectrum.drawn(7, 1.0));
         assert_eq!(spectrum.drawn(7, 0.0), spectrum);
         assert_ne!(spectrum.drawn(7, 1.0).values, spectrum.drawn(8, 1.0).values);
@@ -444,13 +534,24 @@ mod tests {
                 square[moment] += logarithm * logarithm / draws as f64;
             }
         }
-        let errors = [stated.rms_gradient, stated.height_gradient, stated.energy_per_modulus];
+        let errors = [
+            stated.rms_gradient,
+            stated.height_gradient,
+            stated.energy_per_modulus,
+        ];
         for (moment, estimate) in errors.into_iter().enumerate() {
             let spread = (square[moment] - mean[moment].powi(2)).sqrt();
             let expected = estimate.error / estimate.value;
             // To second order in the errors, and a hundredth for chance.
-            assert!((spread / expected - 1.0).abs() < 0.1, "{moment}: {spread} {expected}");
-            assert!(mean[moment].abs() < 0.3 * expected, "{moment}: {}", mean[moment]);
+            assert!(
+                (spread / expected - 1.0).abs() < 0.1,
+                "{moment}: {spread} {expected}"
+            );
+            assert!(
+                mean[moment].abs() < 0.3 * expected,
+                "{moment}: {}",
+                mean[moment]
+            );
         }
     }
 }

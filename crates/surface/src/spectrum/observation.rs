@@ -46,7 +46,10 @@ pub(super) enum Kind {
 /// Returns the observations of the spectrum of profiles, from wave 1 on, or under a window from wave 2 on. Removing a polynomial
 /// reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
-    let kind = Kind::Cut { step: power.step, sampling: TAU / power.spacing };
+    let kind = Kind::Cut {
+        step: power.step,
+        sampling: TAU / power.spacing,
+    };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
     let first = if power.windowed { 2 } else { 1 };
     let profiles = power.profiles as f64;
@@ -55,10 +58,17 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let count = power.waves.len().min((last / power.step) as usize);
     while low <= count {
         let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
-        let next = if low <= SINGLE { low + 1 } else { ((low as f64 * ratio) as usize).max(low + 1) };
+        let next = if low <= SINGLE {
+            low + 1
+        } else {
+            ((low as f64 * ratio) as usize).max(low + 1)
+        };
         let next = next.min(count + 1);
         let waves = (next - low) as f64;
-        let sum: f64 = power.waves[low - 1..next - 1].iter().map(|(_, power)| power).sum();
+        let sum: f64 = power.waves[low - 1..next - 1]
+            .iter()
+            .map(|(_, power)| power)
+            .sum();
         observed.push(Observation {
             wave_number: 0.5 * (low + next - 1) as f64 * power.step,
             power: sum / (waves * profiles),
@@ -75,32 +85,55 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
 /// Returns the smallest wave number of a map that is used, in rad/m. Under a window, removing a polynomial reduces the waves
 /// around wave 1.
 pub(super) fn least_of_map(power: &MapPower) -> f64 {
-    if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 }
+    if power.windowed {
+        2.0 * power.steps[0].max(power.steps[1])
+    } else {
+        0.0
+    }
 }
 
 pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
-    let MapPower { windowed, steps, sampling, ref waves, .. } = *power;
-    let correlated = if windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
+    let MapPower {
+        windowed,
+        steps,
+        sampling,
+        ref waves,
+        ..
+    } = *power;
+    let correlated = if windowed {
+        HANN_CORRELATED * HANN_CORRELATED
+    } else {
+        1.0
+    };
     let least = least_of_map(power) * (1.0 - 1e-9);
-    let (first, end) =
-        (waves.partition_point(|(q, _)| *q < least), waves.partition_point(|(q, _)| *q <= last));
+    let (first, end) = (
+        waves.partition_point(|(q, _)| *q < least),
+        waves.partition_point(|(q, _)| *q <= last),
+    );
     let number = |wave: &(f64, f64)| (BANDS_PER_DECADE * wave.0.log10()).floor();
     let bands = waves[first..end.max(first)].chunk_by(|one, next| number(one) == number(next));
     let sums = bands.map(|band| {
         let sum = |of: fn(&(f64, f64)) -> f64| band.iter().map(of).sum::<f64>();
-        [band.len() as f64, sum(|(q, _)| *q), sum(|(_, power)| *power), sum(|(_, power)| power * power)]
+        [
+            band.len() as f64,
+            sum(|(q, _)| *q),
+            sum(|(_, power)| *power),
+            sum(|(_, power)| power * power),
+        ]
     });
     let sums: Vec<[f64; 4]> = sums.collect();
     let dispersion = dispersion(&sums);
-    let observed = sums.into_iter().map(|[count, wave_number, power, _]| Observation {
-        wave_number: wave_number / count,
-        power: power / count,
-        // Of a wave and its mirror image one is counted.
-        range: 2.0 * count * steps[0] * steps[1] / (4.0 * PI * PI),
-        waves: count / (correlated * dispersion),
-        windowed,
-        kind: Kind::Plane { steps, sampling },
-    });
+    let observed = sums
+        .into_iter()
+        .map(|[count, wave_number, power, _]| Observation {
+            wave_number: wave_number / count,
+            power: power / count,
+            // Of a wave and its mirror image one is counted.
+            range: 2.0 * count * steps[0] * steps[1] / (4.0 * PI * PI),
+            waves: count / (correlated * dispersion),
+            windowed,
+            kind: Kind::Plane { steps, sampling },
+        });
     observed.collect()
 }
 
@@ -108,20 +141,30 @@ pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
 /// that is equal in all directions, and more for an anisotropic one, whose mean powers are less certain. A band is its number of
 /// waves and the sums of their wave numbers, powers and squared powers.
 fn dispersion(bands: &[[f64; 4]]) -> f64 {
-    let many = bands.iter().filter(|[count, _, power, _]| *count > 8.0 && *power > 0.0);
+    let many = bands
+        .iter()
+        .filter(|[count, _, power, _]| *count > 8.0 && *power > 0.0);
     let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), [n, _, power, squares]| {
         // For exponentially distributed powers the mean of the first factor is (n − 1)/(n + 1).
         let variance = (n * squares / (power * power) - 1.0) * (n + 1.0) / (n - 1.0);
         (sum + n * variance, waves + n)
     });
-    if waves > 0.0 { (sum / waves).max(1.0) } else { 1.0 }
+    if waves > 0.0 {
+        (sum / waves).max(1.0)
+    } else {
+        1.0
+    }
 }
 
 impl Observation {
     /// Computes the contribution of this mean power to the moments ∫ q^(p+1) C2D dq/2π of the equivalent line, p = 0, 1, 2. The
     /// moments of a cut are 1, 2/π and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
-        let (first, second) = if let Kind::Cut { .. } = self.kind { (FRAC_PI_2, 2.0) } else { (1.0, 1.0) };
+        let (first, second) = if let Kind::Cut { .. } = self.kind {
+            (FRAC_PI_2, 2.0)
+        } else {
+            (1.0, 1.0)
+        };
         let q = self.wave_number;
         [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
     }
@@ -130,7 +173,11 @@ impl Observation {
     /// the points do not resolve.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         let mut terms = Vec::new();
-        let shares: &[(f64, f64)] = if self.windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
+        let shares: &[(f64, f64)] = if self.windowed {
+            &HANN_SHARES
+        } else {
+            &[(0.0, 1.0)]
+        };
         match self.kind {
             Kind::Cut { step, sampling } => {
                 for (waves, share) in shares {
@@ -151,13 +198,19 @@ impl Observation {
                 }
                 // Waves between rows have their neighbours at the distances along them.
                 let turned = [steps[1], steps[0]];
-                let ways = if steps == turned { vec![steps] } else { vec![steps, turned] };
+                let ways = if steps == turned {
+                    vec![steps]
+                } else {
+                    vec![steps, turned]
+                };
                 for [ahead, aside] in &ways {
-                    for ((along, x), (between, y)) in
-                        shares.iter().flat_map(|x| shares.iter().map(move |y| (x, y)))
+                    for ((along, x), (between, y)) in shares
+                        .iter()
+                        .flat_map(|x| shares.iter().map(move |y| (x, y)))
                     {
-                        let q =
-                            (self.wave_number + along * ahead).hypot(between * aside).max(f64::MIN_POSITIVE);
+                        let q = (self.wave_number + along * ahead)
+                            .hypot(between * aside)
+                            .max(f64::MIN_POSITIVE);
                         if q <= nodes.end {
                             terms.push(nodes.term(q, x * y / ways.len() as f64));
                         }
@@ -181,8 +234,9 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
     let orders = || (0..=2 * MOST_ALIASES).map(|order| f64::from(order) - most);
     for (angle, weight) in gauss(0.0, FRAC_PI_2) {
         let (along, between) = (wave_number * angle.cos(), wave_number * angle.sin());
-        for (i, j) in
-            orders().flat_map(|i| orders().map(move |j| (i, j))).filter(|order| *order != (0.0, 0.0))
+        for (i, j) in orders()
+            .flat_map(|i| orders().map(move |j| (i, j)))
+            .filter(|order| *order != (0.0, 0.0))
         {
             add((along + i * x).hypot(between + j * y), weight / FRAC_PI_2);
         }
@@ -212,7 +266,8 @@ mod tests {
 
     fn mean(terms: &[Term], values: &[f64]) -> f64 {
         let term = |term: &Term| {
-            let value = (1.0 - term.share) * values[term.index] + term.share * values[term.index + 1];
+            let value =
+                (1.0 - term.share) * values[term.index] + term.share * values[term.index + 1];
             term.weight * value.exp()
         };
         terms.iter().map(term).sum()
@@ -223,12 +278,24 @@ mod tests {
         // Quantiles of the exponential distribution, for half of the waves times a factor.
         let powers = |factor: f64| -> Vec<f64> {
             let quantile = |i: u32| -((f64::from(i) + 0.5) / 2000.0).ln();
-            (0..2000).map(|i| quantile(i) * if i % 2 == 0 { factor } else { 1.0 }).collect()
+            (0..2000)
+                .map(|i| quantile(i) * if i % 2 == 0 { factor } else { 1.0 })
+                .collect()
         };
         let found = |factor: f64| {
-            let waves = powers(factor).into_iter().map(|power| (1.0, power)).collect();
+            let waves = powers(factor)
+                .into_iter()
+                .map(|power| (1.0, power))
+                .collect();
             let (steps, sampling) = ([0.1; 2], [10.0; 2]);
-            let map = MapPower { windowed: false, steps, sampling, waves, offsets: false, apart: 0.0 };
+            let map = MapPower {
+                windowed: false,
+                steps,
+                sampling,
+                waves,
+                offsets: false,
+                apart: 0.0,
+            };
             2000.0 / of_map(&map, 2.0)[0].waves
         };
         assert!((found(1.0) - 1.0).abs() < 0.01, "{}", found(1.0));
@@ -245,8 +312,9 @@ mod tests {
             // Moments of the cut from its own spectrum; below half the first wave number the line has no waves, but
             // the cut has the projections of waves across it.
             let mut sums = [0.0; 3];
-            let wave_numbers: Vec<f64> =
-                (0..=600).map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0)).collect();
+            let wave_numbers: Vec<f64> = (0..=600)
+                .map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0))
+                .collect();
             for piece in wave_numbers.windows(2) {
                 for (ln_k, weight) in gauss(piece[0].ln(), piece[1].ln()) {
                     let k = ln_k.exp();
@@ -267,7 +335,10 @@ mod tests {
             let expected = [1.0, 2.0_f64.sqrt(), 0.5 * PI];
             for (ratio, expected) in ratios.into_iter().zip(expected) {
                 // The line omits the waves below half the first wave number, 0.1 % of the height.
-                assert!((ratio / expected - 1.0).abs() < 2e-3, "H = {hurst}: {ratios:?}");
+                assert!(
+                    (ratio / expected - 1.0).abs() < 2e-3,
+                    "H = {hurst}: {ratios:?}"
+                );
             }
         }
     }

@@ -50,12 +50,24 @@ pub(super) struct ProfilePower {
 impl ProfilePower {
     pub fn new(points: usize, spacing: f64, windowed: bool) -> Self {
         let step = TAU / (points as f64 * spacing);
-        let waves = (1..=(points - 1) / 2).map(|wave| (wave as f64 * step, 0.0)).collect();
-        ProfilePower { points, spacing, windowed, profiles: 0, step, waves }
+        let waves = (1..=(points - 1) / 2)
+            .map(|wave| (wave as f64 * step, 0.0))
+            .collect();
+        ProfilePower {
+            points,
+            spacing,
+            windowed,
+            profiles: 0,
+            step,
+            waves,
+        }
     }
 
     /// Adds the power spectra of profiles with equal points, which are the rows of one surface.
-    pub fn add(&mut self, rows: impl Iterator<Item = impl Iterator<Item = f64>>) -> Result<(), SurfaceError> {
+    pub fn add(
+        &mut self,
+        rows: impl Iterator<Item = impl Iterator<Item = f64>>,
+    ) -> Result<(), SurfaceError> {
         let scale = self.spacing / self.points as f64;
         transform(rows, self.points, self.windowed, |coefficients| {
             for ((_, sum), coefficient) in self.waves.iter_mut().zip(&coefficients[1..]) {
@@ -80,12 +92,21 @@ impl ProfilePower {
 /// assert!((largest.wave_number / (TAU / 16.0) - 1.0).abs() < 0.15);
 /// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
-pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SurfaceError> {
+pub fn line_spectrum(
+    heights: &[f64],
+    spacing: f64,
+    windowed: bool,
+) -> Result<Vec<Bin>, SurfaceError> {
     let mut power = ProfilePower::new(heights.len(), spacing, windowed);
     // The mean of windowed heights would leak into the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     power.add(std::iter::once(heights.iter().map(|height| height - mean)))?;
-    Ok(bins(power.waves.into_iter().map(|(wave_number, power)| (wave_number, power, 1))))
+    Ok(bins(
+        power
+            .waves
+            .into_iter()
+            .map(|(wave_number, power)| (wave_number, power, 1)),
+    ))
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -154,7 +175,11 @@ impl AxisPower {
         let [near, farther] = self.near.map(|(sum, waves)| sum / waves);
         let expected = (near + EXTRAPOLATED * (near - farther)) * self.on.1;
         let apart = (self.on.0 - expected).abs();
-        if apart * self.on.1.sqrt() > NO_CHANCE * expected.abs() { apart } else { 0.0 }
+        if apart * self.on.1.sqrt() > NO_CHANCE * expected.abs() {
+            apart
+        } else {
+            0.0
+        }
     }
 }
 
@@ -174,8 +199,13 @@ impl MapPower {
         check_room(48 * points as u64)?;
         let mut coefficients: Vec<Complex64> = emptied(Vec::new(), half * rows)?;
         let in_rows = heights.chunks_exact(columns).map(|row| row.iter().copied());
-        transform(in_rows, columns, windowed, |row| coefficients.extend_from_slice(row))?;
-        let steps = [TAU / (columns as f64 * along), TAU / (rows as f64 * between)];
+        transform(in_rows, columns, windowed, |row| {
+            coefficients.extend_from_slice(row)
+        })?;
+        let steps = [
+            TAU / (columns as f64 * along),
+            TAU / (rows as f64 * between),
+        ];
         let largest = (PI / along).min(PI / between);
         let scale = along * between / points as f64;
         let plan = plan_forward(rows);
@@ -192,7 +222,11 @@ impl MapPower {
             }
             plan.process_with_scratch(&mut column, &mut scratch);
             for (y, value) in column.iter().enumerate() {
-                let y = if 2 * y > rows { y as f64 - rows as f64 } else { y as f64 };
+                let y = if 2 * y > rows {
+                    y as f64 - rows as f64
+                } else {
+                    y as f64
+                };
                 // Waves and their mirror images have equal power: only one of them counts.
                 let is_first = x > 0 || y > 0.0;
                 let q = (x as f64 * steps[0]).hypot(y * steps[1]);
@@ -200,9 +234,14 @@ impl MapPower {
                     continue;
                 }
                 let wave = (q, scale * value.norm_sqr());
-                let places = [(x as f64, y.abs() / rows as f64), (y.abs(), x as f64 / columns as f64)];
-                for (axis, (across, _)) in
-                    axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= COMPARED)
+                let places = [
+                    (x as f64, y.abs() / rows as f64),
+                    (y.abs(), x as f64 / columns as f64),
+                ];
+                for (axis, (across, _)) in axes
+                    .iter_mut()
+                    .zip(places)
+                    .filter(|(_, place)| place.1 >= COMPARED)
                 {
                     axis.compare(across, reach, wave);
                 }
@@ -213,7 +252,11 @@ impl MapPower {
                 }
             }
         }
-        let gradient: f64 = waves.iter().chain(axes.iter().flat_map(|axis| &axis.waves)).map(square).sum();
+        let gradient: f64 = waves
+            .iter()
+            .chain(axes.iter().flat_map(|axis| &axis.waves))
+            .map(square)
+            .sum();
         let (mut offsets, mut apart) = (false, 0.0_f64);
         for axis in axes {
             let share = axis.departure() / gradient;
@@ -227,7 +270,14 @@ impl MapPower {
             }
         }
         waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves, offsets, apart })
+        Ok(MapPower {
+            windowed,
+            steps,
+            sampling: [TAU / along, TAU / between],
+            waves,
+            offsets,
+            apart,
+        })
     }
 }
 
@@ -266,11 +316,18 @@ fn window(points: usize, windowed: bool) -> Vec<f64> {
 
 /// Averages the powers of waves, given as (wave number, power, number of waves), in 10 bins per decade of the wave number.
 pub(super) fn bins(waves: impl Iterator<Item = (f64, f64, u64)>) -> Vec<Bin> {
-    let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> = std::collections::BTreeMap::new();
+    let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> =
+        std::collections::BTreeMap::new();
     for (wave_number, power, count) in waves {
-        let bin = bins.entry((BINS_PER_DECADE * wave_number.log10()).floor() as i64).or_default();
+        let bin = bins
+            .entry((BINS_PER_DECADE * wave_number.log10()).floor() as i64)
+            .or_default();
         let weight = count as f64;
-        *bin = (bin.0 + weight * wave_number, bin.1 + weight * power, bin.2 + count);
+        *bin = (
+            bin.0 + weight * wave_number,
+            bin.1 + weight * power,
+            bin.2 + count,
+        );
     }
     let mean = |(wave_number, power, waves): (f64, f64, u64)| Bin {
         wave_number: wave_number / waves as f64,

@@ -50,7 +50,8 @@ impl Sums {
             self.slopes[axis].1 += 1;
         };
         for row in heights.chunks_exact(columns) {
-            row.windows(2).for_each(|pair| add(0, (pair[1] - pair[0]) / along));
+            row.windows(2)
+                .for_each(|pair| add(0, (pair[1] - pair[0]) / along));
         }
         let rows = heights.len() / columns;
         for (below, above) in heights.iter().zip(heights.iter().skip(columns)) {
@@ -100,12 +101,22 @@ pub(crate) fn reliability_cutoff(
     while good.is_none() && bad < most {
         // In steps of a fifth, at least of one.
         let next = (bad + bad / 5 + 1).min(most);
-        if is_reliable(next) { good = Some(next) } else { bad = next }
+        if is_reliable(next) {
+            good = Some(next)
+        } else {
+            bad = next
+        }
     }
-    let Some(mut good) = good else { return Some(0.5 * columns as f64 * spacing) };
+    let Some(mut good) = good else {
+        return Some(0.5 * columns as f64 * spacing);
+    };
     while good - bad > 1 {
         let middle = bad + (good - bad) / 2;
-        if is_reliable(middle) { good = middle } else { bad = middle }
+        if is_reliable(middle) {
+            good = middle
+        } else {
+            bad = middle
+        }
     }
     Some(2.0 * good as f64 * spacing)
 }
@@ -113,12 +124,19 @@ pub(crate) fn reliability_cutoff(
 fn smallest_curvature(heights: &[f64], columns: usize, scale: usize, spacing: f64) -> f64 {
     let step = scale as f64 * spacing;
     let smallest = |row: &[f64]| {
-        let stencils = row.iter().zip(&row[scale.min(row.len())..]).zip(&row[(2 * scale).min(row.len())..]);
+        let stencils = row
+            .iter()
+            .zip(&row[scale.min(row.len())..])
+            .zip(&row[(2 * scale).min(row.len())..]);
         stencils
             .map(|((left, middle), right)| (left - middle) + (right - middle))
             .fold(f64::INFINITY, f64::min)
     };
-    heights.chunks_exact(columns).map(smallest).fold(f64::INFINITY, f64::min) / (step * step)
+    heights
+        .chunks_exact(columns)
+        .map(smallest)
+        .fold(f64::INFINITY, f64::min)
+        / (step * step)
 }
 
 #[cfg(test)]
@@ -138,16 +156,24 @@ mod tests {
         assert!((found.rms_slope.powi(2) - 84.0 / 4.0).abs() < 1e-13);
         assert!((found.rms_gradient.unwrap().powi(2) - (21.0 + 2.5 / 3.0)).abs() < 1e-13);
         sums.add(&[7.0, 7.0, 7.0], 3, [1.0; 2]);
-        assert_eq!((sums.statistics().points, sums.statistics().rms_gradient), (9, None));
+        assert_eq!(
+            (sums.statistics().points, sums.statistics().rms_gradient),
+            (9, None)
+        );
     }
 
     #[test]
     fn a_parabola_is_reliable_for_sharper_tips_only() {
         let spacing = 0.5;
         // Curvature −2 at every scale.
-        let heights: Vec<f64> = (0..101).map(|i| -(0.5 * f64::from(i) - 25.0).powi(2)).collect();
+        let heights: Vec<f64> = (0..101)
+            .map(|i| -(0.5 * f64::from(i) - 25.0).powi(2))
+            .collect();
         assert_eq!(reliability_cutoff(&heights, 101, spacing, 0.2), None);
-        assert_eq!(reliability_cutoff(&heights, 101, spacing, 0.3), Some(0.5 * 101.0 * spacing));
+        assert_eq!(
+            reliability_cutoff(&heights, 101, spacing, 0.3),
+            Some(0.5 * 101.0 * spacing)
+        );
     }
 
     #[test]

@@ -21,7 +21,9 @@ const LEAST_EXPANDED: usize = 1 << 20;
 
 /// Returns the largest allowed number of bytes after decompression of `bytes` bytes.
 pub(super) fn most_expanded(bytes: usize) -> usize {
-    bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
+    bytes
+        .saturating_mul(MOST_EXPANSION)
+        .saturating_add(LEAST_EXPANDED)
 }
 
 /// Decodes text as UTF-8, or if it is invalid as Windows-1252.
@@ -31,13 +33,21 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
 }
 
 /// Returns the size in bytes of compressed points of `size` bytes from their number in a header. Refuses a size above the limits.
-pub(super) fn unpacked_size(points: usize, size: usize, place: Place) -> Result<usize, SurfaceError> {
+pub(super) fn unpacked_size(
+    points: usize,
+    size: usize,
+    place: Place,
+) -> Result<usize, SurfaceError> {
     let bytes = points.saturating_mul(size);
     if points <= MOST_POINTS && bytes <= MOST_BYTES {
         return Ok(bytes);
     }
     let fault = format!("{points} compressed heights of {size} bytes");
-    Err(refused(place, fault, format!("at most {MOST_POINTS} heights and {MOST_BYTES} bytes")))
+    Err(refused(
+        place,
+        fault,
+        format!("at most {MOST_POINTS} heights and {MOST_BYTES} bytes"),
+    ))
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,7 +122,11 @@ pub(super) struct Bytes<'a> {
 
 impl<'a> Bytes<'a> {
     pub fn new(bytes: &'a [u8], order: Order) -> Self {
-        Bytes { bytes, at: 0, order }
+        Bytes {
+            bytes,
+            at: 0,
+            order,
+        }
     }
 
     /// Returns the place of the next byte in the file.
@@ -138,7 +152,11 @@ impl<'a> Bytes<'a> {
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, SurfaceError> {
         let at = self.at;
         self.take(count)?;
-        Ok(Bytes { bytes: &self.bytes[..self.at], at, order: self.order })
+        Ok(Bytes {
+            bytes: &self.bytes[..self.at],
+            at,
+            order: self.order,
+        })
     }
 
     pub fn number(&mut self, of: Number) -> Result<f64, SurfaceError> {
@@ -160,14 +178,26 @@ impl<'a> Bytes<'a> {
 
     pub fn numbers(&mut self, count: usize, of: Number) -> Result<Vec<f64>, SurfaceError> {
         let bytes = self.take(count.saturating_mul(of.size()))?;
-        Ok(gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))?)
+        Ok(gathered(
+            count,
+            bytes
+                .chunks_exact(of.size())
+                .map(|bytes| of.value(bytes, self.order)),
+        )?)
     }
 
     /// Returns the bytes up to the next zero, which is skipped.
     pub fn text(&mut self) -> Result<&'a [u8], SurfaceError> {
-        let end = self.bytes[self.at..].iter().position(|byte| *byte == 0).ok_or_else(|| {
-            refused(self.place(), "a text without an end", "a text that ends with a zero byte")
-        })?;
+        let end = self.bytes[self.at..]
+            .iter()
+            .position(|byte| *byte == 0)
+            .ok_or_else(|| {
+                refused(
+                    self.place(),
+                    "a text without an end",
+                    "a text that ends with a zero byte",
+                )
+            })?;
         let text = self.take(end)?;
         self.take(1)?;
         Ok(text)
@@ -188,18 +218,29 @@ pub(super) struct Archive<'a> {
 
 /// Returns the name of a file in an archive in one spelling: with slashes between folders and without `.`.
 fn plain_name(name: &str) -> String {
-    let parts = name.split(['/', '\\']).filter(|part| !matches!(*part, "" | "."));
+    let parts = name
+        .split(['/', '\\'])
+        .filter(|part| !matches!(*part, "" | "."));
     parts.collect::<Vec<_>>().join("/")
 }
 
 impl<'a> Archive<'a> {
     pub fn new(bytes: &'a [u8]) -> Result<Self, SurfaceError> {
         let archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| {
-            refused(Place::File, format!("a damaged archive ({error})"), "an archive of ZIP")
+            refused(
+                Place::File,
+                format!("a damaged archive ({error})"),
+                "an archive of ZIP",
+            )
         })?;
         let named = |place: usize| Some((plain_name(&archive.name_for_index(place)?.ok()?), place));
         let places = (0..archive.len()).filter_map(named).collect();
-        Ok(Archive { archive, places, folder: String::new(), most: most_expanded(bytes.len()) })
+        Ok(Archive {
+            archive,
+            places,
+            folder: String::new(),
+            most: most_expanded(bytes.len()),
+        })
     }
 
     /// Returns the one of `names` that is the index of the archive, the file of such a name nearest to the root. Names of other
@@ -215,8 +256,17 @@ impl<'a> Archive<'a> {
         if let [(depth, name, one), (other_depth, other_name, other), ..] = &found[..]
             && (depth, name) == (other_depth, other_name)
         {
-            let fault = format!("{} in the folders {} and {}", names[*name], shown(one), shown(other));
-            return Err(refused(Place::File, fault, "an archive with one surface, or a container"));
+            let fault = format!(
+                "{} in the folders {} and {}",
+                names[*name],
+                shown(one),
+                shown(other)
+            );
+            return Err(refused(
+                Place::File,
+                fault,
+                "an archive with one surface, or a container",
+            ));
         }
         Ok(found.into_iter().next().map(|(_, name, folder)| {
             self.folder = folder;
@@ -240,13 +290,27 @@ impl<'a> Archive<'a> {
     pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let damaged = |error: &dyn std::fmt::Display| {
             let fault = format!("cannot be unpacked ({error})");
-            refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
+            refused(
+                Place::Part(name.to_owned()),
+                fault,
+                "a file stored or deflated",
+            )
         };
-        let place = self.places.get(&plain_name(&format!("{}/{name}", self.folder))).ok_or_else(|| {
-            let fault = format!("no file {} in the archive", shown(name));
-            refused(Place::File, fault, "an archive with all files that it names")
-        })?;
-        let entry = self.archive.by_index(*place).map_err(|error| damaged(&error))?;
+        let place = self
+            .places
+            .get(&plain_name(&format!("{}/{name}", self.folder)))
+            .ok_or_else(|| {
+                let fault = format!("no file {} in the archive", shown(name));
+                refused(
+                    Place::File,
+                    fault,
+                    "an archive with all files that it names",
+                )
+            })?;
+        let entry = self
+            .archive
+            .by_index(*place)
+            .map_err(|error| damaged(&error))?;
         read_limited(entry, most).map_err(|error| damaged(&error))
     }
 }
@@ -271,16 +335,26 @@ pub(super) mod tests {
             (Number::F64, (-0.1_f64).to_le_bytes().into(), -0.1),
         ];
         for (of, mut bytes, value) in cases {
-            assert_eq!(Bytes::new(&bytes, Order::Little).numbers(1, of).unwrap(), [value], "{of:?}");
+            assert_eq!(
+                Bytes::new(&bytes, Order::Little).numbers(1, of).unwrap(),
+                [value],
+                "{of:?}"
+            );
             bytes.reverse();
-            assert_eq!(Bytes::new(&bytes, Order::Big).numbers(1, of).unwrap(), [value], "{of:?}");
+            assert_eq!(
+                Bytes::new(&bytes, Order::Big).numbers(1, of).unwrap(),
+                [value],
+                "{of:?}"
+            );
         }
     }
 
     pub fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
         let mut writer = zip::ZipWriter::new(Cursor::new(Vec::new()));
         for (name, content) in files {
-            writer.start_file(*name, SimpleFileOptions::default()).unwrap();
+            writer
+                .start_file(*name, SimpleFileOptions::default())
+                .unwrap();
             writer.write_all(content).unwrap();
         }
         writer.finish().unwrap().into_inner()
@@ -293,7 +367,10 @@ pub(super) mod tests {
         let mut archive = Archive::new(&bytes).unwrap();
         assert!(archive.unpacked("one", usize::MAX).is_ok());
         let error = archive.unpacked("two", usize::MAX).unwrap_err().to_string();
-        assert!(error.starts_with("two: cannot be unpacked (longer than"), "{error}");
+        assert!(
+            error.starts_with("two: cannot be unpacked (longer than"),
+            "{error}"
+        );
         let error = archive.unpacked("three", 1).unwrap_err().to_string();
         assert!(error.starts_with("no file three in the archive"), "{error}");
         let error = Archive::new(b"PK\x03\x04").err().unwrap().to_string();

@@ -86,7 +86,11 @@ pub(super) fn measurements(
 ) -> Result<Vec<Measurement>, SurfaceError> {
     let wrong = |error: String| {
         let first = error.lines().next().unwrap_or_default();
-        refused(Place::Part(index.to_owned()), first, "surfaces with their topographies and datafile")
+        refused(
+            Place::Part(index.to_owned()),
+            first,
+            "surfaces with their topographies and datafile",
+        )
     };
     let read: Result<Index, String> = if index == INDICES[0] {
         serde_json::from_slice(content).map_err(|error| error.to_string())
@@ -94,26 +98,42 @@ pub(super) fn measurements(
         serde_saphyr::from_slice(content).map_err(|error| error.to_string())
     };
     let mut surfaces = read.map_err(wrong)?.surfaces;
-    let names = surfaces.iter().map(|surface| format!("{:?}", shown(&surface.name)));
+    let names = surfaces
+        .iter()
+        .map(|surface| format!("{:?}", shown(&surface.name)));
     let names = names.collect::<Vec<_>>().join(", ");
     let which = |fault: String| {
-        let allowed =
-            "--channel with one of them or of their measurements, in a scene roughness.surface_name";
-        refused(Place::File, format!("{fault} in the container: {names}"), allowed)
+        let allowed = "--channel with one of them or of their measurements, in a scene roughness.surface_name";
+        refused(
+            Place::File,
+            format!("{fault} in the container: {names}"),
+            allowed,
+        )
     };
-    let found = match (name, surfaces.iter().position(|surface| Some(surface.name.as_str()) == name)) {
+    let found = match (
+        name,
+        surfaces
+            .iter()
+            .position(|surface| Some(surface.name.as_str()) == name),
+    ) {
         (_, Some(place)) => surfaces.swap_remove(place).topographies,
         (None, None) if surfaces.len() == 1 => surfaces.remove(0).topographies,
         (None, None) => return Err(which(format!("{} surfaces", surfaces.len()))),
         (Some(name), None) => {
-            let mut all = surfaces.into_iter().flat_map(|surface| surface.topographies);
+            let mut all = surfaces
+                .into_iter()
+                .flat_map(|surface| surface.topographies);
             let one = all.find(|measurement| measurement.name == name);
             vec![one.ok_or_else(|| which(format!("no surface {:?}", shown(name))))?]
         }
     };
     if !(1..=MOST_MEASUREMENTS).contains(&found.len()) {
         let fault = format!("{} measurements of the surface", found.len());
-        return Err(refused(Place::File, fault, format!("from 1 to {MOST_MEASUREMENTS}")));
+        return Err(refused(
+            Place::File,
+            fault,
+            format!("from 1 to {MOST_MEASUREMENTS}"),
+        ));
     }
     Ok(found)
 }
@@ -122,18 +142,34 @@ impl Measurement {
     /// Returns the name of the file with the scaled heights, whose format is always the same; if there is none, of the measured
     /// file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
-        let names = self.datafile.squeezed.as_deref().or(self.datafile.original.as_deref());
+        let names = self
+            .datafile
+            .squeezed
+            .as_deref()
+            .or(self.datafile.original.as_deref());
         names.ok_or_else(|| {
             let place = Place::Part(format!("topography {}", self.name));
-            refused(place, "no file", "a datafile with original or squeezed-netcdf")
+            refused(
+                place,
+                "no file",
+                "a datafile with original or squeezed-netcdf",
+            )
         })
     }
 
     /// Returns a message about the radius of the tip that the index states.
     pub fn tip_radius(&self) -> Option<String> {
-        let Radius { value, unit } = self.instrument.as_ref()?.parameters.as_ref()?.tip_radius.as_ref()?;
+        let Radius { value, unit } = self
+            .instrument
+            .as_ref()?
+            .parameters
+            .as_ref()?
+            .tip_radius
+            .as_ref()?;
         let unit = unit.parse::<Unit>().ok()?;
-        Some(format!("the radius of the tip is {value} {unit}, which --tip-radius {value}{unit} uses"))
+        Some(format!(
+            "the radius of the tip is {value} {unit}, which --tip-radius {value}{unit} uses"
+        ))
     }
 
     fn is_original(&self) -> bool {
@@ -152,10 +188,15 @@ impl Measurement {
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, Place::Part(format!("topography {}", self.name)))?;
-        let is_filled = self.fill_undefined_data_mode.as_deref().is_some_and(|mode| mode != "do-not-fill");
+        let is_filled = self
+            .fill_undefined_data_mode
+            .as_deref()
+            .is_some_and(|mode| mode != "do-not-fill");
         Ok(ReadOptions {
             convention: stated.or(options.convention),
-            channel: options.channel.or(self.data_source.filter(|_| self.is_original())),
+            channel: options
+                .channel
+                .or(self.data_source.filter(|_| self.is_original())),
             interpolate: options.interpolate || is_filled,
             ..options.clone()
         })
@@ -163,13 +204,17 @@ impl Measurement {
 
     /// Fills in what the file of the measurement omits.
     pub fn completed(&self, mut reading: Reading) -> Reading {
-        if let (None, None, Some(&width)) = (&reading.positions, reading.spacing, self.size.first()) {
+        if let (None, None, Some(&width)) = (&reading.positions, reading.spacing, self.size.first())
+        {
             let rows = (reading.heights.len() / reading.columns.max(1)) as f64;
             let height = self.size.get(1).copied().unwrap_or(width);
             reading.spacing = Some([width / reading.columns as f64, height / rows]);
         }
         // A file with a unit of its heights has their scale.
-        match self.height_scale.filter(|_| self.is_original() && reading.units[2].is_none()) {
+        match self
+            .height_scale
+            .filter(|_| self.is_original() && reading.units[2].is_none())
+        {
             Some(scale) => reading.scaled(|_| false, scale),
             None => reading,
         }
@@ -212,25 +257,43 @@ mod tests {
         let map = "1 2 3 4\n4 3 2 1\n";
         let files = [index, ("map.txt", map), ("profile.txt", PROFILE)];
         let files = files.map(|(name, text)| (name, text.as_bytes()));
-        let options = ReadOptions { surface_name: name.map(str::to_owned), ..ReadOptions::default() };
+        let options = ReadOptions {
+            surface_name: name.map(str::to_owned),
+            ..ReadOptions::default()
+        };
         parse_all(&archive(&files), &options).map_err(|error| error.to_string())
     }
 
     #[test]
     fn measurements_of_a_surface_are_read_with_what_the_index_states() {
         let surfaces = read(("meta.yml", YAML), Some("first: \u{e9}")).unwrap();
-        let [map, profile] = &surfaces[..] else { panic!("{surfaces:?}") };
-        assert_eq!((&*map.name, map.columns, map.spacing()), ("map", 4, Ok([1e-9; 2])));
+        let [map, profile] = &surfaces[..] else {
+            panic!("{surfaces:?}")
+        };
+        assert_eq!(
+            (&*map.name, map.columns, map.spacing()),
+            ("map", 4, Ok([1e-9; 2]))
+        );
         assert!((map.heights[3] - 4e-8).abs() < 1e-20 && map.detrend.is_none());
         // The scaled file is not scaled again.
         assert_eq!((&*profile.name, profile.heights[1]), ("profile", 3e-6));
-        assert_eq!((profile.detrend, profile.periodic), (Some(Detrend::Curvature), true));
+        assert_eq!(
+            (profile.detrend, profile.periodic),
+            (Some(Detrend::Curvature), true)
+        );
         for name in ["second", "7", "profile"] {
-            assert_eq!(read(("meta.yml", YAML), Some(name)).unwrap().len(), 1, "{name}");
+            assert_eq!(
+                read(("meta.yml", YAML), Some(name)).unwrap().len(),
+                1,
+                "{name}"
+            );
         }
         let json = r#"{"surfaces": [{"name": "s", "topographies": [
             {"name": "p", "datafile": {"original": "profile.txt"}, "size": [2.0], "unit": "nm"}]}]}"#;
-        assert_eq!(read(("index.json", json), None).unwrap()[0].heights[1], 3e-9);
+        assert_eq!(
+            read(("index.json", json), None).unwrap()[0].heights[1],
+            3e-9
+        );
     }
 
     #[test]
@@ -244,11 +307,22 @@ mod tests {
 ";
         let spm = include_bytes!("../../../../fuzz/seeds/surface/map.spm");
         let read = |text: &[u8], spm: &[u8]| {
-            let files = [("meta.yml", yaml.as_bytes()), ("map.txt", text), ("map.spm", spm)];
+            let files = [
+                ("meta.yml", yaml.as_bytes()),
+                ("map.txt", text),
+                ("map.spm", spm),
+            ];
             parse_all(&archive(&files), &ReadOptions::default()).map_err(|error| error.to_string())
         };
         let found = read(b"AliconaImaging\0", spm).unwrap();
-        assert_eq!((&*found[0].name, found.len(), (found[0].heights[0] * 1e14).round()), ("afm", 1, 125.0));
+        assert_eq!(
+            (
+                &*found[0].name,
+                found.len(),
+                (found[0].heights[0] * 1e14).round()
+            ),
+            ("afm", 1, 125.0)
+        );
         assert_eq!(
             found[0].warnings,
             [
@@ -259,9 +333,15 @@ mod tests {
         );
         // What an option supplies is asked for.
         assert!(
-            read(b"1 2 3 4\n5 6 7 9\n", spm).unwrap_err().starts_with("scan: text matrix without a distance")
+            read(b"1 2 3 4\n5 6 7 9\n", spm)
+                .unwrap_err()
+                .starts_with("scan: text matrix without a distance")
         );
-        assert!(read(b"AliconaImaging\0", b"\0").unwrap_err().starts_with("scan: AL3D"));
+        assert!(
+            read(b"AliconaImaging\0", b"\0")
+                .unwrap_err()
+                .starts_with("scan: AL3D")
+        );
     }
 
     #[test]
@@ -271,32 +351,81 @@ mod tests {
             read(("meta.yml", &YAML.replacen(from, to, 1)), name).unwrap_err()
         };
         for (from, to, name, expected) in [
-            ("", "", None, "2 surfaces in the container: \"first: \u{e9}\", \"second\"; allowed: --channel"),
-            ("", "", Some("third"), "no surface \"third\" in the container: \"first"),
-            ("map.txt", "none.txt", Some(first), "no file none.txt in the archive"),
-            ("nm", "V", Some(first), "topography map: \"V\" is not a unit of length; allowed: "),
+            (
+                "",
+                "",
+                None,
+                "2 surfaces in the container: \"first: \u{e9}\", \"second\"; allowed: --channel",
+            ),
+            (
+                "",
+                "",
+                Some("third"),
+                "no surface \"third\" in the container: \"first",
+            ),
+            (
+                "map.txt",
+                "none.txt",
+                Some(first),
+                "no file none.txt in the archive",
+            ),
+            (
+                "nm",
+                "V",
+                Some(first),
+                "topography map: \"V\" is not a unit of length; allowed: ",
+            ),
             ("curvature", "wavelets", Some(first), "meta.yml: "),
             ("surfaces", "things", None, "meta.yml: "),
-            ("original: map", "other: map", Some(first), "topography map: no file; allowed: a datafile"),
+            (
+                "original: map",
+                "other: map",
+                Some(first),
+                "topography map: no file; allowed: a datafile",
+            ),
             ("unit: nm, ", "", Some(first), "map: no unit of "),
-            ("size: [4.0, 2.0], ", "", Some(first), "map: text matrix without a distance"),
+            (
+                "size: [4.0, 2.0], ",
+                "",
+                Some(first),
+                "map: text matrix without a distance",
+            ),
         ] {
             let error = all(from, to, name);
-            assert!(error.starts_with(expected) && error.contains("; allowed: "), "{to}: {error}");
+            assert!(
+                error.starts_with(expected) && error.contains("; allowed: "),
+                "{to}: {error}"
+            );
             assert!(!error.contains('\n'), "{error}");
         }
-        let both = ReadOptions { surface_name: Some(first.to_owned()), ..ReadOptions::default() };
+        let both = ReadOptions {
+            surface_name: Some(first.to_owned()),
+            ..ReadOptions::default()
+        };
         let files: [(&str, &[u8]); 3] = [
             ("meta.yml", YAML.as_bytes()),
             ("map.txt", b"1 2 3 4\n4 3 2 1\n"),
             ("profile.txt", PROFILE.as_bytes()),
         ];
         let error = parse(&archive(&files), &both).unwrap_err().to_string();
-        assert!(error.starts_with("2 measurements of a surface; allowed: one: --channel"), "{error}");
+        assert!(
+            error.starts_with("2 measurements of a surface; allowed: one: --channel"),
+            "{error}"
+        );
         // Aliases of aliases expand to nothing large.
-        let level =
-            |i: u32| format!("a{i}: &a{i} [*a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}]\n", i - 1);
+        let level = |i: u32| {
+            format!(
+                "a{i}: &a{i} [*a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}]\n",
+                i - 1
+            )
+        };
         let bomb: String = (1..12).map(level).collect();
-        assert!(read(("meta.yml", &format!("a0: &a0 [x, x]\n{bomb}surfaces: []\n")), None).is_err());
+        assert!(
+            read(
+                ("meta.yml", &format!("a0: &a0 [x, x]\n{bomb}surfaces: []\n")),
+                None
+            )
+            .is_err()
+        );
     }
 }

@@ -12,12 +12,24 @@ const SHEET: &str = "the same saved as CSV";
 
 /// First bytes, name of the format, and what is allowed in its place.
 const SIGNATURES: [(&[u8], &str, &str); 30] = [
-    (b"\\*Force file list", "a file of force curves of Nanoscope", CURVE),
+    (
+        b"\\*Force file list",
+        "a file of force curves of Nanoscope",
+        CURVE,
+    ),
     (b"?*File list", "Nanoscope as text", GWYDDION),
     (b"Data_File_Type", "Nanoscope of version 2", GWYDDION),
     (b"AliconaImaging", "AL3D of Alicona", GWYDDION),
-    (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "a document of MountainsMap (MNT) or of Office", MOUNTAINS),
-    (b"\x89HDF\r\n\x1a\n", "HDF5, as DATX, H5 and NetCDF-4 are", ARRAYS),
+    (
+        b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
+        "a document of MountainsMap (MNT) or of Office",
+        MOUNTAINS,
+    ),
+    (
+        b"\x89HDF\r\n\x1a\n",
+        "HDF5, as DATX, H5 and NetCDF-4 are",
+        ARRAYS,
+    ),
     (b"\x01\0Directory", "OPD of Wyko", GWYDDION),
     (b"VCA DATA", "OPDx of Dektak and Vision64", GWYDDION),
     (b"\x88\x1b\x03", "DAT of Zygo MetroPro", GWYDDION),
@@ -55,12 +67,18 @@ const ARCHIVES: [(&str, &str, &str); 5] = [
 
 /// Returns an error with the name of the format if the content has a format that is known, but not read.
 pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
-    let known = SIGNATURES.iter().find(|(signature, ..)| bytes.starts_with(signature));
+    let known = SIGNATURES
+        .iter()
+        .find(|(signature, ..)| bytes.starts_with(signature));
     // A date of 24 letters, then zeros.
-    let is_plu = bytes.get(..25).is_some_and(|head| head[24] == 0 && head[13] == b':' && head[16] == b':');
+    let is_plu = bytes
+        .get(..25)
+        .is_some_and(|head| head[24] == 0 && head[13] == b':' && head[16] == b':');
     let plu = is_plu.then_some(("PLU of Sensofar", GWYDDION));
     let known = known.map(|(_, name, allowed)| (*name, *allowed));
-    known.or(plu).map_or(Ok(()), |(name, allowed)| Err(unread(name, allowed)))
+    known
+        .or(plu)
+        .map_or(Ok(()), |(name, allowed)| Err(unread(name, allowed)))
 }
 
 fn unread(name: &str, allowed: &str) -> SurfaceError {
@@ -72,7 +90,9 @@ pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     [x3p, in_json, in_yaml]: [&str; 3],
 ) -> SurfaceError {
-    let found = ARCHIVES.iter().find(|(end, ..)| names.clone().any(|name| name.ends_with(end)));
+    let found = ARCHIVES
+        .iter()
+        .find(|(end, ..)| names.clone().any(|name| name.ends_with(end)));
     if let Some((_, name, allowed)) = found {
         return unread(name, allowed);
     }
@@ -90,7 +110,11 @@ mod tests {
 
     #[test]
     fn known_formats_that_are_not_read_are_named_with_a_way_out() {
-        let parse = |bytes: &[u8]| parse(bytes, &ReadOptions::default()).unwrap_err().to_string();
+        let parse = |bytes: &[u8]| {
+            parse(bytes, &ReadOptions::default())
+                .unwrap_err()
+                .to_string()
+        };
         for (head, expected) in [
             (
                 &b"AliconaImaging\0\r\n"[..],
@@ -104,14 +128,26 @@ mod tests {
                 b"\\*Force file list\r\n\\Version: 1\r\n",
                 "a file of force curves of Nanoscope is not read; allowed: a surface; a force curve exported as text",
             ),
-            (b"Fri Mar 10 16:35:59 2023\0\0\0", "PLU of Sensofar is not read; allowed: "),
-            (b"ab\0\x01\x02", "line 1: byte 2 of the line is zero, so this is no text; allowed: text, SDF"),
+            (
+                b"Fri Mar 10 16:35:59 2023\0\0\0",
+                "PLU of Sensofar is not read; allowed: ",
+            ),
+            (
+                b"ab\0\x01\x02",
+                "line 1: byte 2 of the line is zero, so this is no text; allowed: text, SDF",
+            ),
         ] {
             assert!(parse(head).starts_with(expected), "{}", parse(head));
         }
         for (name, expected) in [
-            ("arr_0.npy", "NPZ of NumPy is not read; allowed: the heights saved by numpy.save"),
-            ("xl/workbook.xml", "a workbook (XLSX) is not read; allowed: the same saved as CSV"),
+            (
+                "arr_0.npy",
+                "NPZ of NumPy is not read; allowed: the heights saved by numpy.save",
+            ),
+            (
+                "xl/workbook.xml",
+                "a workbook (XLSX) is not read; allowed: the same saved as CSV",
+            ),
             (
                 "a.txt",
                 "an archive without an index; allowed: main.xml of X3P, or index.json or meta.yml of a container; others",

@@ -31,7 +31,10 @@ pub(super) struct Digits {
 }
 
 impl Digits {
-    pub const EXACT: Digits = Digits { decimals: 400, significant: 15 };
+    pub const EXACT: Digits = Digits {
+        decimals: 400,
+        significant: 15,
+    };
 
     pub fn take(&mut self, cell: &str) {
         let (mut decimals, mut significant, mut is_behind) = (0, 0, false);
@@ -44,7 +47,9 @@ impl Digits {
                 // The last one: others separate thousands.
                 b'.' | b',' => (is_behind, decimals) = (true, 0),
                 b'e' | b'E' => {
-                    decimals -= cell[index + 1..].parse::<i32>().map_or(0, |power| power.clamp(-400, 400));
+                    decimals -= cell[index + 1..]
+                        .parse::<i32>()
+                        .map_or(0, |power| power.clamp(-400, 400));
                     break;
                 }
                 _ => {}
@@ -56,7 +61,11 @@ impl Digits {
 
     /// Returns half of the last printed digit of a number, plus some rounding errors.
     fn half(self, value: f64) -> f64 {
-        let before = if value == 0.0 { i32::MIN / 2 } else { value.abs().log10().floor() as i32 + 1 };
+        let before = if value == 0.0 {
+            i32::MIN / 2
+        } else {
+            value.abs().log10().floor() as i32 + 1
+        };
         let digit = (before - self.significant).max(-self.decimals);
         0.500_001 * 10.0_f64.powi(digit)
     }
@@ -65,7 +74,9 @@ impl Digits {
 /// Returns the first position and the distance of an even grid that agrees with all positions to within half a printed digit.
 /// Positions are given as (number, position) in the order of the numbers.
 fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
-    let [(_, first), .., (last_number, last)] = points else { return None };
+    let [(_, first), .., (last_number, last)] = points else {
+        return None;
+    };
     if points.len() < LEAST_PRINTED {
         return None;
     }
@@ -106,16 +117,29 @@ fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
 }
 
 /// Moves positions onto an even grid if that changes none by more than its printed digits. Otherwise they remain unchanged.
-pub(super) fn move_to_printed_grid(positions: &mut [f64], digits: Digits) -> Result<(), SurfaceError> {
-    let [first, .., last] = positions else { return Ok(()) };
+pub(super) fn move_to_printed_grid(
+    positions: &mut [f64],
+    digits: Digits,
+) -> Result<(), SurfaceError> {
+    let [first, .., last] = positions else {
+        return Ok(());
+    };
     let (first, distance) = (*first, (*last - *first) / (positions.len() - 1) as f64);
     if distance == 0.0 || first_uneven(positions, first, distance).is_none() {
         return Ok(());
     }
-    let points =
-        gathered(positions.len(), positions.iter().enumerate().map(|(number, x)| (number as f64, *x)))?;
+    let points = gathered(
+        positions.len(),
+        positions
+            .iter()
+            .enumerate()
+            .map(|(number, x)| (number as f64, *x)),
+    )?;
     if let Some([first, distance]) = printed_grid(&points, digits) {
-        positions.iter_mut().enumerate().for_each(|(number, x)| *x = first + number as f64 * distance);
+        positions
+            .iter_mut()
+            .enumerate()
+            .for_each(|(number, x)| *x = first + number as f64 * distance);
     }
     Ok(())
 }
@@ -143,7 +167,11 @@ impl Axis {
         let lines = lines.map(|line| f64::midpoint(line[0], line[line.len() - 1]));
         let lines = gathered(sorted.len(), lines)?;
         if lines.len() < 2 {
-            return Ok(Ok(Axis { first, distance: 0.0, count: 1 }));
+            return Ok(Ok(Axis {
+                first,
+                distance: 0.0,
+                count: 1,
+            }));
         }
         // Without missing lines, or at the mean of the smaller distances.
         let least = lines.windows(2).map(gap).fold(f64::INFINITY, f64::min);
@@ -155,29 +183,45 @@ impl Axis {
             (number, pair[1])
         });
         let sparse: Vec<_> = std::iter::once((0.0, lines[0])).chain(sparse).collect();
-        let full: Vec<_> = (0..lines.len()).map(|number| (number as f64, lines[number])).collect();
+        let full: Vec<_> = (0..lines.len())
+            .map(|number| (number as f64, lines[number]))
+            .collect();
         let found = [&full, &sparse].into_iter().find_map(|points| {
             let (last_number, last) = *points.last()?;
             if last_number + 1.0 > MOST_LINES * points.len() as f64 {
                 return None;
             }
             let [first, distance] = [lines[0], (last - lines[0]) / last_number];
-            let is_even =
-                |(number, x): &(f64, f64)| (x - first - number * distance).abs() <= UNEVEN * distance;
+            let is_even = |(number, x): &(f64, f64)| {
+                (x - first - number * distance).abs() <= UNEVEN * distance
+            };
             let even = points.iter().all(is_even).then_some([first, distance]);
-            Some((even.or_else(|| printed_grid(points, digits))?, last_number as usize + 1))
+            Some((
+                even.or_else(|| printed_grid(points, digits))?,
+                last_number as usize + 1,
+            ))
         });
         let Some(([first, distance], count)) = found else {
             let mean = (last - first) / (lines.len() - 1) as f64;
             let off = first_uneven(&lines, first, mean).unwrap_or(0);
             return Ok(Err(lines[off]));
         };
-        let turn = positions.iter().find(|x| (**x - positions[0]).abs() > 0.5 * distance);
+        let turn = positions
+            .iter()
+            .find(|x| (**x - positions[0]).abs() > 0.5 * distance);
         if turn.is_some_and(|x| *x < positions[0]) {
             let last = first + (count - 1) as f64 * distance;
-            return Ok(Ok(Axis { first: last, distance: -distance, count }));
+            return Ok(Ok(Axis {
+                first: last,
+                distance: -distance,
+                count,
+            }));
         }
-        Ok(Ok(Axis { first, distance, count }))
+        Ok(Ok(Axis {
+            first,
+            distance,
+            count,
+        }))
     }
 
     /// Returns the number of the line through a position; `None` if it lies off the grid.
@@ -212,31 +256,49 @@ pub(super) fn map_of(
 ) -> Result<Map, SurfaceError> {
     let points = heights.len();
     if points < 2 {
-        return Err(refused(Place::File, format!("{points} points"), "at least 2"));
+        return Err(refused(
+            Place::File,
+            format!("{points} points"),
+            "at least 2",
+        ));
     }
     let off_grid = |index: usize| {
         let fault = format!("({:e}, {:e}) is off the even grid", x[index], y[index]);
-        let allowed = format!("points of a grid, within {UNEVEN} of their distance or half a printed digit");
+        let allowed =
+            format!("points of a grid, within {UNEVEN} of their distance or half a printed digit");
         refused(place(index), fault, allowed)
     };
     let axis = |positions: &[f64], digits: Digits| {
-        let at = |found: f64| positions.iter().position(|position| *position >= found).unwrap_or(0);
+        let at = |found: f64| {
+            positions
+                .iter()
+                .position(|position| *position >= found)
+                .unwrap_or(0)
+        };
         Axis::of(positions, digits)?.map_err(|found| off_grid(at(found)))
     };
     let (along, between) = (axis(x, digits[0])?, axis(y, digits[1])?);
     let (columns, rows) = (along.count, between.count);
-    let cells = columns.checked_mul(rows).filter(|cells| *cells <= MOST_CELLS * points).ok_or_else(|| {
-        let fault = format!("{points} points at {columns} positions x and {rows} positions y");
-        refused(Place::File, fault, "points of a grid, at least half of it")
-    })?;
+    let cells = columns
+        .checked_mul(rows)
+        .filter(|cells| *cells <= MOST_CELLS * points)
+        .ok_or_else(|| {
+            let fault = format!("{points} points at {columns} positions x and {rows} positions y");
+            refused(Place::File, fault, "points of a grid, at least half of it")
+        })?;
     let mut map = resized(Vec::new(), cells, f64::NAN)?;
     let mut is_taken = resized(Vec::new(), cells, false)?;
     for index in 0..points {
-        let lines = along.line(x[index], digits[0]).zip(between.line(y[index], digits[1]));
+        let lines = along
+            .line(x[index], digits[0])
+            .zip(between.line(y[index], digits[1]));
         let (column, row) = lines.ok_or_else(|| off_grid(index))?;
         let cell = row * columns + column;
         if std::mem::replace(&mut is_taken[cell], true) {
-            let fault = format!("({:e}, {:e}) is the position of a point before", x[index], y[index]);
+            let fault = format!(
+                "({:e}, {:e}) is the position of a point before",
+                x[index], y[index]
+            );
             return Err(refused(place(index), fault, "one height for each position"));
         }
         map[cell] = heights[index];
@@ -244,7 +306,11 @@ pub(super) fn map_of(
     let [along, between] = [along, between].map(|axis| axis.distance.abs());
     let other = |one: f64, other: f64| if one > 0.0 { one } else { other };
     let distances = Some([other(along, between), other(between, along)]);
-    Ok(Map { heights: map, columns, distances })
+    Ok(Map {
+        heights: map,
+        columns,
+        distances,
+    })
 }
 
 #[cfg(test)]
@@ -269,7 +335,10 @@ mod tests {
             (&["-0,33"], -0.33, 0.005),
             (&["10", "20"], 10.0, 0.5),
         ] {
-            assert!((digits(cells).half(value) / half - 1.0).abs() < 1e-5, "{cells:?}");
+            assert!(
+                (digits(cells).half(value) / half - 1.0).abs() < 1e-5,
+                "{cells:?}"
+            );
         }
     }
 
@@ -278,11 +347,20 @@ mod tests {
         let printed = |of: &dyn Fn(u32) -> f64, decimals: usize| {
             let cells: Vec<String> = (0..200).map(|i| format!("{:.decimals$}", of(i))).collect();
             let digits = digits(&cells.iter().map(String::as_str).collect::<Vec<_>>());
-            (cells.iter().map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>(), digits)
+            (
+                cells
+                    .iter()
+                    .map(|cell| cell.parse().unwrap())
+                    .collect::<Vec<f64>>(),
+                digits,
+            )
         };
-        for (first, distance, decimals) in
-            [(0.0, 0.156, 1), (-3.0, 1.0 / 3.0, 2), (100.0, -0.0333, 2), (0.0, 0.07, 1)]
-        {
+        for (first, distance, decimals) in [
+            (0.0, 0.156, 1),
+            (-3.0, 1.0 / 3.0, 2),
+            (100.0, -0.0333, 2),
+            (0.0, 0.07, 1),
+        ] {
             let (mut positions, digits) = printed(&|i| first + distance * f64::from(i), decimals);
             let before = positions.clone();
             move_to_printed_grid(&mut positions, digits).unwrap();
@@ -290,7 +368,12 @@ mod tests {
             assert!((step / distance - 1.0).abs() < 0.01, "{step}");
             assert_eq!(first_uneven(&positions, positions[0], step), None);
             let half = 0.5000001 * 10_f64.powi(-(decimals as i32));
-            assert!(positions.iter().zip(&before).all(|(one, other)| (one - other).abs() <= half));
+            assert!(
+                positions
+                    .iter()
+                    .zip(&before)
+                    .all(|(one, other)| (one - other).abs() <= half)
+            );
         }
         // Really uneven, or few.
         let (before, digits) = printed(&|i| f64::from(i) + f64::from(i * i % 7) * 0.03, 2);
@@ -311,21 +394,44 @@ mod tests {
         let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let heights: Vec<f64> = points.iter().map(|(x, y)| 10.0 * x + y).collect();
         let place = |index: usize| Place::Line(index + 1);
-        map_of([&x, &y], &heights, [Digits { decimals: 9, significant: 9 }; 2], place)
-            .map_err(|error| error.to_string())
+        map_of(
+            [&x, &y],
+            &heights,
+            [Digits {
+                decimals: 9,
+                significant: 9,
+            }; 2],
+            place,
+        )
+        .map_err(|error| error.to_string())
     }
 
     #[test]
     fn points_in_any_order_are_rows_along_x() {
-        let rows = [(3.0, 0.0), (2.0, 0.0), (1.0, 0.0), (3.0, 5.0), (2.0, 5.0), (1.0, 5.0)];
+        let rows = [
+            (3.0, 0.0),
+            (2.0, 0.0),
+            (1.0, 0.0),
+            (3.0, 5.0),
+            (2.0, 5.0),
+            (1.0, 5.0),
+        ];
         let heights = vec![30.0, 20.0, 10.0, 35.0, 25.0, 15.0];
-        let expected = Map { heights, columns: 3, distances: Some([1.0, 5.0]) };
+        let expected = Map {
+            heights,
+            columns: 3,
+            distances: Some([1.0, 5.0]),
+        };
         assert_eq!(map(&rows), Ok(expected.clone()));
         let by_columns = [0, 3, 1, 4, 2, 5].map(|index| rows[index]);
         assert_eq!(map(&by_columns), Ok(expected.clone()));
         let serpentine = [0, 1, 2, 5, 4, 3].map(|index| rows[index]);
         assert_eq!(map(&serpentine), Ok(expected));
-        let profile = Map { heights: vec![1.0, 3.0, 5.0], columns: 1, distances: Some([2.0; 2]) };
+        let profile = Map {
+            heights: vec![1.0, 3.0, 5.0],
+            columns: 1,
+            distances: Some([2.0; 2]),
+        };
         assert_eq!(map(&[(0.0, 1.0), (0.0, 3.0), (0.0, 5.0)]), Ok(profile));
     }
 
@@ -333,24 +439,49 @@ mod tests {
     fn points_that_are_left_out_are_missing() {
         let all = || (0..40).map(|i| (f64::from(i % 8), 0.5 * f64::from(i / 8)));
         let read = |points: Vec<(f64, f64)>| {
-            let Map { heights, columns, distances } = map(&points).unwrap();
-            let missing =
-                heights.iter().enumerate().filter(|(_, height)| height.is_nan()).map(|(index, _)| index);
+            let Map {
+                heights,
+                columns,
+                distances,
+            } = map(&points).unwrap();
+            let missing = heights
+                .iter()
+                .enumerate()
+                .filter(|(_, height)| height.is_nan())
+                .map(|(index, _)| index);
             (columns, distances, missing.collect::<Vec<_>>())
         };
         let distances = Some([1.0, 0.5]);
-        assert_eq!(read(all().filter(|p| *p != (3.0, 1.0)).collect()), (8, distances, vec![19]));
+        assert_eq!(
+            read(all().filter(|p| *p != (3.0, 1.0)).collect()),
+            (8, distances, vec![19])
+        );
         let without_column = all().filter(|p| p.0 != 2.0).collect();
-        assert_eq!(read(without_column), (8, distances, vec![2, 10, 18, 26, 34]));
+        assert_eq!(
+            read(without_column),
+            (8, distances, vec![2, 10, 18, 26, 34])
+        );
     }
 
     #[test]
     fn points_off_the_grid_are_named() {
         for (points, expected) in [
-            (&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0)][..], "4 points at 4 positions x and 4"),
-            (&[(0.0, 0.0), (0.0, 0.0)], "line 2: (0e0, 0e0) is the position of a point before"),
-            (&[(0.0, 0.0), (1.0, 0.0), (2.5, 0.0), (3.0, 0.0)], "line 3: (2.5e0, 0e0) is off"),
-            (&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.01, 1.0)], "line 2: (1e0, 0e0) is off"),
+            (
+                &[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0)][..],
+                "4 points at 4 positions x and 4",
+            ),
+            (
+                &[(0.0, 0.0), (0.0, 0.0)],
+                "line 2: (0e0, 0e0) is the position of a point before",
+            ),
+            (
+                &[(0.0, 0.0), (1.0, 0.0), (2.5, 0.0), (3.0, 0.0)],
+                "line 3: (2.5e0, 0e0) is off",
+            ),
+            (
+                &[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.01, 1.0)],
+                "line 2: (1e0, 0e0) is off",
+            ),
         ] {
             let error = map(points).unwrap_err();
             assert!(error.starts_with(expected), "{points:?}: {error}");

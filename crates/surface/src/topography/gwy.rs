@@ -17,7 +17,9 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
     let mut content = object(&mut file)?;
     let mut fields = Vec::new();
     while let Some((name, value)) = component(&mut content)? {
-        let number = name.strip_prefix('/').and_then(|rest| rest.strip_suffix("/data")?.parse::<u32>().ok());
+        let number = name
+            .strip_prefix('/')
+            .and_then(|rest| rest.strip_suffix("/data")?.parse::<u32>().ok());
         if let (Some(number), Value::Object(content)) = (number, value) {
             fields.push((number, Field::parse(content)?));
         }
@@ -29,18 +31,36 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
     let names = names.collect::<Vec<_>>().join(", ");
     let is_length = |field: &Field| field.unit_z.parse::<Unit>().is_ok();
     let has_length = fields.iter().any(|(_, field)| is_length(field));
-    let is_height = |field: &Field| if has_length { is_length(field) } else { field.unit_z.is_empty() };
-    let is_chosen = |(number, field): &(u32, Field)| channel.map_or(is_height(field), |one| one == *number);
+    let is_height = |field: &Field| {
+        if has_length {
+            is_length(field)
+        } else {
+            field.unit_z.is_empty()
+        }
+    };
+    let is_chosen =
+        |(number, field): &(u32, Field)| channel.map_or(is_height(field), |one| one == *number);
     let mut chosen: Vec<_> = fields.into_iter().filter(is_chosen).collect();
     let (fault, allowed) = match (chosen.pop(), chosen.is_empty(), channel) {
         (Some((number, field)), true, _) => return field.into_reading(number),
-        (Some(_), false, _) => {
-            ("several channels of heights; all channels".to_owned(), "--channel with the number of one")
-        }
-        (None, _, Some(channel)) => (format!("no channel {channel}; channels"), "a channel of heights"),
-        (None, ..) => ("no channel in a unit of length; channels".to_owned(), "a channel of heights"),
+        (Some(_), false, _) => (
+            "several channels of heights; all channels".to_owned(),
+            "--channel with the number of one",
+        ),
+        (None, _, Some(channel)) => (
+            format!("no channel {channel}; channels"),
+            "a channel of heights",
+        ),
+        (None, ..) => (
+            "no channel in a unit of length; channels".to_owned(),
+            "a channel of heights",
+        ),
     };
-    Err(refused(Place::File, format!("{fault}: {}", shown(&names)), allowed))
+    Err(refused(
+        Place::File,
+        format!("{fault}: {}", shown(&names)),
+        allowed,
+    ))
 }
 
 /// Value of a component; types that are not needed are skipped.
@@ -60,15 +80,25 @@ fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, SurfaceError> {
 }
 
 /// Returns name and value of the next component of an object; `None` at its end.
-fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<(Cow<'a, str>, Value<'a>)>, SurfaceError> {
+fn component<'a>(
+    content: &mut Bytes<'a>,
+) -> Result<Option<(Cow<'a, str>, Value<'a>)>, SurfaceError> {
     if content.left() == 0 {
         return Ok(None);
     }
     let name = String::from_utf8_lossy(content.text()?);
     let place = content.place();
     let kind = content.take(1)?[0];
-    let count = if b"CIQDSO".contains(&kind) { content.size(Number::U32)? } else { 1 };
-    let mut skip = |size: usize| content.take(count.saturating_mul(size)).map(|_| Value::Other);
+    let count = if b"CIQDSO".contains(&kind) {
+        content.size(Number::U32)?
+    } else {
+        1
+    };
+    let mut skip = |size: usize| {
+        content
+            .take(count.saturating_mul(size))
+            .map(|_| Value::Other)
+    };
     let value = match kind {
         b'b' | b'c' | b'C' => skip(1)?,
         b'I' => skip(4)?,
@@ -80,13 +110,21 @@ fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<(Cow<'a, str>, Value<
         b'D' => Value::Doubles(content.part(count.saturating_mul(8))?),
         b'S' | b'O' => {
             for _ in 0..count {
-                if kind == b'S' { content.text().map(drop)? } else { object(content).map(drop)? }
+                if kind == b'S' {
+                    content.text().map(drop)?
+                } else {
+                    object(content).map(drop)?
+                }
             }
             Value::Other
         }
         other => {
             let fault = format!("a component of type {:?}", char::from(other).to_string());
-            return Err(refused(place, fault, "one of b c i q d s o and C I Q D S O"));
+            return Err(refused(
+                place,
+                fault,
+                "one of b c i q d s o and C I Q D S O",
+            ));
         }
     };
     Ok(Some((name, value)))
@@ -123,7 +161,11 @@ impl<'a> Field<'a> {
     fn into_reading(self, number: u32) -> Result<Reading, SurfaceError> {
         let place = || Place::Part(format!("channel {number}"));
         let Some(mut values) = self.heights else {
-            return Err(refused(place(), "no heights", "a component data of numbers"));
+            return Err(refused(
+                place(),
+                "no heights",
+                "a component data of numbers",
+            ));
         };
         let (columns, rows, count) = (self.columns as usize, self.rows as usize, values.left() / 8);
         if columns == 0 || rows == 0 {
@@ -138,7 +180,13 @@ impl<'a> Field<'a> {
         let spacing = Some([width / columns as f64, height / rows as f64]);
         let lateral = Unit::stated(self.unit_xy, place())?;
         let units = [lateral, lateral, Unit::stated(self.unit_z, place())?];
-        Ok(Reading::even("GWY", values.numbers(count, Number::F64)?, columns, spacing, units))
+        Ok(Reading::even(
+            "GWY",
+            values.numbers(count, Number::F64)?,
+            columns,
+            spacing,
+            units,
+        ))
     }
 }
 
@@ -163,14 +211,23 @@ mod tests {
     }
 
     fn object(name: &str, content: &[u8]) -> Vec<u8> {
-        [name.as_bytes(), b"\0", &(content.len() as u32).to_le_bytes(), content].concat()
+        [
+            name.as_bytes(),
+            b"\0",
+            &(content.len() as u32).to_le_bytes(),
+            content,
+        ]
+        .concat()
     }
 
     /// A file with channels of 2 × 2 heights in these units.
     fn file(units: &[&str]) -> Vec<u8> {
         let channel = |(number, unit): (usize, &&str)| {
             let unit_of = |unit: &str| {
-                object("GwySIUnit", &component("unitstr", b's', &[unit.as_bytes(), b"\0"].concat()))
+                object(
+                    "GwySIUnit",
+                    &component("unitstr", b's', &[unit.as_bytes(), b"\0"].concat()),
+                )
             };
             let heights = [1.0_f64, 2.0, 3.0, 4.0].map(f64::to_le_bytes).concat();
             let content = [
@@ -182,7 +239,11 @@ mod tests {
                 component("si_unit_z", b'o', &unit_of(unit)),
                 component("data", b'D', &[&4_u32.to_le_bytes(), &heights[..]].concat()),
             ];
-            component(&format!("/{number}/data"), b'o', &object("GwyDataField", &content.concat()))
+            component(
+                &format!("/{number}/data"),
+                b'o',
+                &object("GwyDataField", &content.concat()),
+            )
         };
         let channels: Vec<u8> = units.iter().enumerate().flat_map(channel).collect();
         [SIGNATURE, &object("GwyContainer", &channels)].concat()
@@ -191,19 +252,31 @@ mod tests {
     #[test]
     fn heights_without_a_unit_are_those_of_the_channel_whose_unit_is_asked_for() {
         let height = |units: &[&str], unit: Option<&str>| {
-            let options =
-                ReadOptions { height_unit: unit.map(|unit| unit.parse().unwrap()), ..ReadOptions::default() };
+            let options = ReadOptions {
+                height_unit: unit.map(|unit| unit.parse().unwrap()),
+                ..ReadOptions::default()
+            };
             let read = read(&file(units), None).and_then(|reading| reading.resolve(&options));
-            read.map(|surface| surface.heights[3]).map_err(|error: SurfaceError| error.to_string())
+            read.map(|surface| surface.heights[3])
+                .map_err(|error: SurfaceError| error.to_string())
         };
         assert_eq!(height(&[""], Some("nm")), Ok(4e-9));
         let error = height(&[""], None).unwrap_err();
-        assert!(error.starts_with("no unit of heights is stated") && error.contains("--unit"), "{error}");
+        assert!(
+            error.starts_with("no unit of heights is stated") && error.contains("--unit"),
+            "{error}"
+        );
         assert_eq!(height(&["nm"], None), Ok(4e-9));
         assert_eq!(height(&["deg", "", "um"], None), Ok(4e-6));
         for (units, expected) in [
-            (&["deg", "V"][..], "no channel in a unit of length; channels: 0 (deg), 1 (V); allowed: "),
-            (&["m", "nm"], "several channels of heights; all channels: 0 (m), 1 (nm); allowed: --channel"),
+            (
+                &["deg", "V"][..],
+                "no channel in a unit of length; channels: 0 (deg), 1 (V); allowed: ",
+            ),
+            (
+                &["m", "nm"],
+                "several channels of heights; all channels: 0 (m), 1 (nm); allowed: --channel",
+            ),
             (
                 &["", ""],
                 "several channels of heights; all channels: 0 (no unit), 1 (no unit); allowed: --channel",

@@ -31,10 +31,14 @@ pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
         .filter(|step| *step > 0.0)
         .fold(f64::INFINITY, f64::min);
     let rows = heights.chunks_exact(columns);
-    let squares = rows.flat_map(|row| row.windows(2)).map(|pair| (pair[1] - pair[0]).powi(2));
+    let squares = rows
+        .flat_map(|row| row.windows(2))
+        .map(|pair| (pair[1] - pair[0]).powi(2));
     let (sum, count) = squares
         .filter(|square| square.is_finite())
-        .fold((0.0, 0_u32), |(sum, count), square| (sum + square, count + 1));
+        .fold((0.0, 0_u32), |(sum, count), square| {
+            (sum + square, count + 1)
+        });
     let share = step * step / 6.0 / (sum / f64::from(count));
     if !share.is_finite() || share < LARGE || heights.len() < LEAST_POINTS * levels.len() {
         return None;
@@ -66,7 +70,11 @@ mod tests {
             "{found}"
         );
         assert_eq!(
-            (warning(&rounded(0.5), 32), warning(&rounded(1e-3), 32), warning(&[0.0, 1.0], 2)),
+            (
+                warning(&rounded(0.5), 32),
+                warning(&rounded(1e-3), 32),
+                warning(&[0.0, 1.0], 2)
+            ),
             (None, None, None)
         );
         assert_eq!(warning(&[1e-9; 64], 8), None);

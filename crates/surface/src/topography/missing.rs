@@ -20,7 +20,10 @@ pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2
         low.min(high)..high
     };
     let measured = || (0..heights.len()).filter(|index| heights[*index].is_finite());
-    [range(&mut measured().map(|index| index % columns)), range(&mut measured().map(|index| index / columns))]
+    [
+        range(&mut measured().map(|index| index % columns)),
+        range(&mut measured().map(|index| index / columns)),
+    ]
 }
 
 /// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one row. Returns the indices of
@@ -34,9 +37,16 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usi
     let share = 1.0 - missing as f64 / heights.len() as f64;
     if share < LEAST_MEASURED {
         let fault = format!("{:.1} % of the points are measured", 100.0 * share);
-        return Err(refused(Place::File, fault, format!("at least {:.0} %", 100.0 * LEAST_MEASURED)));
+        return Err(refused(
+            Place::File,
+            fault,
+            format!("at least {:.0} %", 100.0 * LEAST_MEASURED),
+        ));
     }
-    let places = gathered(missing, (0..heights.len()).filter(|index| !heights[*index].is_finite()))?;
+    let places = gathered(
+        missing,
+        (0..heights.len()).filter(|index| !heights[*index].is_finite()),
+    )?;
     if heights.len() > columns {
         fill(heights, columns, &places)?
     } else {
@@ -51,9 +61,11 @@ fn fill_profile(heights: &mut [f64]) {
         let end = (place..heights.len()).find(|place| heights[*place].is_finite());
         for gap in place..end.unwrap_or(heights.len()) {
             heights[gap] = match (before, end) {
-                (Some(from), Some(to)) => {
-                    between(heights[from], heights[to], (gap - from) as f64 / (to - from) as f64)
-                }
+                (Some(from), Some(to)) => between(
+                    heights[from],
+                    heights[to],
+                    (gap - from) as f64 / (to - from) as f64,
+                ),
                 (Some(near), None) | (None, Some(near)) => heights[near],
                 (None, None) => continue,
             };
@@ -64,7 +76,9 @@ fn fill_profile(heights: &mut [f64]) {
 }
 
 fn mean(heights: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = heights.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
+    let (sum, count) = heights.fold((0.0, 0_u8), |(sum, count), height| {
+        (sum + height, count + 1)
+    });
     sum / f64::from(count)
 }
 
@@ -79,15 +93,25 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
     let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
     let block = |index: usize| {
         let (row, column) = (2 * (index / half_columns), 2 * (index % half_columns));
-        let points =
-            (row..rows.min(row + 2)).flat_map(|y| (column..columns.min(column + 2)).map(move |x| (x, y)));
-        mean(points.map(|(x, y)| heights[y * columns + x]).filter(|height| height.is_finite()))
+        let points = (row..rows.min(row + 2))
+            .flat_map(|y| (column..columns.min(column + 2)).map(move |x| (x, y)));
+        mean(
+            points
+                .map(|(x, y)| heights[y * columns + x])
+                .filter(|height| height.is_finite()),
+        )
     };
     if places.is_empty() {
         return Ok(());
     }
-    let mut halved = gathered(half_columns * half_rows, (0..half_columns * half_rows).map(block))?;
-    let gaps = gathered(count(&halved), (0..halved.len()).filter(|index| !halved[*index].is_finite()))?;
+    let mut halved = gathered(
+        half_columns * half_rows,
+        (0..half_columns * half_rows).map(block),
+    )?;
+    let gaps = gathered(
+        count(&halved),
+        (0..halved.len()).filter(|index| !halved[*index].is_finite()),
+    )?;
     fill(&mut halved, half_columns, &gaps)?;
     for &index in places {
         let (row, column) = (index / columns, index % columns);
@@ -96,7 +120,8 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
     for _ in 0..PASSES {
         for &index in places {
             let (row, column) = (index / columns, index % columns);
-            let before = [(column > 0, 1), (row > 0, columns)].map(|(is, step)| is.then(|| index - step));
+            let before =
+                [(column > 0, 1), (row > 0, columns)].map(|(is, step)| is.then(|| index - step));
             let behind = [(column + 1 < columns, 1), (row + 1 < rows, columns)];
             let behind = behind.map(|(is, step)| is.then(|| index + step));
             let around = before.into_iter().chain(behind).flatten();
@@ -122,8 +147,11 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
     let rows = heights.len() / columns;
     let slope = |step: usize| {
         let pairs = heights.iter().zip(heights.iter().skip(step));
-        let known = pairs.map(|(one, other)| other - one).filter(|difference| difference.is_finite());
-        gathered(heights.len(), known).map(|mut differences| median(&mut differences).unwrap_or(0.0))
+        let known = pairs
+            .map(|(one, other)| other - one)
+            .filter(|difference| difference.is_finite());
+        gathered(heights.len(), known)
+            .map(|mut differences| median(&mut differences).unwrap_or(0.0))
     };
     let tilt = [slope(1)?, if rows > 1 { slope(columns)? } else { 0.0 }];
     let level = |index: usize| {
@@ -149,7 +177,11 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
     let most = FAR * OF_DEVIATION * median(&mut sizes).unwrap_or(0.0);
     let mut count = 0;
     // Where most distances are zero, as between few digits, nothing is known of their spread.
-    for (height, _) in heights.iter_mut().zip(&distances).filter(|(_, one)| most > 0.0 && one.abs() > most) {
+    for (height, _) in heights
+        .iter_mut()
+        .zip(&distances)
+        .filter(|(_, one)| most > 0.0 && one.abs() > most)
+    {
         *height = f64::NAN;
         count += 1;
     }
@@ -202,10 +234,15 @@ mod tests {
             // Also a row and a column without any measured point.
             (20..40).contains(&x) && (15..35).contains(&y) || x == 50 || y == 10
         };
-        let mut heights: Vec<f64> =
-            (0..columns * 50).map(|index| if is_hole(index) { NONE } else { plane(index) }).collect();
+        let mut heights: Vec<f64> = (0..columns * 50)
+            .map(|index| if is_hole(index) { NONE } else { plane(index) })
+            .collect();
         let filled = interpolate(&mut heights, columns).unwrap();
-        assert!(filled.into_iter().eq((0..heights.len()).filter(|index| is_hole(*index))));
+        assert!(
+            filled
+                .into_iter()
+                .eq((0..heights.len()).filter(|index| is_hole(*index)))
+        );
         let off = |index: usize| (heights[index] - plane(index)).abs();
         let largest = (0..heights.len()).map(off).fold(0.0, f64::max);
         // Of 140 from corner to corner.
@@ -215,14 +252,26 @@ mod tests {
     #[test]
     fn too_few_points_are_refused() {
         let mut few = [NONE, NONE, 1.0];
-        assert!(interpolate(&mut few, 3).unwrap_err().to_string().contains("allowed: at least 50 %"));
+        assert!(
+            interpolate(&mut few, 3)
+                .unwrap_err()
+                .to_string()
+                .contains("allowed: at least 50 %")
+        );
         let mut corner = [NONE, NONE, NONE, 1.0, NONE, 3.0];
-        assert!(interpolate(&mut corner, 3).unwrap_err().to_string().contains("33.3 % of the points"));
+        assert!(
+            interpolate(&mut corner, 3)
+                .unwrap_err()
+                .to_string()
+                .contains("33.3 % of the points")
+        );
     }
 
     #[test]
     fn the_measured_part_has_a_measured_point_in_each_row_and_column_of_its_border() {
-        let map = [NONE, NONE, NONE, NONE, 1.0, NONE, NONE, NONE, 2.0, NONE, NONE, NONE];
+        let map = [
+            NONE, NONE, NONE, NONE, 1.0, NONE, NONE, NONE, 2.0, NONE, NONE, NONE,
+        ];
         assert_eq!(measured_part(&map, 3), [1..3, 1..3]);
         assert_eq!(measured_part(&map, 4), [0..1, 1..3]);
         assert_eq!(measured_part(&[NONE; 4], 2), [0..0, 0..0]);
@@ -232,11 +281,15 @@ mod tests {
     fn spikes_are_outliers_and_slopes_are_not() {
         let columns = 40;
         let rough = |i: usize| (7.3 * (i * i % 101) as f64).sin();
-        let tilted = |i: usize| 50.0 * (i % columns) as f64 - 20.0 * (i / columns) as f64 + rough(i);
+        let tilted =
+            |i: usize| 50.0 * (i % columns) as f64 - 20.0 * (i / columns) as f64 + rough(i);
         for rows in [1, 30] {
             let heights: Vec<f64> = (0..columns * rows).map(tilted).collect();
             let mut same = heights.clone();
-            assert_eq!((remove_outliers(&mut same, columns), &same), (Ok(0), &heights));
+            assert_eq!(
+                (remove_outliers(&mut same, columns), &same),
+                (Ok(0), &heights)
+            );
             let mut spiked = heights.clone();
             let places = [17, columns * rows - 10];
             places.iter().for_each(|&place| spiked[place] += 400.0);
@@ -251,7 +304,17 @@ mod tests {
 
     #[test]
     fn levelled_rows_have_medians_of_zero() {
-        let mut heights = [1.0, 5.0, 2.0, 9.0, f64::NAN, 7.0, f64::NAN, f64::NAN, f64::NAN];
+        let mut heights = [
+            1.0,
+            5.0,
+            2.0,
+            9.0,
+            f64::NAN,
+            7.0,
+            f64::NAN,
+            f64::NAN,
+            f64::NAN,
+        ];
         level_rows(&mut heights, 3).unwrap();
         assert_eq!(heights[..4], [-1.0, 3.0, 0.0, 1.0]);
         assert!(heights[5] == -1.0 && heights[6..].iter().all(|height| height.is_nan()));

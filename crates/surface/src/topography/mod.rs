@@ -33,7 +33,11 @@ const UNITS: [(&str, &str, f64); 7] = [
     ("m", "meter metre meters metres", 1.0),
     ("cm", "centimeter centimetre", 1e2),
     ("mm", "millimeter millimetre millimeters millimetres", 1e3),
-    ("µm", "μm um mum micron microns micrometer micrometre micrometers micrometres", 1e6),
+    (
+        "µm",
+        "μm um mum micron microns micrometer micrometre micrometers micrometres",
+        1e6,
+    ),
     ("nm", "nanometer nanometre nanometers nanometres", 1e9),
     ("Å", "\u{212b} Ang angstrom ångström angstroms", 1e10),
     ("pm", "picometer picometre", 1e12),
@@ -51,7 +55,10 @@ impl Unit {
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 
     /// The unit metre.
-    pub const METRE: Unit = Unit { name: "m", per_metre: 1.0 };
+    pub const METRE: Unit = Unit {
+        name: "m",
+        per_metre: 1.0,
+    };
 
     /// Returns true for the name of a unit of length.
     pub(crate) fn is_name(text: &str) -> bool {
@@ -65,18 +72,28 @@ impl Unit {
 
     /// Returns the unit that a file states at this place; `None` for an empty text.
     pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, SurfaceError> {
-        let unit = Some(text).filter(|text| !text.is_empty()).map(|text| Unit::named(text, place));
+        let unit = Some(text)
+            .filter(|text| !text.is_empty())
+            .map(|text| Unit::named(text, place));
         unit.transpose()
     }
 
     fn named(text: &str, place: Place) -> Result<Unit, SurfaceError> {
         let text = text.trim();
-        let is_name =
-            |name: &str| name == text || (name.chars().count() > 3 && name.eq_ignore_ascii_case(text));
-        let found =
-            UNITS.into_iter().find(|(name, others, _)| *name == text || others.split(' ').any(is_name));
+        let is_name = |name: &str| {
+            name == text || (name.chars().count() > 3 && name.eq_ignore_ascii_case(text))
+        };
+        let found = UNITS
+            .into_iter()
+            .find(|(name, others, _)| *name == text || others.split(' ').any(is_name));
         let unit = found.map(|(name, _, per_metre)| Unit { name, per_metre });
-        let refused = || refused(place, format!("{:?} is not a unit of length", shown(text)), Unit::ALLOWED);
+        let refused = || {
+            refused(
+                place,
+                format!("{:?} is not a unit of length", shown(text)),
+                Unit::ALLOWED,
+            )
+        };
         unit.ok_or_else(refused)
     }
 
@@ -124,10 +141,20 @@ mod tests {
             ("nm", 1e-9),
             ("Å", 1e-10),
         ] {
-            assert_eq!(text.parse::<Unit>().unwrap().to_metres(1.0), metres, "{text}");
+            assert_eq!(
+                text.parse::<Unit>().unwrap().to_metres(1.0),
+                metres,
+                "{text}"
+            );
         }
         for text in ["", "Mm", "V", "MM", "px", "a.u.", "m²"] {
-            assert!(text.parse::<Unit>().unwrap_err().to_string().contains("allowed: m, cm"), "{text}");
+            assert!(
+                text.parse::<Unit>()
+                    .unwrap_err()
+                    .to_string()
+                    .contains("allowed: m, cm"),
+                "{text}"
+            );
         }
     }
 }

@@ -28,42 +28,76 @@ const DIFFERENT: f64 = 0.01;
 /// Reads the channel with this number, from 0. Without a number, reads the only channel of heights.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     let head = &bytes[..bytes.len().min(LONGEST_HEADER)];
-    let end = head.windows(END.len()).position(|found| found.eq_ignore_ascii_case(END)).ok_or_else(|| {
-        let allowed = format!("\"{}\" in the first {LONGEST_HEADER} bytes", END.escape_ascii());
-        refused(Place::File, "a header without an end", allowed)
-    })?;
+    let end = head
+        .windows(END.len())
+        .position(|found| found.eq_ignore_ascii_case(END))
+        .ok_or_else(|| {
+            let allowed = format!(
+                "\"{}\" in the first {LONGEST_HEADER} bytes",
+                END.escape_ascii()
+            );
+            refused(Place::File, "a header without an end", allowed)
+        })?;
     let header = decoded(&head[..end]);
     let sections: Vec<&str> = header.split("\n\\*").collect();
     let is_image = |section: &&&str| {
-        let name = section.lines().next().unwrap_or_default().trim().to_ascii_lowercase();
-        name.ends_with("image list") && !name.contains("force") && entry(section, "Data offset").is_some()
+        let name = section
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .trim()
+            .to_ascii_lowercase();
+        name.ends_with("image list")
+            && !name.contains("force")
+            && entry(section, "Data offset").is_some()
     };
-    let images: Vec<&str> = sections.iter().filter(is_image).copied().take(MOST_CHANNELS).collect();
+    let images: Vec<&str> = sections
+        .iter()
+        .filter(is_image)
+        .copied()
+        .take(MOST_CHANNELS)
+        .collect();
     let is_chosen = |index: usize| match channel {
         Some(number) => index == number as usize,
         None => {
             let name = title(images[index]).to_lowercase();
-            unit_and_scale(images[index], &sections).is_some() && HEIGHTS.iter().any(|of| name.contains(of))
+            unit_and_scale(images[index], &sections).is_some()
+                && HEIGHTS.iter().any(|of| name.contains(of))
         }
     };
-    let chosen: Vec<usize> = (0..images.len()).filter(|index| is_chosen(*index)).collect();
+    let chosen: Vec<usize> = (0..images.len())
+        .filter(|index| is_chosen(*index))
+        .collect();
     let (fault, allowed) = match (&chosen[..], channel) {
         ([one], _) => return reading(bytes, images[*one], &sections, *one),
-        ([], Some(number)) => (format!("no channel {number}"), "the number of a channel, from 0"),
-        ([], None) => {
-            ("no channel of heights".to_owned(), "a channel of heights, or --channel with the number of one")
-        }
+        ([], Some(number)) => (
+            format!("no channel {number}"),
+            "the number of a channel, from 0",
+        ),
+        ([], None) => (
+            "no channel of heights".to_owned(),
+            "a channel of heights, or --channel with the number of one",
+        ),
         (several, _) => (
             format!("{} channels of heights", several.len()),
             "--channel with the number of one, in a scene roughness.channel",
         ),
     };
     let describe = |(number, image): (usize, &&str)| {
-        let direction = entry(image, "Line direction").map(|name| format!(" {}", shown(name).to_lowercase()));
-        format!("{number} {:?}{}", shown(title(image)), direction.unwrap_or_default())
+        let direction =
+            entry(image, "Line direction").map(|name| format!(" {}", shown(name).to_lowercase()));
+        format!(
+            "{number} {:?}{}",
+            shown(title(image)),
+            direction.unwrap_or_default()
+        )
     };
     let names: Vec<String> = images.iter().enumerate().take(8).map(describe).collect();
-    Err(refused(Place::File, format!("{fault}; channels: {}", names.join(", ")), allowed))
+    Err(refused(
+        Place::File,
+        format!("{fault}; channels: {}", names.join(", ")),
+        allowed,
+    ))
 }
 
 /// Returns the value of the first line `\key: value` of a section. Before the key may be `@` and the number of a group, as in
@@ -77,7 +111,9 @@ fn entry<'a>(section: &'a str, key: &str) -> Option<&'a str> {
                 .map_or(rest, |(_, rest)| rest)
         });
         let (name, value) = line.split_once(':')?;
-        name.trim().eq_ignore_ascii_case(key).then_some(value.trim())
+        name.trim()
+            .eq_ignore_ascii_case(key)
+            .then_some(value.trim())
     })
 }
 
@@ -99,7 +135,11 @@ fn value(text: &str) -> Option<(Option<&str>, f64, &str)> {
         rest = after.trim();
     }
     let mut words = rest.split_ascii_whitespace();
-    let number = words.next()?.parse().ok().filter(|number: &f64| number.is_finite())?;
+    let number = words
+        .next()?
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite())?;
     Some((scale, number, words.next().unwrap_or_default()))
 }
 
@@ -113,14 +153,19 @@ fn unit_and_scale(image: &str, sections: &[&str]) -> Option<(Unit, f64)> {
         let (_, magnification, _) = value(entry(image, "Z magnify image")?)?;
         return Some((Unit::METRE, PER_MAGNIFICATION * magnification));
     };
-    let (_, sensitivity, unit_of) = sections.iter().find_map(|section| value(entry(section, name)?))?;
+    let (_, sensitivity, unit_of) = sections
+        .iter()
+        .find_map(|section| value(entry(section, name)?))?;
     let (of_height, of_signal) = unit_of.split_once('/')?;
     let in_volts = |unit: &str| match unit {
         "V" => Some(1.0),
         "mV" => Some(1e-3),
         _ => None,
     };
-    Some((length_unit(of_height)?, range * sensitivity * in_volts(unit)? / in_volts(of_signal)?))
+    Some((
+        length_unit(of_height)?,
+        range * sensitivity * in_volts(unit)? / in_volts(of_signal)?,
+    ))
 }
 
 /// Unit of length; µ is written as `~`.
@@ -128,20 +173,34 @@ fn length_unit(text: &str) -> Option<Unit> {
     text.replace('~', "µ").parse().ok()
 }
 
-fn reading(bytes: &[u8], image: &str, sections: &[&str], number: usize) -> Result<Reading, SurfaceError> {
+fn reading(
+    bytes: &[u8],
+    image: &str,
+    sections: &[&str],
+    number: usize,
+) -> Result<Reading, SurfaceError> {
     let wrong = |key: &str, allowed: &str| {
         let found = entry(image, key).unwrap_or_default();
-        refused(Place::Part(format!("channel {number}")), format!("{key} = {:?}", shown(found)), allowed)
+        refused(
+            Place::Part(format!("channel {number}")),
+            format!("{key} = {:?}", shown(found)),
+            allowed,
+        )
     };
     let count = |key: &str| {
-        let count = entry(image, key).and_then(|text| text.split_ascii_whitespace().next()?.parse().ok());
-        count.filter(|count: &usize| *count > 0).ok_or_else(|| wrong(key, "a whole number above 0"))
+        let count =
+            entry(image, key).and_then(|text| text.split_ascii_whitespace().next()?.parse().ok());
+        count
+            .filter(|count: &usize| *count > 0)
+            .ok_or_else(|| wrong(key, "a whole number above 0"))
     };
     let (columns, rows) = (count("Samps/line")?, count("Number of lines")?);
     let (offset, length) = (count("Data offset")?, count("Data length")?);
     let points = columns.saturating_mul(rows);
     // Some versions state 2 bytes and store 4.
-    let of_each = [2, 4].into_iter().find(|size| points.saturating_mul(*size) == length);
+    let of_each = [2, 4]
+        .into_iter()
+        .find(|size| points.saturating_mul(*size) == length);
     let number = match of_each.map_or_else(|| count("Bytes/pixel"), Ok)? {
         2 => Number::I16,
         4 => Number::I32,
@@ -152,14 +211,20 @@ fn reading(bytes: &[u8], image: &str, sections: &[&str], number: usize) -> Resul
     let mut data = Bytes::new(bytes, Order::Little);
     data.take(offset)?;
     let heights = data.numbers(points, number)?;
-    let heights = gathered(points, heights.chunks_exact(columns).rev().flatten().copied())?;
-    let scan =
-        entry(image, "Scan size").or_else(|| sections.iter().find_map(|part| entry(part, "Scan size")));
+    let heights = gathered(
+        points,
+        heights.chunks_exact(columns).rev().flatten().copied(),
+    )?;
+    let scan = entry(image, "Scan size")
+        .or_else(|| sections.iter().find_map(|part| entry(part, "Scan size")));
     let words: Vec<&str> = scan.unwrap_or_default().split_ascii_whitespace().collect();
     let size = |text: &str| text.parse().ok().filter(|size: &f64| size.is_finite());
     let sizes = match words[..] {
         [width, unit] => size(width).map(|width| [width; 2]).zip(length_unit(unit)),
-        [width, height, unit] => size(width).zip(size(height)).map(|(x, y)| [x, y]).zip(length_unit(unit)),
+        [width, height, unit] => size(width)
+            .zip(size(height))
+            .map(|(x, y)| [x, y])
+            .zip(length_unit(unit)),
         _ => None,
     };
     let ([width, mut height], lateral) =
@@ -213,7 +278,10 @@ mod tests {
     const NUMBERS: [i16; 6] = [1, 2, 3, -4, 5, 6];
 
     fn short() -> Vec<u8> {
-        NUMBERS.iter().flat_map(|number| number.to_le_bytes()).collect()
+        NUMBERS
+            .iter()
+            .flat_map(|number| number.to_le_bytes())
+            .collect()
     }
 
     /// Heights in nm, distances and warnings.
@@ -223,29 +291,52 @@ mod tests {
         let found = read(bytes, None).map_err(|error| error.to_string())?;
         let unit = found.units[2].unwrap_or(Unit::METRE);
         let rounded = |height: &f64| (unit.to_metres(*height) * 1e15).round() / 1e6;
-        Ok((found.heights.iter().map(rounded).collect(), found.spacing, found.warnings))
+        Ok((
+            found.heights.iter().map(rounded).collect(),
+            found.spacing,
+            found.warnings,
+        ))
     }
 
     #[test]
     fn heights_and_sizes_follow_from_the_scales_of_any_version() {
         // Heights in nm: 12.5 nm/V × 6.5536 V / 2¹⁶; the last row is the lowest.
         let steps = |step: f64| {
-            [-4.0, 5.0, 6.0, 1.0, 2.0, 3.0].map(|number: f64| (number * step * 1e6).round() / 1e6).to_vec()
+            [-4.0, 5.0, 6.0, 1.0, 2.0, 3.0]
+                .map(|number: f64| (number * step * 1e6).round() / 1e6)
+                .to_vec()
         };
         let with = |from: &str, to: &str| file(SCAN, &[&HEIGHT.replace(from, to)], &short());
         let square = Some([1.0, 1.0]);
         for (bytes, step, spacing) in [
             (with("", ""), 1.25e-3, square),
-            (with("3 2 ~m", "3 3 µm\r\n\\Aspect Ratio: 3:2"), 1.25e-3, square),
-            (with("6.5536 V", "6553.6 mV"), 1.25e-3, square),
-            (with("V [Sens. Zsens] (0.005 V/LSB) 6.5536 V", "V (1 nm/LSB) 65.536 nm"), 1e-3, square),
             (
-                with("@2:Z scale: V [Sens. Zsens] (0.005 V/LSB) 6.5536 V", "Z scale: 65.536 nm (65536)"),
+                with("3 2 ~m", "3 3 µm\r\n\\Aspect Ratio: 3:2"),
+                1.25e-3,
+                square,
+            ),
+            (with("6.5536 V", "6553.6 mV"), 1.25e-3, square),
+            (
+                with(
+                    "V [Sens. Zsens] (0.005 V/LSB) 6.5536 V",
+                    "V (1 nm/LSB) 65.536 nm",
+                ),
                 1e-3,
                 square,
             ),
             (
-                with("@2:Z scale: V [Sens. Zsens] (0.005 V/LSB) 6.5536 V", "Z magnify image: 65.536"),
+                with(
+                    "@2:Z scale: V [Sens. Zsens] (0.005 V/LSB) 6.5536 V",
+                    "Z scale: 65.536 nm (65536)",
+                ),
+                1e-3,
+                square,
+            ),
+            (
+                with(
+                    "@2:Z scale: V [Sens. Zsens] (0.005 V/LSB) 6.5536 V",
+                    "Z magnify image: 65.536",
+                ),
                 0.1,
                 square,
             ),
@@ -260,16 +351,22 @@ mod tests {
             "{warnings:?}"
         );
         // Four bytes, though the header states two.
-        let long: Vec<u8> =
-            NUMBERS.iter().flat_map(|number| (i32::from(*number) << 16).to_le_bytes()).collect();
-        assert_eq!(heights(&file(SCAN, &[HEIGHT], &long)).unwrap().0, steps(1.25e-3));
+        let long: Vec<u8> = NUMBERS
+            .iter()
+            .flat_map(|number| (i32::from(*number) << 16).to_le_bytes())
+            .collect();
+        assert_eq!(
+            heights(&file(SCAN, &[HEIGHT], &long)).unwrap().0,
+            steps(1.25e-3)
+        );
     }
 
     #[test]
     fn channels_are_chosen_by_number_or_as_the_only_heights() {
         let retrace = HEIGHT.replace("Trace", "Retrace");
-        let amplitude =
-            HEIGHT.replace("Zsens]", "Amp]").replace("[ZSensor] \"Height Sensor\"", "[Amplitude] \"\"");
+        let amplitude = HEIGHT
+            .replace("Zsens]", "Amp]")
+            .replace("[ZSensor] \"Height Sensor\"", "[Amplitude] \"\"");
         assert!(heights(&file(SCAN, &[&amplitude, HEIGHT], &short())).is_ok());
         let both = file(SCAN, &[HEIGHT, &retrace, &amplitude], &short());
         assert_eq!(
@@ -285,13 +382,24 @@ mod tests {
                 None,
                 "no channel of heights; channels: 0 \"Amplitude\" trace",
             ),
-            (&file("", &[HEIGHT], &short()), Some(0), "channel 0: Z scale = \"V [Sens. Zsens]"),
-            (&file(SCAN, &[&HEIGHT.replace("~m", "V")], &short()), None, "channel 0: Scan size = \"3 2 V\""),
+            (
+                &file("", &[HEIGHT], &short()),
+                Some(0),
+                "channel 0: Z scale = \"V [Sens. Zsens]",
+            ),
+            (
+                &file(SCAN, &[&HEIGHT.replace("~m", "V")], &short()),
+                None,
+                "channel 0: Scan size = \"3 2 V\"",
+            ),
             (&both[..2080], Some(2), "byte "),
             (&both[..400], None, "a header without an end"),
         ] {
             let error = read(bytes, channel).unwrap_err().to_string();
-            assert!(error.starts_with(expected) && error.contains("; allowed: "), "{error}");
+            assert!(
+                error.starts_with(expected) && error.contains("; allowed: "),
+                "{error}"
+            );
         }
     }
 }

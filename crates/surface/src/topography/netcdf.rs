@@ -43,17 +43,32 @@ struct Dataset<'a> {
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let dataset = Dataset::new(bytes)?;
     let heights = dataset.variable(b"heights").ok_or_else(|| {
-        refused(Place::File, "no variable `heights`", "NetCDF with `heights` over `x`, and `y` of a map")
+        refused(
+            Place::File,
+            "no variable `heights`",
+            "NetCDF with `heights` over `x`, and `y` of a map",
+        )
     })?;
     let mut values = dataset.values(heights)?;
-    if let Some(mask) = dataset.variable(b"mask").filter(|mask| mask.dimensions == heights.dimensions) {
+    if let Some(mask) = dataset
+        .variable(b"mask")
+        .filter(|mask| mask.dimensions == heights.dimensions)
+    {
         let mask = dataset.values(mask)?;
-        values.iter_mut().zip(mask).filter(|(_, mask)| *mask != 0.0).for_each(|(value, _)| *value = f64::NAN);
+        values
+            .iter_mut()
+            .zip(mask)
+            .filter(|(_, mask)| *mask != 0.0)
+            .for_each(|(value, _)| *value = f64::NAN);
     }
     // The positions of a dimension have its name, or that of the axis.
     let over = |dimension: usize| {
         let is_position = |variable: &&Variable| [&b"x"[..], b"y"].contains(&variable.name);
-        dataset.variables.iter().filter(is_position).find(|variable| variable.dimensions == [dimension])
+        dataset
+            .variables
+            .iter()
+            .filter(is_position)
+            .find(|variable| variable.dimensions == [dimension])
     };
     // Each variable has its own unit, or none.
     let unit_over = |dimension: usize| over(dimension).map_or(Ok(None), Variable::unit);
@@ -63,20 +78,30 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
         [along] => {
             let (unit, points) = (unit_over(along)?, values.len());
             return Ok(match over(along) {
-                Some(x) => Reading::profile("NetCDF", dataset.values(x)?, values, [unit, height_unit]),
+                Some(x) => {
+                    Reading::profile("NetCDF", dataset.values(x)?, values, [unit, height_unit])
+                }
                 None => Reading::even("NetCDF", values, points, None, [unit, unit, height_unit]),
             });
         }
         _ => {
             let fault = format!("`heights` over {} dimensions", heights.dimensions.len());
-            return Err(refused(Place::File, fault, "one of a profile, or two of a map"));
+            return Err(refused(
+                Place::File,
+                fault,
+                "one of a profile, or two of a map",
+            ));
         }
     };
     let spacing = |dimension: usize| {
-        over(dimension).map(|positions| even_distance(&dataset.values(positions)?)).transpose()
+        over(dimension)
+            .map(|positions| even_distance(&dataset.values(positions)?))
+            .transpose()
     };
     let mut columns = dataset.length(fast)?;
-    let mut spacing = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
+    let mut spacing = spacing(fast)?
+        .zip(spacing(slow)?)
+        .map(|(fast, slow)| [fast, slow]);
     let mut units = [unit_over(fast)?, unit_over(slow)?, height_unit];
     if over(slow).is_some_and(|variable| variable.name == b"x") {
         // Rows are along x.
@@ -107,9 +132,15 @@ impl<'a> Dataset<'a> {
             name(header)?;
             header.size(Number::U32)
         })?;
-        list(&mut header, ATTRIBUTES, |header| attribute(header).map(drop))?;
+        list(&mut header, ATTRIBUTES, |header| {
+            attribute(header).map(drop)
+        })?;
         let variables = list(&mut header, VARIABLES, |header| variable(header, offsets))?;
-        Ok(Dataset { bytes, dimensions, variables })
+        Ok(Dataset {
+            bytes,
+            dimensions,
+            variables,
+        })
     }
 
     fn variable(&self, name: &[u8]) -> Option<&Variable<'a>> {
@@ -118,24 +149,38 @@ impl<'a> Dataset<'a> {
 
     fn length(&self, dimension: usize) -> Result<usize, SurfaceError> {
         let (fault, allowed) = match self.dimensions.get(dimension) {
-            Some(0) => ("a dimension without a fixed length".to_owned(), "fixed lengths".to_owned()),
+            Some(0) => (
+                "a dimension without a fixed length".to_owned(),
+                "fixed lengths".to_owned(),
+            ),
             Some(length) => return Ok(*length),
-            None => (format!("dimension {dimension}"), format!("below {}", self.dimensions.len())),
+            None => (
+                format!("dimension {dimension}"),
+                format!("below {}", self.dimensions.len()),
+            ),
         };
         Err(refused(Place::File, fault, allowed))
     }
 
     /// Returns the values of a variable, with NaN for missing points.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, SurfaceError> {
-        let mut lengths = variable.dimensions.iter().map(|dimension| self.length(*dimension));
-        let count = lengths
-            .try_fold(1_usize, |count, length| Ok::<_, SurfaceError>(count.saturating_mul(length?)))?;
+        let mut lengths = variable
+            .dimensions
+            .iter()
+            .map(|dimension| self.length(*dimension));
+        let count = lengths.try_fold(1_usize, |count, length| {
+            Ok::<_, SurfaceError>(count.saturating_mul(length?))
+        })?;
         let mut data = Bytes::new(self.bytes, Order::Big);
         data.take(variable.begin)?;
         let mut values = data.numbers(count, variable.of)?;
         for value in &mut values {
             let is_missing = variable.missing.contains(value);
-            *value = if is_missing { f64::NAN } else { variable.offset + variable.scale * *value };
+            *value = if is_missing {
+                f64::NAN
+            } else {
+                variable.offset + variable.scale * *value
+            };
         }
         Ok(values)
     }
@@ -157,8 +202,14 @@ fn list<'a, T>(
     match (header.size(Number::U32)?, header.size(Number::U32)?) {
         (0, 0) => Ok(Vec::new()),
         // No memory is reserved for the number, which the file may overstate.
-        (found, count) if found == tag => std::iter::repeat_with(|| entry(header)).take(count).collect(),
-        (found, _) => Err(refused(place, format!("mark {found}"), format!("{tag}, or an empty list"))),
+        (found, count) if found == tag => std::iter::repeat_with(|| entry(header))
+            .take(count)
+            .collect(),
+        (found, _) => Err(refused(
+            place,
+            format!("mark {found}"),
+            format!("{tag}, or an empty list"),
+        )),
     }
 }
 
@@ -195,7 +246,11 @@ fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, SurfaceError> 
     let name = name(header)?;
     let of = number(header)?;
     let count = header.size(Number::U32)?;
-    Ok((name, of, padded(header, count.saturating_mul(of.map_or(1, Number::size)))?))
+    Ok((
+        name,
+        of,
+        padded(header, count.saturating_mul(of.map_or(1, Number::size)))?,
+    ))
 }
 
 fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>, SurfaceError> {
@@ -220,16 +275,33 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
     let of = number(header)?.unwrap_or(Number::U8);
     header.take(4)?; // Bytes of the values, which follow from the dimensions.
     let begin = header.size(offsets)?;
-    Ok(Variable { name, dimensions, unit, missing, scale, offset, of, begin })
+    Ok(Variable {
+        name,
+        dimensions,
+        unit,
+        missing,
+        scale,
+        offset,
+        of,
+        begin,
+    })
 }
 
 fn even_distance(positions: &[f64]) -> Result<f64, SurfaceError> {
     let ([first, .., last], count) = (positions, positions.len()) else {
-        return Err(refused(Place::File, "a map of one row", "at least 2 positions along each axis"));
+        return Err(refused(
+            Place::File,
+            "a map of one row",
+            "at least 2 positions along each axis",
+        ));
     };
     let distance = (last - first) / (count - 1) as f64;
     match first_uneven(positions, *first, distance) {
-        Some(index) => Err(refused(Place::Point(index + 1), "uneven positions of a map", "even ones")),
+        Some(index) => Err(refused(
+            Place::Point(index + 1),
+            "uneven positions of a map",
+            "even ones",
+        )),
         None => Ok(distance.abs()),
     }
 }

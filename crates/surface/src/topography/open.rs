@@ -19,8 +19,12 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (asperity_data::SIGNATURE, |bytes, _| npy::read(bytes)),
     (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
     (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
-    (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
-    (nanoscope::SIGNATURE, |bytes, options| nanoscope::read(bytes, options.channel)),
+    (gwy::SIGNATURE, |bytes, options| {
+        gwy::read(bytes, options.channel)
+    }),
+    (nanoscope::SIGNATURE, |bytes, options| {
+        nanoscope::read(bytes, options.channel)
+    }),
     (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
@@ -80,7 +84,11 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {
         let allowed = "a container of surfaces, or no --channel, in a scene roughness.surface_name";
-        return Err(refused(Place::File, "a file of one surface, without a name", allowed));
+        return Err(refused(
+            Place::File,
+            "a file of one surface, without a name",
+            allowed,
+        ));
     }
     if !is_archive {
         return Ok(vec![reading(bytes, options)?.resolve_part(options)?]);
@@ -88,7 +96,9 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     let mut archive = Archive::new(bytes)?;
     let [in_json, in_yaml] = container::INDICES;
     let indices = [x3p::INDEX, in_json, in_yaml];
-    let index = archive.index(&indices)?.ok_or_else(|| foreign::archive(archive.names(), indices))?;
+    let index = archive
+        .index(&indices)?
+        .ok_or_else(|| foreign::archive(archive.names(), indices))?;
     if index == x3p::INDEX {
         return Ok(vec![x3p::read(archive)?.resolve_part(options)?]);
     }
@@ -97,8 +107,9 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     let (mut surfaces, mut unreadable) = (Vec::new(), Vec::new());
     for measurement in measurements {
         let options = measurement.options(options)?;
-        let within =
-            |error: SurfaceError| error.within(|place| Place::Measurement(measurement.name.clone(), place));
+        let within = |error: SurfaceError| {
+            error.within(|place| Place::Measurement(measurement.name.clone(), place))
+        };
         let content = archive.unpacked(measurement.file()?, MOST_BYTES)?;
         let reading = match reading(&content, &options).map_err(within) {
             Ok(reading) => measurement.completed(reading),
@@ -119,9 +130,11 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     }
     match surfaces.first_mut() {
         Some(first) => {
-            first
-                .warnings
-                .extend(unreadable.iter().map(|error| format!("another measurement is left out: {error}")));
+            first.warnings.extend(
+                unreadable
+                    .iter()
+                    .map(|error| format!("another measurement is left out: {error}")),
+            );
             Ok(surfaces)
         }
         None => Err(unreadable.swap_remove(0)),
@@ -140,8 +153,13 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError>
         return sdf::read(&content);
     }
     foreign::check(&content)?;
-    let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
-    reader.map_or_else(|| text::read(&content, options.channel), |(_, read)| read(&content, options))
+    let reader = SIGNATURES
+        .iter()
+        .find(|(signature, _)| content.starts_with(signature));
+    reader.map_or_else(
+        || text::read(&content, options.channel),
+        |(_, read)| read(&content, options),
+    )
 }
 
 /// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is compressed by gzip.
@@ -181,14 +199,22 @@ mod tests {
     }
 
     fn metres() -> ReadOptions {
-        ReadOptions { unit: Some(Unit::METRE), ..ReadOptions::default() }
+        ReadOptions {
+            unit: Some(Unit::METRE),
+            ..ReadOptions::default()
+        }
     }
 
     /// A file of the inputs of fuzzing, with some bytes replaced where they occur first.
     fn file(name: &str, from: &[u8], to: &[u8]) -> Vec<u8> {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/surface").join(name);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../fuzz/seeds/surface")
+            .join(name);
         let content = std::fs::read(path).unwrap();
-        let at = content.windows(from.len().max(1)).position(|found| found.starts_with(from)).unwrap();
+        let at = content
+            .windows(from.len().max(1))
+            .position(|found| found.starts_with(from))
+            .unwrap();
         [&content[..at], to, &content[at + from.len()..]].concat()
     }
 
@@ -196,7 +222,13 @@ mod tests {
     fn bare(name: &str) -> ReadOptions {
         let unit = name.ends_with(".npy").then_some(Unit::METRE);
         let height_unit = (name == "points.nc").then_some(Unit::METRE);
-        ReadOptions { unit, height_unit, spacing: Some(0.5), interpolate: true, ..ReadOptions::default() }
+        ReadOptions {
+            unit,
+            height_unit,
+            spacing: Some(0.5),
+            interpolate: true,
+            ..ReadOptions::default()
+        }
     }
 
     #[test]
@@ -222,28 +254,65 @@ mod tests {
         let micrometres = read("plain.sur", b"um", b"\xe6m", &bare(""));
         assert_eq!(micrometres, read("plain.sur", b"", b"", &bare("")));
         // Rows along x become rows along y.
-        let (along_x, along_y) =
-            (&b"heights\0\0\0\0\x02\0\0\0\0\0\0\0\x01"[..], &b"heights\0\0\0\0\x02\0\0\0\x01\0\0\0\0"[..]);
-        let (turned, straight) =
-            (read("map.nc", b"", b"", &bare("")), read("map.nc", along_x, along_y, &bare("")));
+        let (along_x, along_y) = (
+            &b"heights\0\0\0\0\x02\0\0\0\0\0\0\0\x01"[..],
+            &b"heights\0\0\0\0\x02\0\0\0\x01\0\0\0\0"[..],
+        );
+        let (turned, straight) = (
+            read("map.nc", b"", b"", &bare("")),
+            read("map.nc", along_x, along_y, &bare("")),
+        );
         assert_eq!((turned.columns, straight.columns), (6, 6));
-        assert_eq!((turned.heights[1], turned.heights[6]), (straight.heights[4], straight.heights[1]));
+        assert_eq!(
+            (turned.heights[1], turned.heights[6]),
+            (straight.heights[4], straight.heights[1])
+        );
         // Each axis of a map, and its heights, have a unit of their own.
         let before =
             b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0\0\0\0\0\x04unit\0\0\0\x02\0\0\0";
-        let (metre, nanometre) = ([&before[..], b"\x01m\0"].concat(), [&before[..], b"\x02nm"].concat());
+        let (metre, nanometre) = (
+            [&before[..], b"\x01m\0"].concat(),
+            [&before[..], b"\x02nm"].concat(),
+        );
         let [along, between] = straight.spacing().unwrap();
-        let found = read("map.nc", &metre, &nanometre, &bare("")).spacing().unwrap();
-        assert_eq!((found[0] / along, (found[1] / between * 1e9).round()), (1.0, 1.0));
-        for (name, change) in [("map.nc", (&b"unit"[..], &b"note"[..])), ("points.nc", (b"", b""))] {
-            let error = parse(&file(name, change.0, change.1), &bare("")).unwrap_err().to_string();
-            assert!(error.starts_with("no unit of heights is stated"), "{name}: {error}");
+        let found = read("map.nc", &metre, &nanometre, &bare(""))
+            .spacing()
+            .unwrap();
+        assert_eq!(
+            (found[0] / along, (found[1] / between * 1e9).round()),
+            (1.0, 1.0)
+        );
+        for (name, change) in [
+            ("map.nc", (&b"unit"[..], &b"note"[..])),
+            ("points.nc", (b"", b"")),
+        ] {
+            let error = parse(&file(name, change.0, change.1), &bare(""))
+                .unwrap_err()
+                .to_string();
+            assert!(
+                error.starts_with("no unit of heights is stated"),
+                "{name}: {error}"
+            );
         }
-        let chosen = ReadOptions { channel: Some(0), ..bare("") };
-        assert_eq!(read("map.gwy", b"", b"", &chosen), read("map.gwy", b"", b"", &bare("")));
-        let none = ReadOptions { channel: Some(4), ..bare("") };
-        let error = parse(&file("map.gwy", b"", b""), &none).unwrap_err().to_string();
-        assert_eq!(error, "no channel 4; channels: 0 (m); allowed: a channel of heights");
+        let chosen = ReadOptions {
+            channel: Some(0),
+            ..bare("")
+        };
+        assert_eq!(
+            read("map.gwy", b"", b"", &chosen),
+            read("map.gwy", b"", b"", &bare(""))
+        );
+        let none = ReadOptions {
+            channel: Some(4),
+            ..bare("")
+        };
+        let error = parse(&file("map.gwy", b"", b""), &none)
+            .unwrap_err()
+            .to_string();
+        assert_eq!(
+            error,
+            "no channel 4; channels: 0 (m); allowed: a channel of heights"
+        );
     }
 
     #[test]
@@ -269,7 +338,11 @@ mod tests {
             ("map.npy", b"'>i2'", b"[('a', '<f8'), ('b', '<u8')]"),
             ("map.npy", b"'>i2'", b"[]"),
             ("map.npy", b"'>i2'", b"[('a')]"),
-            ("map.npy", b";\0{'descr': '>i2'", b"D\0{'descr': [('a', '<f8')]"),
+            (
+                "map.npy",
+                b";\0{'descr': '>i2'",
+                b"D\0{'descr': [('a', '<f8')]",
+            ),
             ("map.npy", b"fortran_order", b"order"),
             ("map.npy", b"(3, 4)", b"(3, 4, 1)"),
             ("map.npy", b"(3, 4)", b"(99999999999, 99999999999)"),
@@ -288,11 +361,20 @@ mod tests {
             ("map.nc", b"heights", b"weights"),
             ("map.nc", b"x\0\0\0\0\0\0\x06", b"x\0\0\0\0\0\0\0"),
             ("map.nc", b"x\0\0\0\0\0\0\x06", b"x\0\0\0\xff\xff\xff\xff"),
-            ("map.nc", b"s\0\0\0\0\x02\0\0\0\0", b"s\0\0\0\0\x02\0\0\0\x07"),
+            (
+                "map.nc",
+                b"s\0\0\0\0\x02\0\0\0\0",
+                b"s\0\0\0\0\x02\0\0\0\x07",
+            ),
             ("map.nc", b"?\x0a\x36", b"?\x0b\x36"),
         ] {
-            let options = ReadOptions { interpolate: false, ..bare(name) };
-            let error = parse(&file(name, from, to), &options).unwrap_err().to_string();
+            let options = ReadOptions {
+                interpolate: false,
+                ..bare(name)
+            };
+            let error = parse(&file(name, from, to), &options)
+                .unwrap_err()
+                .to_string();
             assert!(error.contains("; allowed: "), "{error}");
             writeln!(errors, "{name}, {}: {error}", to.escape_ascii()).unwrap();
         }
@@ -315,7 +397,10 @@ mod tests {
         let members = [gzip(b"0 1\n1 2\n"), gzip(b"2 1\n")].concat();
         assert_eq!(parse(&members, &metres()), Ok(plain));
         let nested = parse(&gzip(&gzip(text)), &metres()).unwrap_err();
-        assert_eq!(nested.to_string(), "byte 0: gzip within gzip; allowed: gzip once");
+        assert_eq!(
+            nested.to_string(),
+            "byte 0: gzip within gzip; allowed: gzip once"
+        );
         assert!(parse(&gzip(text)[..15], &metres()).is_err());
     }
 
@@ -324,7 +409,10 @@ mod tests {
         let bomb = gzip(&b"# 1\n".repeat(1 << 20));
         assert!(bomb.len() < 10_000);
         let error = parse(&bomb, &metres()).unwrap_err().to_string();
-        assert_eq!(error, "gzip expands to more than 32 times its size; allowed: at most that and 1 MiB");
+        assert_eq!(
+            error,
+            "gzip expands to more than 32 times its size; allowed: at most that and 1 MiB"
+        );
     }
 
     #[test]
@@ -334,9 +422,15 @@ mod tests {
         let error = read(folder.path(), &metres()).unwrap_err().to_string();
         assert!(error.contains("this is a folder"), "{error}");
         // A sparse file takes no room on the disk.
-        std::fs::File::create(&path).unwrap().set_len(MOST_BYTES as u64 + 1).unwrap();
+        std::fs::File::create(&path)
+            .unwrap()
+            .set_len(MOST_BYTES as u64 + 1)
+            .unwrap();
         let error = read(&path, &metres()).unwrap_err().to_string();
-        assert_eq!(error, "longer than 1073741824 bytes; allowed: at most 1073741824 bytes");
+        assert_eq!(
+            error,
+            "longer than 1073741824 bytes; allowed: at most 1073741824 bytes"
+        );
     }
 
     #[test]
@@ -353,12 +447,17 @@ mod tests {
             "text columns without a distance between points; allowed: a distance beside the file: --spacing 0.5um, in a \
              scene roughness.spacing"
         );
-        let error = parse(b"x [nm] z [nm]\n0 1\n1 2\n", &metres()).unwrap_err().to_string();
+        let error = parse(b"x [nm] z [nm]\n0 1\n1 2\n", &metres())
+            .unwrap_err()
+            .to_string();
         assert!(
             error.starts_with("the file states nm as the unit of heights, the options state m"),
             "{error}"
         );
-        let spaced = ReadOptions { spacing: Some(0.5), ..metres() };
+        let spaced = ReadOptions {
+            spacing: Some(0.5),
+            ..metres()
+        };
         assert_eq!(parse(b"1\n2\n", &spaced).unwrap().spacing(), Ok([0.5; 2]));
     }
 
@@ -371,15 +470,25 @@ mod tests {
             "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: --interpolate, in a scene \
              roughness.interpolate, which fills them from their neighbours"
         );
-        let options = ReadOptions { interpolate: true, ..metres() };
+        let options = ReadOptions {
+            interpolate: true,
+            ..metres()
+        };
         let surface = parse(text, &options).unwrap();
-        assert_eq!((&surface.heights[..], surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
+        assert_eq!(
+            (&surface.heights[..], surface.interpolated()),
+            (&[1.0, 2.0, 3.0, 4.0][..], 1)
+        );
     }
 
     #[test]
     fn a_row_needs_its_own_points_alone() {
         let read = |cut: Cut| {
-            let options = ReadOptions { spacing: Some(1.0), cut: Some(cut), ..metres() };
+            let options = ReadOptions {
+                spacing: Some(1.0),
+                cut: Some(cut),
+                ..metres()
+            };
             parse(b"1 2 3 4\n5 nan 6 7\n2 3 4 5\n", &options)
                 .map(|surface| (surface.heights.clone(), surface.interpolated()))
         };
@@ -396,20 +505,44 @@ mod tests {
 
     #[test]
     fn empty_rows_and_columns_at_the_border_are_left_out_and_counted() {
-        let spaced = ReadOptions { spacing: Some(1.0), ..metres() };
-        let read = |text: &str, cut: Option<Cut>| {
-            parse(text.as_bytes(), &ReadOptions { cut, ..spaced.clone() }).map_err(|error| error.to_string())
+        let spaced = ReadOptions {
+            spacing: Some(1.0),
+            ..metres()
         };
-        let map =
-            "nan nan nan nan nan\nnan 1 2 3 nan\nnan 4 5 6 nan\nnan nan nan nan nan\nnan nan nan nan nan\n";
+        let read = |text: &str, cut: Option<Cut>| {
+            parse(
+                text.as_bytes(),
+                &ReadOptions {
+                    cut,
+                    ..spaced.clone()
+                },
+            )
+            .map_err(|error| error.to_string())
+        };
+        let map = "nan nan nan nan nan\nnan 1 2 3 nan\nnan 4 5 6 nan\nnan nan nan nan nan\nnan nan nan nan nan\n";
         let found = read(map, None).unwrap();
-        assert_eq!((found.columns, &found.heights[..]), (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..]));
+        assert_eq!(
+            (found.columns, &found.heights[..]),
+            (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..])
+        );
         assert_eq!((found.cropped.counts(), found.interpolated()), ([2, 3], 0));
         // Rows, columns and points keep their numbers.
-        let (row, column) = (read(map, Some(Cut::Row(3))).unwrap(), read(map, Some(Cut::Column(2))).unwrap());
-        assert_eq!((row.heights, row.cropped.counts()), (vec![4.0, 5.0, 6.0], [2, 0]));
-        assert_eq!((column.heights, column.cropped.counts()), (vec![1.0, 4.0], [3, 0]));
-        assert_eq!(read(map, Some(Cut::Row(1))).unwrap_err(), "row 1; allowed: rows 2 to 3");
+        let (row, column) = (
+            read(map, Some(Cut::Row(3))).unwrap(),
+            read(map, Some(Cut::Column(2))).unwrap(),
+        );
+        assert_eq!(
+            (row.heights, row.cropped.counts()),
+            (vec![4.0, 5.0, 6.0], [2, 0])
+        );
+        assert_eq!(
+            (column.heights, column.cropped.counts()),
+            (vec![1.0, 4.0], [3, 0])
+        );
+        assert_eq!(
+            read(map, Some(Cut::Row(1))).unwrap_err(),
+            "row 1; allowed: rows 2 to 3"
+        );
         let error = read(&map.replace('5', "nan"), None).unwrap_err();
         assert!(
             error.starts_with("point 13: 1 of 6 points are missing (16.67 %), the first here"),

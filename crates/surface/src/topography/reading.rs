@@ -74,7 +74,16 @@ impl Reading {
         }
         let units = [along, between, of_heights];
         let (positions, first_missing, warnings) = (None, None, Vec::new());
-        Reading { format, heights, columns, positions, spacing, units, first_missing, warnings }
+        Reading {
+            format,
+            heights,
+            columns,
+            positions,
+            spacing,
+            units,
+            first_missing,
+            warnings,
+        }
     }
 
     /// Creates a profile at positions in the order of the file. A profile scanned backwards is reversed.
@@ -89,13 +98,20 @@ impl Reading {
             heights.reverse();
         }
         let (columns, units) = (heights.len(), [lateral, lateral, of_heights]);
-        Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
+        Reading {
+            positions: Some(positions),
+            ..Reading::even(format, heights, columns, None, units)
+        }
     }
 
     /// Multiplies the heights by `scale`. Heights for which `is_missing` is true become missing.
     pub fn scaled(mut self, is_missing: impl Fn(f64) -> bool, scale: f64) -> Reading {
         for height in &mut self.heights {
-            *height = if is_missing(*height) { f64::NAN } else { *height * scale };
+            *height = if is_missing(*height) {
+                f64::NAN
+            } else {
+                *height * scale
+            };
         }
         self
     }
@@ -104,7 +120,11 @@ impl Reading {
     pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         let points = self.heights.len();
         if !(2..=MOST_POINTS).contains(&points) {
-            return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
+            return Err(refused(
+                Place::File,
+                format!("{points} points"),
+                format!("from 2 to {MOST_POINTS}"),
+            ));
         }
         let [lateral_unit, unit_between, height_unit] = self.units;
         // An option for what the file does not state contradicts nothing that it states.
@@ -117,15 +137,36 @@ impl Reading {
             }
             (_, _, of_heights) => [options.unit, of_heights.or(options.unit)],
         };
-        let height_unit = unit("heights", height_unit, of_heights, options.convention, lateral_unit)?;
-        self.heights.iter_mut().for_each(|height| *height = height_unit.to_metres(*height));
+        let height_unit = unit(
+            "heights",
+            height_unit,
+            of_heights,
+            options.convention,
+            lateral_unit,
+        )?;
+        self.heights
+            .iter_mut()
+            .for_each(|height| *height = height_unit.to_metres(*height));
         check_range("height", &self.heights, f64::is_finite)?;
         let cropped = self.crop();
         let missing = self.has_missing(&cropped, options)?;
-        self.warnings.extend(levels::warning(&self.heights, self.columns));
-        let Reading { format, mut heights, columns, positions, spacing, warnings, .. } = self;
+        self.warnings
+            .extend(levels::warning(&self.heights, self.columns));
+        let Reading {
+            format,
+            mut heights,
+            columns,
+            positions,
+            spacing,
+            warnings,
+            ..
+        } = self;
         let unit = |name: &str, stated: Option<Unit>| {
-            let option = if stated.is_none() { options.unit } else { of_positions };
+            let option = if stated.is_none() {
+                options.unit
+            } else {
+                of_positions
+            };
             unit(name, stated, option, options.convention, None)
         };
         let even = |axis: usize| match (spacing, options.spacing) {
@@ -136,7 +177,8 @@ impl Reading {
             (None, Some(spacing)) => check_spacing(spacing),
             (None, None) => {
                 let fault = format!("{format} without a distance between points");
-                let allowed = "a distance beside the file: --spacing 0.5um, in a scene roughness.spacing";
+                let allowed =
+                    "a distance beside the file: --spacing 0.5um, in a scene roughness.spacing";
                 Err(refused(Place::File, fault, allowed))
             }
         };
@@ -152,13 +194,25 @@ impl Reading {
         let rows = heights.len() / columns;
         if options.align_rows {
             if rows < 2 {
-                return Err(refused(Place::File, "a profile, which has no rows to align", "a map"));
+                return Err(refused(
+                    Place::File,
+                    "a profile, which has no rows to align",
+                    "a map",
+                ));
             }
             missing::level_rows(&mut heights, columns)?;
         }
-        let outliers = if options.robust { missing::remove_outliers(&mut heights, columns)? } else { 0 };
+        let outliers = if options.robust {
+            missing::remove_outliers(&mut heights, columns)?
+        } else {
+            0
+        };
         let has_gaps = missing || outliers > 0;
-        let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
+        let interpolated = if has_gaps {
+            missing::interpolate(&mut heights, columns)?
+        } else {
+            Vec::new()
+        };
         let surface = Topography {
             format,
             heights,
@@ -182,7 +236,11 @@ impl Reading {
         if let Some(cut) = options.cut {
             surface = surface.cut(cut)?;
         }
-        if options.resample { surface.resampled() } else { Ok(surface) }
+        if options.resample {
+            surface.resampled()
+        } else {
+            Ok(surface)
+        }
     }
 
     /// Leaves out empty rows and columns at the borders of a map, or missing points at the ends of a profile.
@@ -199,7 +257,8 @@ impl Reading {
         }
         let (mut index, mut place) = (0, 0);
         self.heights.retain(|_| {
-            let is_inside = across.contains(&(index % columns)) && down.contains(&(index / columns));
+            let is_inside =
+                across.contains(&(index % columns)) && down.contains(&(index / columns));
             index += 1;
             is_inside
         });
@@ -212,7 +271,10 @@ impl Reading {
         self.columns = across.len();
         // A line of the file may be the line of a point that is left out.
         self.first_missing = None;
-        Cropped { before: [across.start, down.start], after: [columns - across.end, rows - down.end] }
+        Cropped {
+            before: [across.start, down.start],
+            after: [columns - across.end, rows - down.end],
+        }
     }
 
     /// Returns true if points are missing. Returns an error if they are part of what is read and are not to be interpolated.
@@ -227,15 +289,19 @@ impl Reading {
             }
         };
         let points = 0..self.heights.len();
-        let (Some(first), false) = (points.clone().filter(is_missing).find(is_read), options.interpolate)
-        else {
+        let (Some(first), false) = (
+            points.clone().filter(is_missing).find(is_read),
+            options.interpolate,
+        ) else {
             return Ok(points.into_iter().any(|index| is_missing(&index)));
         };
         let (missing, points) = (missing::count(&self.heights), self.heights.len());
         let share = 100.0 * missing as f64 / points as f64;
         let in_file = cropped.place_in_file(first, self.columns);
         Err(refused(
-            self.first_missing.clone().unwrap_or(Place::Point(in_file + 1)),
+            self.first_missing
+                .clone()
+                .unwrap_or(Place::Point(in_file + 1)),
             format!("{missing} of {points} points are missing ({share:.2} %), the first here"),
             "--interpolate, in a scene roughness.interpolate, which fills them from their neighbours",
         ))
@@ -272,7 +338,11 @@ impl Topography {
     /// assert!(asperity_surface::Topography::from_map(&[0.0; 5], 3, [1e-6; 2]).is_err());
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
-    pub fn from_map(heights: &[f64], columns: usize, spacing: [f64; 2]) -> Result<Self, SurfaceError> {
+    pub fn from_map(
+        heights: &[f64],
+        columns: usize,
+        spacing: [f64; 2],
+    ) -> Result<Self, SurfaceError> {
         check_rows(heights, columns)?;
         if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
             let fault = format!("a height of {} m", heights[index]);
@@ -323,24 +393,40 @@ fn check_rows(heights: &[f64], columns: usize) -> Result<(), SurfaceError> {
         return Ok(());
     }
     let fault = format!("{} heights in rows of {columns}", heights.len());
-    Err(refused(Place::File, fault, "whole rows of at least one height"))
+    Err(refused(
+        Place::File,
+        fault,
+        "whole rows of at least one height",
+    ))
 }
 
 /// Returns an error if a length (m) for which `counts` is true exceeds [`LARGEST`].
 fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), SurfaceError> {
     let is_beyond = |length: &f64| counts(*length) && (length.is_nan() || length.abs() > LARGEST);
-    let Some(index) = lengths.iter().position(is_beyond) else { return Ok(()) };
+    let Some(index) = lengths.iter().position(is_beyond) else {
+        return Ok(());
+    };
     let fault = format!("a {name} of {:e} m", lengths[index]);
-    Err(refused(Place::Point(index + 1), fault, format!("from -{LARGEST:e} to {LARGEST:e} m")))
+    Err(refused(
+        Place::Point(index + 1),
+        fault,
+        format!("from -{LARGEST:e} to {LARGEST:e} m"),
+    ))
 }
 
 fn check_positions(positions: &[f64]) -> Result<(), SurfaceError> {
     check_range("position", positions, |_| true)?;
     // Units divide, and neighbours closer than the last digit coincide.
     let mut pairs = positions.windows(2).enumerate();
-    let Some((index, pair)) = pairs.find(|(_, pair)| pair[0] >= pair[1]) else { return Ok(()) };
+    let Some((index, pair)) = pairs.find(|(_, pair)| pair[0] >= pair[1]) else {
+        return Ok(());
+    };
     let fault = format!("x = {:e} m after {:e} m", pair[1], pair[0]);
-    Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"))
+    Err(refused(
+        Place::Point(index + 2),
+        fault,
+        "positions that ascend, or descend",
+    ))
 }
 
 /// Returns the unit of a quantity: as the file states, else as the user states, else by convention. `beside` is a unit that the
@@ -361,13 +447,16 @@ fn unit(
             (Some(unit), _) => return Ok(unit),
             (None, beside) => {
                 let (unit, options, fields) = match beside {
-                    Some(unit) => {
-                        (unit.name(), " or --height-unit nm", "roughness.unit or roughness.height_unit")
-                    }
+                    Some(unit) => (
+                        unit.name(),
+                        " or --height-unit nm",
+                        "roughness.unit or roughness.height_unit",
+                    ),
                     None => ("um", "", "roughness.unit"),
                 };
-                let allowed =
-                    format!("a unit in the file or beside it: --unit {unit}{options}, in a scene {fields}");
+                let allowed = format!(
+                    "a unit in the file or beside it: --unit {unit}{options}, in a scene {fields}"
+                );
                 (format!("no unit of {name} is stated"), allowed)
             }
         },
@@ -380,5 +469,9 @@ fn check_spacing(spacing: f64) -> Result<f64, SurfaceError> {
         return Ok(spacing);
     }
     let fault = format!("a distance of {spacing:e} m between points");
-    Err(refused(Place::File, fault, format!("from 1e-18 to {LARGEST:e} m")))
+    Err(refused(
+        Place::File,
+        fault,
+        format!("from 1e-18 to {LARGEST:e} m"),
+    ))
 }

@@ -50,10 +50,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
         _ => {
             let found = String::from_utf8_lossy(&bytes[1..bytes.len().min(8)]);
             let fault = format!("version {:?} of SDF", shown(&found));
-            return Err(refused(Place::Byte(1), fault, "BCR-1.0, ISO-1.0 and ISO-2.0"));
+            return Err(refused(
+                Place::Byte(1),
+                fault,
+                "BCR-1.0, ISO-1.0 and ISO-2.0",
+            ));
         }
     };
-    if bytes[0].eq_ignore_ascii_case(&b'a') { read_text(bytes, version) } else { read_binary(bytes, version) }
+    if bytes[0].eq_ignore_ascii_case(&b'a') {
+        read_text(bytes, version)
+    } else {
+        read_binary(bytes, version)
+    }
 }
 
 /// Creates heights in rows of `columns` points, with the distances along and between rows and the unit of the heights in m.
@@ -77,14 +85,27 @@ fn data_type(
 ) -> Result<(Number, RangeInclusive<f64>), SurfaceError> {
     let mut types = TYPES.into_iter().enumerate();
     let is_it = |place: usize, of: &str| name == place.to_string() || name.eq_ignore_ascii_case(of);
-    let Some((_, (_, number, [smallest, largest]))) = types.find(|(place, (of, ..))| is_it(*place, of))
+    let Some((_, (_, number, [smallest, largest]))) =
+        types.find(|(place, (of, ..))| is_it(*place, of))
     else {
-        return Err(refused(place, format!("DataType = {}", shown(name)), "from 0 to 7"));
+        return Err(refused(
+            place,
+            format!("DataType = {}", shown(name)),
+            "from 0 to 7",
+        ));
     };
     // Texts round the largest and the smallest real number to few digits.
-    let reach = if matches!(number, Number::F32 | Number::F64) { f64::INFINITY } else { 0.0 };
+    let reach = if matches!(number, Number::F32 | Number::F64) {
+        f64::INFINITY
+    } else {
+        0.0
+    };
     let is_largest = version == Version::Bcr || smallest == 0.0;
-    let missing = if is_largest { largest..=largest + reach } else { smallest - reach..=smallest };
+    let missing = if is_largest {
+        largest..=largest + reach
+    } else {
+        smallest - reach..=smallest
+    };
     Ok((number, missing))
 }
 
@@ -101,7 +122,10 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     let entries = entries(&mut lines)?;
     let scale = |key: &str| entries.number(key)?.ok_or_else(|| missing(key, REQUIRED));
     let scales = [scale("Xscale")?, scale("Yscale")?, scale("Zscale")?];
-    let (columns, rows) = (entries.count("NumPoints", REQUIRED)?, entries.count("NumProfiles", REQUIRED)?);
+    let (columns, rows) = (
+        entries.count("NumPoints", REQUIRED)?,
+        entries.count("NumProfiles", REQUIRED)?,
+    );
     let missing = match entries.text("DataType") {
         Some((name, place)) => data_type(name, version, place)?.1,
         // Nothing but BAD, since no height is infinite.
@@ -118,7 +142,13 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
             let height = match word.parse::<f64>() {
                 Ok(height) => height,
                 Err(_) if word.eq_ignore_ascii_case("BAD") => f64::NAN,
-                Err(_) => return Err(refused(place, format!("{:?}", shown(word)), "a number or BAD")),
+                Err(_) => {
+                    return Err(refused(
+                        place,
+                        format!("{:?}", shown(word)),
+                        "a number or BAD",
+                    ));
+                }
             };
             if heights.len() == points {
                 let fault = format!("more than {points} heights");
@@ -132,12 +162,21 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     }
     if heights.len() < points {
         let fault = format!("{} of {points} heights up to the end", heights.len());
-        return Err(refused(Place::Line(last), fault, "NumPoints times NumProfiles"));
+        return Err(refused(
+            Place::Line(last),
+            fault,
+            "NumPoints times NumProfiles",
+        ));
     }
-    Ok(Reading { first_missing, ..reading(heights, columns, scales, &missing) })
+    Ok(Reading {
+        first_missing,
+        ..reading(heights, columns, scales, &missing)
+    })
 }
 
-fn entries<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Entries, SurfaceError> {
+fn entries<'a>(
+    lines: &mut impl Iterator<Item = (usize, &'a str)>,
+) -> Result<Entries, SurfaceError> {
     let mut entries = Entries::default();
     for (number, line) in lines.skip(1).filter(|(_, line)| !line.is_empty()) {
         if line == "*" {
@@ -145,7 +184,11 @@ fn entries<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Ent
         }
         entries.take(number, line, "key = value, or * before the heights")?;
     }
-    Err(refused(Place::File, "a header without an end", "a line with * before the heights"))
+    Err(refused(
+        Place::File,
+        "a header without an end",
+        "a line with * before the heights",
+    ))
 }
 
 /// Reads the binary form, little-endian.
@@ -153,7 +196,11 @@ fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> 
     let mut data = Bytes::new(bytes, Order::Little);
     // Version, manufacturer, dates.
     data.take(8 + 10 + 12 + 12)?;
-    let count = if version == Version::Iso2 { Number::U32 } else { Number::U16 };
+    let count = if version == Version::Iso2 {
+        Number::U32
+    } else {
+        Number::U16
+    };
     let (columns, rows) = (data.size(count)?, data.size(count)?);
     let [along, between, unit, _resolution] = data.array(Number::F64)?;
     let place = data.place();
@@ -162,7 +209,11 @@ fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> 
         return Err(refused(place, "compressed heights", "Compression = 0"));
     }
     if check != 0.0 {
-        return Err(refused(place, "a check sum behind each row", "CheckType = 0"));
+        return Err(refused(
+            place,
+            "a check sum behind each row",
+            "CheckType = 0",
+        ));
     }
     let (number, missing) = data_type(&kind.to_string(), version, place)?;
     let heights = data.numbers(columns.saturating_mul(rows), number)?;
@@ -179,33 +230,56 @@ impl Entries {
     /// Reads one line of the header; `allowed` is for the message of an error.
     pub fn take(&mut self, number: usize, line: &str, allowed: &str) -> Result<(), SurfaceError> {
         let Some((key, value)) = line.split_once('=') else {
-            return Err(refused(Place::Line(number), format!("{:?}", shown(line)), allowed));
+            return Err(refused(
+                Place::Line(number),
+                format!("{:?}", shown(line)),
+                allowed,
+            ));
         };
-        self.entries.push((key.trim().to_ascii_lowercase(), value.trim().to_owned(), number));
+        self.entries.push((
+            key.trim().to_ascii_lowercase(),
+            value.trim().to_owned(),
+            number,
+        ));
         Ok(())
     }
 
     pub fn text(&self, key: &str) -> Option<(&str, Place)> {
-        let found = self.entries.iter().find(|(name, ..)| name.eq_ignore_ascii_case(key));
+        let found = self
+            .entries
+            .iter()
+            .find(|(name, ..)| name.eq_ignore_ascii_case(key));
         found.map(|(_, value, line)| (value.as_str(), Place::Line(*line)))
     }
 
     pub fn number(&self, key: &str) -> Result<Option<f64>, SurfaceError> {
-        let Some((value, place)) = self.text(key) else { return Ok(None) };
+        let Some((value, place)) = self.text(key) else {
+            return Ok(None);
+        };
         match value.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(Some(number)),
-            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a number")),
+            _ => Err(refused(
+                place,
+                format!("{key} = {}", shown(value)),
+                "a number",
+            )),
         }
     }
 
     /// Returns the positive integer of a key. The error for a missing key lists all `required` keys.
     pub fn count(&self, key: &str, required: &str) -> Result<usize, SurfaceError> {
-        let Some((value, place)) = self.text(key) else { return Err(missing(key, required)) };
+        let Some((value, place)) = self.text(key) else {
+            return Err(missing(key, required));
+        };
         match value.parse::<f64>() {
             Ok(count) if count >= 1.0 && count < usize::MAX as f64 && count.fract() == 0.0 => {
                 Ok(count as usize)
             }
-            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a whole number above 0")),
+            _ => Err(refused(
+                place,
+                format!("{key} = {}", shown(value)),
+                "a whole number above 0",
+            )),
         }
     }
 }
@@ -219,10 +293,18 @@ pub(super) const GSF: &[u8] = b"Gwyddion Simple Field 1.0\n";
 /// Reads `key = value` lines up to a zero byte, then XRes × YRes numbers from the next multiple of four bytes.
 pub(super) fn read_gsf(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let end = bytes.iter().position(|byte| *byte == 0).ok_or_else(|| {
-        refused(Place::Byte(bytes.len()), "a header without an end", "a header that ends with a zero byte")
+        refused(
+            Place::Byte(bytes.len()),
+            "a header without an end",
+            "a header that ends with a zero byte",
+        )
     })?;
     let mut header = Entries::default();
-    for (index, line) in String::from_utf8_lossy(&bytes[..end]).lines().enumerate().skip(1) {
+    for (index, line) in String::from_utf8_lossy(&bytes[..end])
+        .lines()
+        .enumerate()
+        .skip(1)
+    {
         header.take(index + 1, line, "key = value")?;
     }
     let count = |key: &str| header.count(key, "XRes and YRes");
@@ -232,7 +314,11 @@ pub(super) fn read_gsf(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let heights = data.numbers(columns.saturating_mul(rows), Number::F32)?;
     let sizes = header.number("xreal")?.zip(header.number("yreal")?);
     let spacing = sizes.map(|(width, height)| [width / columns as f64, height / rows as f64]);
-    let unit = |key: &str| header.text(key).map_or(Ok(None), |(value, place)| Unit::stated(value, place));
+    let unit = |key: &str| {
+        header
+            .text(key)
+            .map_or(Ok(None), |(value, place)| Unit::stated(value, place))
+    };
     let units = [unit("xyunits")?, unit("xyunits")?, unit("zunits")?];
     Ok(Reading::even("GSF", heights, columns, spacing, units))
 }
@@ -255,10 +341,24 @@ mod tests {
     }
 
     fn binary(version: &str, kind: u8, heights: &[u8]) -> Vec<u8> {
-        let count = |count: u8| if version == "ISO-2.0" { vec![count, 0, 0, 0] } else { vec![count, 0] };
+        let count = |count: u8| {
+            if version == "ISO-2.0" {
+                vec![count, 0, 0, 0]
+            } else {
+                vec![count, 0]
+            }
+        };
         let scales = [1.0_f64, 2.0, 0.5, -1.0].map(f64::to_le_bytes).concat();
         let header = format!("b{version}{}", " ".repeat(34));
-        [header.as_bytes(), &count(3), &count(2), &scales, &[0, kind, 0], heights].concat()
+        [
+            header.as_bytes(),
+            &count(3),
+            &count(2),
+            &scales,
+            &[0, kind, 0],
+            heights,
+        ]
+        .concat()
     }
 
     #[test]
@@ -296,7 +396,9 @@ mod tests {
             plain.replace('\n', "\r"),
             plain.replace('\n', "\r\n"),
             plain.replace("= 5", "= Integer"),
-            plain.replace("2 3", "2 3 ; first row").replace("*\n1", "* ; heights\n1"),
+            plain
+                .replace("2 3", "2 3 ; first row")
+                .replace("*\n1", "* ; heights\n1"),
         ] {
             let same = found(other.as_bytes()).unwrap();
             assert!(same[5].is_nan() && same[..5] == expected[..5], "{other:?}");
@@ -311,15 +413,25 @@ mod tests {
                 text("ISO-3.0", "5", ""),
                 "byte 1: version \"ISO-3.0\" of SDF; allowed: BCR-1.0, ISO-1.0 and ISO-2.0",
             ),
-            (text("BCR-1.0", "FLOATING", ""), "line 9: DataType = FLOATING; allowed: from 0 to 7"),
+            (
+                text("BCR-1.0", "FLOATING", ""),
+                "line 9: DataType = FLOATING; allowed: from 0 to 7",
+            ),
         ] {
             assert_eq!(found(content.as_bytes()).unwrap_err(), expected);
         }
         let flags = checked.len() - 48 - 3;
         let with_check = [&checked[..flags + 2], &[1], &checked[flags + 3..]].concat();
         let error = found(&with_check).unwrap_err();
-        assert_eq!(error, format!("byte {flags}: a check sum behind each row; allowed: CheckType = 0"));
+        assert_eq!(
+            error,
+            format!("byte {flags}: a check sum behind each row; allowed: CheckType = 0")
+        );
         let huge = [&checked[..42], &[255; 4], &checked[46..]].concat();
-        assert!(found(&huge).unwrap_err().contains("at least"), "{:?}", found(&huge));
+        assert!(
+            found(&huge).unwrap_err().contains("at least"),
+            "{:?}",
+            found(&huge)
+        );
     }
 }

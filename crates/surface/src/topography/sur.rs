@@ -18,7 +18,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let is_compressed = data.take(12)? == b"DSCOMPRESSED";
     let [order, _objects, _version, study] = data.array(Number::U16)?;
     if order != 0.0 {
-        return Err(refused(Place::Byte(12), "numbers in the order of Motorola", "the order of a PC"));
+        return Err(refused(
+            Place::Byte(12),
+            "numbers in the order of Motorola",
+            "the order of a PC",
+        ));
     }
     if ![1.0, 2.0].contains(&study) {
         let fault = format!("a study of type {study}");
@@ -32,7 +36,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let number = match data.size(Number::U16)? {
         16 => Number::I16,
         32 => Number::I32,
-        bits => return Err(refused(Place::Byte(98), format!("heights of {bits} bits"), "16 or 32")),
+        bits => {
+            return Err(refused(
+                Place::Byte(98),
+                format!("heights of {bits} bits"),
+                "16 or 32",
+            ));
+        }
     };
     let [lowest, _highest] = data.array(Number::I32)?;
     let (columns, rows) = (count(&mut data)?, count(&mut data)?);
@@ -67,7 +77,11 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, SurfaceError> {
     let place = data.place();
     match data.number(Number::I32)? {
         count if count > 0.0 => Ok(count as usize),
-        count => Err(refused(place, format!("{count} points along an axis"), "above 0")),
+        count => Err(refused(
+            place,
+            format!("{count} points along an axis"),
+            "above 0",
+        )),
     }
 }
 
@@ -76,7 +90,14 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, SurfaceError> {
 fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, SurfaceError> {
     let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
     let text = decoded(field);
-    Unit::stated(if text.trim() == "æm" { "µm" } else { text.trim() }, place)
+    Unit::stated(
+        if text.trim() == "æm" {
+            "µm"
+        } else {
+            text.trim()
+        },
+        place,
+    )
 }
 
 /// Decompresses heights: a table with the size of each part before and after compression, then the parts.
@@ -85,7 +106,11 @@ fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>
     let expected = unpacked_size(points, number.size(), place.clone())?;
     let parts = data.size(Number::U32)?;
     if parts > MOST_PARTS {
-        return Err(refused(place, format!("{parts} compressed parts"), format!("at most {MOST_PARTS}")));
+        return Err(refused(
+            place,
+            format!("{parts} compressed parts"),
+            format!("at most {MOST_PARTS}"),
+        ));
     }
     let mut sizes = data.part(8 * parts)?;
     let mut content = Vec::new();
@@ -93,13 +118,25 @@ fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>
         let (plain, packed) = (sizes.size(Number::U32)?, sizes.size(Number::U32)?);
         let place = data.place();
         if content.len() + plain > expected {
-            return Err(refused(place, "more heights than points", format!("{expected} bytes in all")));
+            return Err(refused(
+                place,
+                "more heights than points",
+                format!("{expected} bytes in all"),
+            ));
         }
         let part = read_limited(ZlibDecoder::new(data.take(packed)?), plain).map_err(|error| {
-            refused(place.clone(), format!("a compressed part: {error}"), format!("{plain} bytes of zlib"))
+            refused(
+                place.clone(),
+                format!("a compressed part: {error}"),
+                format!("{plain} bytes of zlib"),
+            )
         })?;
         if part.len() != plain {
-            return Err(refused(place, format!("a part of {} bytes", part.len()), format!("{plain} bytes")));
+            return Err(refused(
+                place,
+                format!("a part of {} bytes", part.len()),
+                format!("{plain} bytes"),
+            ));
         }
         content.extend(part);
     }
@@ -136,7 +173,9 @@ mod tests {
         let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
         encoder.write_all(&heights).unwrap();
         let packed = encoder.finish().unwrap();
-        let table = [1, heights.len() as u32, packed.len() as u32].map(u32::to_le_bytes).concat();
+        let table = [1, heights.len() as u32, packed.len() as u32]
+            .map(u32::to_le_bytes)
+            .concat();
         [header, table, packed].concat()
     }
 
@@ -151,7 +190,10 @@ mod tests {
         let mut more = bytes;
         more[112..116].copy_from_slice(&601_u32.to_le_bytes());
         let error = read(&more).unwrap_err().to_string();
-        assert!(error.contains("2400000 bytes up to the end; allowed: at least 2404000 bytes"), "{error}");
+        assert!(
+            error.contains("2400000 bytes up to the end; allowed: at least 2404000 bytes"),
+            "{error}"
+        );
     }
 
     #[test]
@@ -161,7 +203,12 @@ mod tests {
         for (flag, is_missing) in [(0, false), (1, true)] {
             bytes[86] = flag;
             let heights = read(&bytes).unwrap().heights;
-            assert!(heights.iter().all(|height| height.is_finite() != is_missing), "{flag}: {heights:?}");
+            assert!(
+                heights
+                    .iter()
+                    .all(|height| height.is_finite() != is_missing),
+                "{flag}: {heights:?}"
+            );
         }
     }
 }

@@ -15,9 +15,13 @@ pub(crate) const UNEVEN: f64 = 1.0e-3;
 
 /// Returns the index of the first position that lies off the even grid with this first position (m) and distance (m).
 pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
-    let is_even =
-        |(index, x): (usize, &f64)| (x - first - index as f64 * distance).abs() <= UNEVEN * distance.abs();
-    positions.iter().enumerate().position(|point| !is_even(point))
+    let is_even = |(index, x): (usize, &f64)| {
+        (x - first - index as f64 * distance).abs() <= UNEVEN * distance.abs()
+    };
+    positions
+        .iter()
+        .enumerate()
+        .position(|point| !is_even(point))
 }
 
 /// A row or a column of a map that is read as a profile. Rows and columns count from 1.
@@ -54,7 +58,10 @@ impl Cropped {
 
     /// Returns the index in the file of a remaining point. `index` counts the remaining points in rows of `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
-        let (row, column) = (index / columns + self.before[1], index % columns + self.before[0]);
+        let (row, column) = (
+            index / columns + self.before[1],
+            index % columns + self.before[0],
+        );
         row * (columns + self.counts()[0]) + column
     }
 }
@@ -98,7 +105,9 @@ impl Topography {
         };
         let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
         let mut places = (1..self.heights.len()).filter(|index| index % self.columns > 0);
-        let Some(index) = places.find(is_steep) else { return Ok(self) };
+        let Some(index) = places.find(is_steep) else {
+            return Ok(self);
+        };
         let found = format!("a slope of {:e} from the point before", slope(index));
         let place = Place::Point(self.cropped.place_in_file(index, self.columns) + 1);
         Err(refused(place, found, format!("at most {LARGEST:e}")))
@@ -111,8 +120,15 @@ impl Topography {
 
     /// Returns the index in the file of the first missing point of a profile, from 0.
     pub(crate) fn first_missing(&self) -> Option<usize> {
-        let Cropped { before: [before, _], after: [after, _] } = self.cropped;
-        let inside = self.interpolated.first().copied().or((after > 0).then_some(self.columns));
+        let Cropped {
+            before: [before, _],
+            after: [after, _],
+        } = self.cropped;
+        let inside = self
+            .interpolated
+            .first()
+            .copied()
+            .or((after > 0).then_some(self.columns));
         if before > 0 { Some(0) } else { inside }
     }
 
@@ -126,13 +142,24 @@ impl Topography {
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
-        if let (Layout::Even([spacing, _]), 1.., true) = (&self.layout, quarters, self.is_resampled()) {
+        if let (Layout::Even([spacing, _]), 1.., true) =
+            (&self.layout, quarters, self.is_resampled())
+        {
             let (former, first) = (&self.resampled, self.resampled[0]);
-            let places = gathered(columns, (0..columns).map(|index| first + index as f64 * spacing))?;
-            let there = gathered(columns, interpolated(&places, &heights, 0.0, former.iter().copied()))?;
+            let places = gathered(
+                columns,
+                (0..columns).map(|index| first + index as f64 * spacing),
+            )?;
+            let there = gathered(
+                columns,
+                interpolated(&places, &heights, 0.0, former.iter().copied()),
+            )?;
             let smoother = interpolated(former, &there, 0.0, places.iter().copied());
             // What was lost before is not lost again: the more, the more the distances between points vary.
-            let squares = former.windows(2).map(|x| ((x[1] - x[0]) / spacing - 1.0).powi(2)).sum::<f64>();
+            let squares = former
+                .windows(2)
+                .map(|x| ((x[1] - x[0]) / spacing - 1.0).powi(2))
+                .sum::<f64>();
             let lost = 1.0 + (squares / (columns - 1) as f64).sqrt();
             heights
                 .iter_mut()
@@ -144,7 +171,10 @@ impl Topography {
         }
         for index in &self.interpolated {
             let moved = |place: usize, count: usize| (place + quarters * count / 4) % count;
-            let (row, column) = (moved(index / columns, rows), moved(index % columns, columns));
+            let (row, column) = (
+                moved(index / columns, rows),
+                moved(index % columns, columns),
+            );
             heights[row * columns + column] = f64::NAN;
         }
         missing::interpolate(&mut heights, columns)?;
@@ -189,7 +219,11 @@ impl Topography {
     pub(super) fn cut(self, cut: Cut) -> Result<Self, SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         let (Layout::Even([along, between]), 2..) = (&self.layout, rows) else {
-            return Err(refused(Place::File, "a profile, which has no rows and columns", "a map"));
+            return Err(refused(
+                Place::File,
+                "a profile, which has no rows and columns",
+                "a map",
+            ));
         };
         // Rows and columns are those of the file.
         let [first_column, first_row] = self.cropped.before;
@@ -197,7 +231,9 @@ impl Topography {
             Cut::Row(number) => ("row", number, first_row, rows),
             Cut::Column(number) => ("column", number, first_column, columns),
         };
-        let index = usize::try_from(number).ok().and_then(|number| number.checked_sub(1 + first));
+        let index = usize::try_from(number)
+            .ok()
+            .and_then(|number| number.checked_sub(1 + first));
         let Some(index) = index.filter(|index| *index < count) else {
             let allowed = format!("{name}s {} to {}", first + 1, first + count);
             return Err(refused(Place::File, format!("{name} {number}"), allowed));
@@ -207,14 +243,27 @@ impl Topography {
             Cut::Column(_) => (index, columns, rows, *between),
         };
         let place = |index: &usize| {
-            let offset = index.checked_sub(first).filter(|offset| offset % step == 0)?;
+            let offset = index
+                .checked_sub(first)
+                .filter(|offset| offset % step == 0)?;
             Some(offset / step).filter(|place| *place < points)
         };
         let axis = usize::from(matches!(cut, Cut::Column(_)));
         let ends = |of: [usize; 2]| [of[axis], 0];
         Ok(Topography {
-            cropped: Cropped { before: ends(self.cropped.before), after: ends(self.cropped.after) },
-            heights: gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?,
+            cropped: Cropped {
+                before: ends(self.cropped.before),
+                after: ends(self.cropped.after),
+            },
+            heights: gathered(
+                points,
+                self.heights
+                    .iter()
+                    .skip(first)
+                    .step_by(step)
+                    .take(points)
+                    .copied(),
+            )?,
             columns: points,
             layout: Layout::Even([spacing; 2]),
             aligned: false,
@@ -243,10 +292,16 @@ impl Topography {
             Layout::Even(spacing) => Ok(*spacing),
             Layout::Positions(positions) => {
                 let (first, mean) = (positions[0], mean_distance(positions));
-                let Some(index) = first_uneven(positions, first, mean) else { return Ok([mean; 2]) };
-                let (x, off) = (positions[index], (positions[index] - first) / mean - index as f64);
-                let fault =
-                    format!("x = {x:e} m is off the even grid by {off:.1e} of the mean distance {mean:e} m");
+                let Some(index) = first_uneven(positions, first, mean) else {
+                    return Ok([mean; 2]);
+                };
+                let (x, off) = (
+                    positions[index],
+                    (positions[index] - first) / mean - index as f64,
+                );
+                let fault = format!(
+                    "x = {x:e} m is off the even grid by {off:.1e} of the mean distance {mean:e} m"
+                );
                 let allowed = format!(
                     "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
                 );
@@ -260,7 +315,9 @@ impl Topography {
         if self.spacing().is_ok() {
             return Ok(self);
         }
-        let Layout::Positions(positions) = self.layout else { return Ok(self) };
+        let Layout::Positions(positions) = self.layout else {
+            return Ok(self);
+        };
         let (first, spacing, points) = (positions[0], mean_distance(&positions), positions.len());
         let places = (0..points).map(|index| first + index as f64 * spacing);
         self.heights = gathered(points, interpolated(&positions, &self.heights, 0.0, places))?;
@@ -324,26 +381,44 @@ mod tests {
     const METRES: [Option<Unit>; 3] = [Some(Unit::METRE); 3];
 
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {
-        let reading = Reading::profile("", positions.to_vec(), heights.to_vec(), [Some(Unit::METRE); 2]);
+        let reading = Reading::profile(
+            "",
+            positions.to_vec(),
+            heights.to_vec(),
+            [Some(Unit::METRE); 2],
+        );
         reading.resolve(&ReadOptions::default()).unwrap()
     }
 
     fn map() -> Topography {
         let heights = vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
-        Reading::even("", heights, 3, Some([1.0, 2.0]), METRES).resolve(&ReadOptions::default()).unwrap()
+        Reading::even("", heights, 3, Some([1.0, 2.0]), METRES)
+            .resolve(&ReadOptions::default())
+            .unwrap()
     }
 
     #[test]
     fn uneven_points_are_named_and_resampled() {
         let uneven = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 2.0, 5.0, 6.0]);
         let error = uneven.spacing().unwrap_err().to_string();
-        assert!(error.starts_with("point 3: x = 2.5e0 m is off") && error.contains("--resample"), "{error}");
+        assert!(
+            error.starts_with("point 3: x = 2.5e0 m is off") && error.contains("--resample"),
+            "{error}"
+        );
         let even = uneven.resampled().unwrap();
-        assert_eq!((even.spacing(), &even.heights[..]), (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..]));
+        assert_eq!(
+            (even.spacing(), &even.heights[..]),
+            (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..])
+        );
         // A straight line stays, a corner is sharper.
         assert_eq!(even.copied_heights(1), Ok(vec![0.0, 2.0, 4.0, 6.0]));
-        let corner = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 0.0, 6.0, 6.0]).resampled().unwrap();
-        assert_eq!((corner.copied_heights(0), corner.heights[2]), (Ok(corner.heights.clone()), 4.0));
+        let corner = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 0.0, 6.0, 6.0])
+            .resampled()
+            .unwrap();
+        assert_eq!(
+            (corner.copied_heights(0), corner.heights[2]),
+            (Ok(corner.heights.clone()), 4.0)
+        );
         assert!(corner.copied_heights(1).unwrap()[2] > 4.0);
         let digits = profile(&[0.0, 0.3333, 0.6667, 1.0], &[0.0; 4]);
         assert!((digits.spacing().unwrap()[0] - 1.0 / 3.0).abs() < 1e-15);
@@ -352,18 +427,33 @@ mod tests {
     #[test]
     fn rows_and_columns_of_a_map_are_profiles() {
         let row = map().cut(Cut::Row(2)).unwrap();
-        assert_eq!((&row.heights[..], row.spacing()), (&[3.0, 4.0, 5.0][..], Ok([1.0; 2])));
+        assert_eq!(
+            (&row.heights[..], row.spacing()),
+            (&[3.0, 4.0, 5.0][..], Ok([1.0; 2]))
+        );
         let column = map().cut(Cut::Column(3)).unwrap();
-        assert_eq!((&column.heights[..], column.spacing()), (&[2.0, 5.0][..], Ok([2.0; 2])));
+        assert_eq!(
+            (&column.heights[..], column.spacing()),
+            (&[2.0, 5.0][..], Ok([2.0; 2]))
+        );
         for (cut, expected) in [
             (Cut::Row(0), "row 0; allowed: rows 1 to 2"),
             (Cut::Row(3), "row 3; allowed: rows 1 to 2"),
-            (Cut::Column(u64::MAX), "column 18446744073709551615; allowed: columns 1 to 3"),
+            (
+                Cut::Column(u64::MAX),
+                "column 18446744073709551615; allowed: columns 1 to 3",
+            ),
         ] {
             assert_eq!(map().cut(cut).unwrap_err().to_string(), expected);
         }
-        let profile = profile(&[0.0, 1.0], &[0.0, 1.0]).cut(Cut::Row(1)).unwrap_err().to_string();
-        assert_eq!(profile, "a profile, which has no rows and columns; allowed: a map");
+        let profile = profile(&[0.0, 1.0], &[0.0, 1.0])
+            .cut(Cut::Row(1))
+            .unwrap_err()
+            .to_string();
+        assert_eq!(
+            profile,
+            "a profile, which has no rows and columns; allowed: a map"
+        );
     }
 
     #[test]

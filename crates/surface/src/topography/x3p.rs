@@ -17,28 +17,45 @@ const MOST_ATTRIBUTES: usize = 256;
 
 pub(super) const INDEX: &str = "main.xml";
 
-const TYPES: [(&str, Number); 4] =
-    [("I", Number::I16), ("L", Number::I32), ("F", Number::F32), ("D", Number::F64)];
+const TYPES: [(&str, Number); 4] = [
+    ("I", Number::I16),
+    ("L", Number::I32),
+    ("F", Number::F32),
+    ("D", Number::F64),
+];
 
 pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     let content = archive.unpacked(INDEX, LONGEST_INDEX)?;
     // A byte order mark overrules the declaration.
-    let (index, ..) = declared_encoding(&content).unwrap_or(UTF_8).decode(&content);
+    let (index, ..) = declared_encoding(&content)
+        .unwrap_or(UTF_8)
+        .decode(&content);
     check_index(&index)?;
-    let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
+    let options = ParsingOptions {
+        allow_dtd: false,
+        ..ParsingOptions::default()
+    };
     let document = Document::parse_with_options(&index, options)
         .map_err(|error| wrong(shown(&error.to_string()), "XML without a document type"))?;
     let root = document.root_element();
-    let axis = |name: &str| find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"));
+    let axis = |name: &str| {
+        find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"))
+    };
     let [x, y, z] = [axis("CX")?, axis("CY")?, axis("CZ")?];
     let axes = [Axis::of(x)?, Axis::of(y)?, Axis::of(z)?];
     let link = find(root, "PointDataLink");
     if !text(root, "ListDimension").is_empty() {
         let points = count(root, "ListDimension")?;
         if axes.iter().any(|axis| !axis.is_absolute) {
-            return Err(wrong("a list of points with an incremental axis", "absolute axes"));
+            return Err(wrong(
+                "a list of points with an incremental axis",
+                "absolute axes",
+            ));
         }
-        return scattered(sorted(coordinates(&mut archive, root, link, points, &axes)?)?, points);
+        return scattered(
+            sorted(coordinates(&mut archive, root, link, points, &axes)?)?,
+            points,
+        );
     }
     let (columns, rows) = (count(root, "SizeX")?, count(root, "SizeY")?);
     if count(root, "SizeZ")? != 1 {
@@ -49,14 +66,32 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     if axes[0].is_absolute || axes[1].is_absolute {
         for (axis, of) in axes.iter().enumerate().filter(|(_, of)| !of.is_absolute) {
             let distance = of.increment.unwrap_or(1.0);
-            let place = |index: usize| if axis == 0 { index % columns } else { index / columns };
-            found[axis] = gathered(points, (0..points).map(|index| place(index) as f64 * distance))?;
+            let place = |index: usize| {
+                if axis == 0 {
+                    index % columns
+                } else {
+                    index / columns
+                }
+            };
+            found[axis] = gathered(
+                points,
+                (0..points).map(|index| place(index) as f64 * distance),
+            )?;
         }
         return scattered(found, columns);
     }
-    let spacing = axes[0].increment.zip(axes[1].increment).map(|(along, between)| [along, between]);
+    let spacing = axes[0]
+        .increment
+        .zip(axes[1].increment)
+        .map(|(along, between)| [along, between]);
     let [.., heights] = found;
-    Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 3]))
+    Ok(Reading::even(
+        "X3P",
+        heights,
+        columns,
+        spacing,
+        [Some(Unit::METRE); 3],
+    ))
 }
 
 struct Axis<'a> {
@@ -78,7 +113,10 @@ impl<'a> Axis<'a> {
             "I" => false,
             _ => {
                 let fault = format!("the axis {name} is of type {:?}", shown(kind));
-                return Err(wrong(fault, "\"I\", even distances, or \"A\", a position of each point"));
+                return Err(wrong(
+                    fault,
+                    "\"I\", even distances, or \"A\", a position of each point",
+                ));
             }
         };
         let offset = number(axis, "Offset")?.unwrap_or(0.0);
@@ -105,7 +143,9 @@ fn coordinates(
     };
     for (values, axis) in found.iter_mut().zip(axes) {
         let (scale, offset) = (axis.increment.unwrap_or(1.0), axis.offset);
-        values.iter_mut().for_each(|value| *value = *value * scale + offset);
+        values
+            .iter_mut()
+            .for_each(|value| *value = *value * scale + offset);
     }
     Ok(found)
 }
@@ -114,8 +154,13 @@ fn coordinates(
 fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
     let [x, y, _] = &found;
     let mut order = gathered(x.len(), 0..x.len())?;
-    order.sort_unstable_by(|one, other| y[*one].total_cmp(&y[*other]).then(x[*one].total_cmp(&x[*other])));
-    let [x, y, heights] = found.map(|values| gathered(order.len(), order.iter().map(|index| values[*index])));
+    order.sort_unstable_by(|one, other| {
+        y[*one]
+            .total_cmp(&y[*other])
+            .then(x[*one].total_cmp(&x[*other]))
+    });
+    let [x, y, heights] =
+        found.map(|values| gathered(order.len(), order.iter().map(|index| values[*index])));
     Ok([x?, y?, heights?])
 }
 
@@ -135,22 +180,42 @@ fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, Surfac
     if is_one_row && y.iter().all(|position| *position == y[0]) {
         return Ok(Reading::profile("X3P", x, heights, [units[0], units[2]]));
     }
-    let map = map_of([&x, &y], &heights, [Digits::EXACT; 2], |index| Place::Point(index + 1))?;
-    Ok(Reading::even("X3P", map.heights, map.columns, map.distances, units))
+    let map = map_of([&x, &y], &heights, [Digits::EXACT; 2], |index| {
+        Place::Point(index + 1)
+    })?;
+    Ok(Reading::even(
+        "X3P",
+        map.heights,
+        map.columns,
+        map.distances,
+        units,
+    ))
 }
 
 /// Returns the encoding that the XML declaration states, if it is one that contains ASCII.
 fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
-    let declaration = content.strip_prefix(b"<?xml")?.split(|byte| *byte == b'>').next()?;
+    let declaration = content
+        .strip_prefix(b"<?xml")?
+        .split(|byte| *byte == b'>')
+        .next()?;
     let (_, rest) = str::from_utf8(declaration).ok()?.split_once("encoding")?;
-    Encoding::for_label(rest.trim_start().strip_prefix('=')?.split(['"', '\'']).nth(1)?.as_bytes())
+    Encoding::for_label(
+        rest.trim_start()
+            .strip_prefix('=')?
+            .split(['"', '\''])
+            .nth(1)?
+            .as_bytes(),
+    )
 }
 
 /// Returns an error for an index whose parsing would take far more time or memory than its length suggests.
 fn check_index(index: &str) -> Result<(), SurfaceError> {
     // The parser reserves memory for each of these signs; an element has four characters.
     if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
-        return Err(wrong("more than a quarter of the characters are < or =", "XML"));
+        return Err(wrong(
+            "more than a quarter of the characters are < or =",
+            "XML",
+        ));
     }
     let is_quoted = |value: &&str| value.trim_start().starts_with(['"', '\'']);
     let attributes = index.split('=').skip(1).filter(is_quoted).count();
@@ -174,20 +239,36 @@ fn linked(
     axes: &[Axis<'_>; 3],
 ) -> Result<[Vec<f64>; 3], SurfaceError> {
     let of_axis = |axis: &Axis<'_>| {
-        let found = TYPES.into_iter().find(|(letter, _)| *letter == axis.data_type);
-        let fault = || wrong(format!("coordinates of type {:?}", shown(axis.data_type)), "I, L, F or D");
+        let found = TYPES
+            .into_iter()
+            .find(|(letter, _)| *letter == axis.data_type);
+        let fault = || {
+            wrong(
+                format!("coordinates of type {:?}", shown(axis.data_type)),
+                "I, L, F or D",
+            )
+        };
         found.map(|(_, number)| number).ok_or_else(fault)
     };
     let absolute = axes.iter().enumerate().filter(|(_, axis)| axis.is_absolute);
     let types = absolute.map(|(place, axis)| Ok((place, of_axis(axis)?)));
     let types = types.collect::<Result<Vec<_>, SurfaceError>>()?;
-    let mut read = |name: &str, bytes: usize, allowed: String| match archive.unpacked_up_to(name, bytes)? {
-        content if content.len() == bytes => Ok(content),
-        content => Err(refused(Place::Part(name.to_owned()), format!("{} bytes", content.len()), allowed)),
-    };
+    let mut read =
+        |name: &str, bytes: usize, allowed: String| match archive.unpacked_up_to(name, bytes)? {
+            content if content.len() == bytes => Ok(content),
+            content => Err(refused(
+                Place::Part(name.to_owned()),
+                format!("{} bytes", content.len()),
+                allowed,
+            )),
+        };
     let size = types.iter().map(|(_, number)| number.size()).sum();
     let expected = unpacked_size(points, size, Place::Part(INDEX.to_owned()))?;
-    let content = read(link, expected, format!("{expected} bytes for {points} points"))?;
+    let content = read(
+        link,
+        expected,
+        format!("{expected} bytes for {points} points"),
+    )?;
     let mut data = Bytes::new(&content, Order::Little);
     let mut found = [const { Vec::new() }; 3];
     if let [(place, number)] = types[..] {
@@ -203,11 +284,18 @@ fn linked(
         }
     }
     if let Some(link) = find(root, "ValidPointsLink") {
-        let valid = read(trimmed(link), points.div_ceil(8), format!("a bit for each of {points} points"))?;
+        let valid = read(
+            trimmed(link),
+            points.div_ceil(8),
+            format!("a bit for each of {points} points"),
+        )?;
         let is_missing = |index: usize| valid[index / 8] >> (index % 8) & 1 == 0;
         // What is stored for such a point, its position included, means nothing.
         for values in &mut found {
-            let missing = values.iter_mut().enumerate().filter(|(index, _)| is_missing(*index));
+            let missing = values
+                .iter_mut()
+                .enumerate()
+                .filter(|(index, _)| is_missing(*index));
             missing.for_each(|(_, value)| *value = f64::NAN);
         }
     }
@@ -216,18 +304,31 @@ fn linked(
 
 /// Reads the coordinates of a list in the index. The last number of each entry is a height, and an empty entry is a missing
 /// point.
-fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
-    let list =
-        find(root, "DataList").ok_or_else(|| wrong("neither PointDataLink nor DataList", "one of them"))?;
+fn listed(
+    root: Node<'_, '_>,
+    points: usize,
+    axes: &[Axis<'_>; 3],
+) -> Result<[Vec<f64>; 3], SurfaceError> {
+    let list = find(root, "DataList")
+        .ok_or_else(|| wrong("neither PointDataLink nor DataList", "one of them"))?;
     let mut found = [const { Vec::new() }; 3];
-    for datum in list.children().filter(|node| node.tag_name().name() == "Datum") {
+    for datum in list
+        .children()
+        .filter(|node| node.tag_name().name() == "Datum")
+    {
         let text = trimmed(datum);
         let mut cells = text.rsplit(';').map(str::trim);
-        let places = [2, 1, 0].into_iter().filter(|place| axes[*place].is_absolute);
+        let places = [2, 1, 0]
+            .into_iter()
+            .filter(|place| axes[*place].is_absolute);
         for place in places {
             let cell = cells.next().unwrap_or_default();
             let is_missing = cell.is_empty() && (place == 2 || text.is_empty());
-            let value = if is_missing { Ok(f64::NAN) } else { cell.parse::<f64>() };
+            let value = if is_missing {
+                Ok(f64::NAN)
+            } else {
+                cell.parse::<f64>()
+            };
             let number = found[place].len() + 1;
             let fault = |_| wrong(format!("Datum {number} = {:?}", shown(text)), "numbers");
             push(&mut found[place], value.map_err(fault)?)?;
@@ -242,7 +343,8 @@ fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Ve
 
 /// Returns the first element of this name below a node, in any namespace.
 fn find<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
-    node.descendants().find(|node| node.is_element() && node.tag_name().name() == name)
+    node.descendants()
+        .find(|node| node.is_element() && node.tag_name().name() == name)
 }
 
 fn trimmed<'a>(node: Node<'a, '_>) -> &'a str {
@@ -256,7 +358,12 @@ fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
 
 /// Returns the number in the first element of this name; `None` if the element is missing or empty.
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, SurfaceError> {
-    let Some(text) = find(axis, name).map(trimmed).filter(|text| !text.is_empty()) else { return Ok(None) };
+    let Some(text) = find(axis, name)
+        .map(trimmed)
+        .filter(|text| !text.is_empty())
+    else {
+        return Ok(None);
+    };
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shown(text));
     number.map(Some).ok_or_else(|| wrong(fault(), "a number"))
@@ -265,7 +372,12 @@ fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, SurfaceError> {
 fn count(root: Node<'_, '_>, name: &str) -> Result<usize, SurfaceError> {
     let text = text(root, name);
     let count = text.parse().ok().filter(|count| *count > 0);
-    count.ok_or_else(|| wrong(format!("{name} = {:?}", shown(text)), "a whole number above 0"))
+    count.ok_or_else(|| {
+        wrong(
+            format!("{name} = {:?}", shown(text)),
+            "a whole number above 0",
+        )
+    })
 }
 
 #[cfg(test)]
@@ -291,9 +403,16 @@ mod tests {
     fn in_folders(main: &[u8], [folder, bindata]: [&str; 2]) -> Result<Reading, String> {
         let heights = [1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0];
         let name = |folder: &str, name: &str| format!("{folder}{name}");
-        let names =
-            [name(folder, INDEX), name(bindata, "bindata/data.bin"), name(bindata, "bindata/valid.bin")];
-        let files = [(&*names[0], main), (&names[1], &heights[..]), (&names[2], &[0b10_1111])];
+        let names = [
+            name(folder, INDEX),
+            name(bindata, "bindata/data.bin"),
+            name(bindata, "bindata/valid.bin"),
+        ];
+        let files = [
+            (&*names[0], main),
+            (&names[1], &heights[..]),
+            (&names[2], &[0b10_1111]),
+        ];
         let bytes = archive(&files);
         let mut archive = Archive::new(&bytes).unwrap();
         archive.index(&[INDEX]).map_err(|error| error.to_string())?;
@@ -301,7 +420,13 @@ mod tests {
     }
 
     fn same(one: &Reading, other: &Reading) -> bool {
-        let bits = |reading: &Reading| reading.heights.iter().map(|z| z.to_bits()).collect::<Vec<_>>();
+        let bits = |reading: &Reading| {
+            reading
+                .heights
+                .iter()
+                .map(|z| z.to_bits())
+                .collect::<Vec<_>>()
+        };
         bits(one) == bits(other) && (one.columns, one.spacing) == (other.columns, other.spacing)
     }
 
@@ -317,33 +442,56 @@ mod tests {
             (&*backslashes, ["", ""]),
             (&*empty, ["", ""]),
         ] {
-            assert!(same(&in_folders(main.as_bytes(), folders).unwrap(), &plain), "{folders:?}");
+            assert!(
+                same(&in_folders(main.as_bytes(), folders).unwrap(), &plain),
+                "{folders:?}"
+            );
         }
         let (head, rest) = MAIN.split_once("<Record1>").unwrap();
         let head = head.replacen("UTF-8", "ISO-8859-1", 1);
-        let in_latin = [head.as_bytes(), b"<!-- 5 \xb5m --><Record1>", rest.as_bytes()].concat();
+        let in_latin = [
+            head.as_bytes(),
+            b"<!-- 5 \xb5m --><Record1>",
+            rest.as_bytes(),
+        ]
+        .concat();
         assert!(same(&in_folders(&in_latin, ["", ""]).unwrap(), &plain));
-        let in_utf_16: Vec<u8> =
-            format!("\u{feff}{MAIN}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let in_utf_16: Vec<u8> = format!("\u{feff}{MAIN}")
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect();
         assert!(same(&in_folders(&in_utf_16, ["", ""]).unwrap(), &plain));
         // The scale of heights that is not stated is 1, the distance between points is asked for.
-        let no_scale = with(&MAIN.replacen("<Increment>1e-9</Increment>", "<Increment/>", 1)).unwrap();
+        let no_scale =
+            with(&MAIN.replacen("<Increment>1e-9</Increment>", "<Increment/>", 1)).unwrap();
         assert_eq!(no_scale.heights[0], 1.0 + 5e-9);
-        assert_eq!(with(&MAIN.replacen("<Increment>1e-6", "<Increment>", 1)).unwrap().spacing, None);
+        assert_eq!(
+            with(&MAIN.replacen("<Increment>1e-6", "<Increment>", 1))
+                .unwrap()
+                .spacing,
+            None
+        );
     }
 
     #[test]
     fn heights_may_be_compressed_to_any_size() {
         let (columns, rows) = (2000, 500);
         let main = MAIN.replacen("<SizeX>3", &format!("<SizeX>{columns}"), 1);
-        let main =
-            main.replacen("<SizeY>2", &format!("<SizeY>{rows}"), 1).replacen("<DataType>I", "<DataType>D", 1);
+        let main = main
+            .replacen("<SizeY>2", &format!("<SizeY>{rows}"), 1)
+            .replacen("<DataType>I", "<DataType>D", 1);
         let (before, rest) = main.split_once("<ValidPointsLink>").unwrap();
-        let main = format!("{before}{}", rest.split_once("</ValidPointsLink>").unwrap().1);
+        let main = format!(
+            "{before}{}",
+            rest.split_once("</ValidPointsLink>").unwrap().1
+        );
         let heights = vec![0; 8 * columns * rows];
         let bytes = archive(&[(INDEX, main.as_bytes()), ("bindata/data.bin", &heights)]);
         assert!(heights.len() > 500 * bytes.len(), "{}", bytes.len());
-        assert_eq!(read(Archive::new(&bytes).unwrap()).unwrap().heights.len(), columns * rows);
+        assert_eq!(
+            read(Archive::new(&bytes).unwrap()).unwrap().heights.len(),
+            columns * rows
+        );
         let longer = [&heights[..], &[0]].concat();
         let bytes = archive(&[(INDEX, main.as_bytes()), ("bindata/data.bin", &longer)]);
         let error = read(Archive::new(&bytes).unwrap()).unwrap_err().to_string();
@@ -366,7 +514,10 @@ mod tests {
         assert!((reading.heights[0] - 6e-9).abs() < 1e-20 && reading.heights[2].is_nan());
         let short = list.replace("<Datum>2</Datum>", "");
         let error = with(&format!("{before}{short}{after}")).unwrap_err();
-        assert_eq!(error, "main.xml: 5 heights in the list; allowed: 6, the number of points");
+        assert_eq!(
+            error,
+            "main.xml: 5 heights in the list; allowed: 6, the number of points"
+        );
     }
 
     #[test]
@@ -381,7 +532,10 @@ mod tests {
             )
         };
         let list = |datums: &str| {
-            let cells: String = datums.split(' ').map(|datum| format!("<Datum>{datum}</Datum>")).collect();
+            let cells: String = datums
+                .split(' ')
+                .map(|datum| format!("<Datum>{datum}</Datum>"))
+                .collect();
             format!("<DataList>{cells}</DataList>")
         };
         let read = |head: &str, dimension: &str, datums: &str| {
@@ -393,44 +547,91 @@ mod tests {
         let points = "<ListDimension>7</ListDimension>";
         let found = read(&both, points, "1;0;1 0;0;0 0;1;3 1;1;4 2;1;5  2;0;2").unwrap();
         assert_eq!((found.columns, found.spacing.unwrap()[0] * 1e6), (3, 1.0));
-        let steps =
-            |heights: &[f64]| heights.iter().map(|height| (height * 1e9).round() - 5.0).collect::<Vec<_>>();
+        let steps = |heights: &[f64]| {
+            heights
+                .iter()
+                .map(|height| (height * 1e9).round() - 5.0)
+                .collect::<Vec<_>>()
+        };
         assert_eq!(steps(&found.heights), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
         // With rows that are even: positions along them.
         let found = read(&absolute, &matrix(2, 2), "0;1 3;2 0;3 3;4").unwrap();
-        assert_eq!((found.columns, found.spacing.map(|[x, y]| (x * 1e6, y * 1e6))), (2, Some((3.0, 2.0))));
-        let numbers: Vec<u8> =
-            [0, 0, 10, 1, 0, 11].iter().flat_map(|number: &i16| number.to_le_bytes()).collect();
+        assert_eq!(
+            (
+                found.columns,
+                found.spacing.map(|[x, y]| (x * 1e6, y * 1e6))
+            ),
+            (2, Some((3.0, 2.0)))
+        );
+        let numbers: Vec<u8> = [0, 0, 10, 1, 0, 11]
+            .iter()
+            .flat_map(|number: &i16| number.to_le_bytes())
+            .collect();
         let linked = both.replace("<DataType>D", "<DataType>I")
             + "<ListDimension>2</ListDimension><DataLink><PointDataLink>a</PointDataLink></DataLink>"
             + after;
         let bytes = archive(&[(INDEX, linked.as_bytes()), ("a", &numbers)]);
         let found = super::read(Archive::new(&bytes).unwrap()).unwrap();
-        assert_eq!((steps(&found.heights), found.positions.unwrap()[1]), (vec![10.0, 11.0], 1e-6));
-        let uneven = read(&both, "<ListDimension>4</ListDimension>", "0;0;1 1;0;1 0;1;1 7;3;1").unwrap_err();
-        assert!(uneven.contains("is off the even grid") || uneven.contains("positions x"), "{uneven}");
-        assert!(read(&absolute, points, "1;1").unwrap_err().contains("incremental axis"));
+        assert_eq!(
+            (steps(&found.heights), found.positions.unwrap()[1]),
+            (vec![10.0, 11.0], 1e-6)
+        );
+        let uneven = read(
+            &both,
+            "<ListDimension>4</ListDimension>",
+            "0;0;1 1;0;1 0;1;1 7;3;1",
+        )
+        .unwrap_err();
+        assert!(
+            uneven.contains("is off the even grid") || uneven.contains("positions x"),
+            "{uneven}"
+        );
+        assert!(
+            read(&absolute, points, "1;1")
+                .unwrap_err()
+                .contains("incremental axis")
+        );
     }
 
     #[test]
     fn faults_have_a_place() {
         for (from, to, expected) in [
-            ("<SizeX>3", "<SizeX>0", "main.xml: SizeX = \"0\"; allowed: a whole number above 0"),
-            ("<SizeX>3", "<SizeX>4", "bindata/data.bin: 12 bytes; allowed: 16 bytes for 8 points"),
+            (
+                "<SizeX>3",
+                "<SizeX>0",
+                "main.xml: SizeX = \"0\"; allowed: a whole number above 0",
+            ),
+            (
+                "<SizeX>3",
+                "<SizeX>4",
+                "bindata/data.bin: 12 bytes; allowed: 16 bytes for 8 points",
+            ),
             (
                 "<SizeX>3",
                 "<SizeX>99999999999",
                 "main.xml: 199999999998 compressed heights of 2 bytes; allowed: ",
             ),
-            ("<CX><AxisType>I", "<CX><AxisType>Z", "main.xml: the axis CX is of type \"Z\""),
+            (
+                "<CX><AxisType>I",
+                "<CX><AxisType>Z",
+                "main.xml: the axis CX is of type \"Z\"",
+            ),
             (
                 "<CX><AxisType>I",
                 "<CX><AxisType>A",
                 "bindata/data.bin: 12 bytes; allowed: 60 bytes for 6 points",
             ),
-            ("<DataType>I", "<DataType>X", "main.xml: coordinates of type \"X\"; allowed: I, L, F or D"),
+            (
+                "<DataType>I",
+                "<DataType>X",
+                "main.xml: coordinates of type \"X\"; allowed: I, L, F or D",
+            ),
             ("bindata/data.bin", "data", "no file data in the archive"),
-            ("<Increment>1e-6", "<Increment>wide", "main.xml: Increment of CX = \"wide\"; allowed: a number"),
+            (
+                "<Increment>1e-6",
+                "<Increment>wide",
+                "main.xml: Increment of CX = \"wide\"; allowed: a number",
+            ),
             ("</Axes>", "", "main.xml: "),
             ("<SizeZ>1", "<SizeZ>2", "main.xml: several layers"),
         ] {
@@ -438,26 +639,41 @@ mod tests {
             assert!(error.starts_with(expected), "{to}: {error}");
         }
         let long = with(&format!("{}{}", MAIN, " ".repeat(40 << 20))).unwrap_err();
-        assert!(long.starts_with("main.xml: cannot be unpacked (longer than"), "{long}");
+        assert!(
+            long.starts_with("main.xml: cannot be unpacked (longer than"),
+            "{long}"
+        );
     }
 
     #[test]
     fn an_index_that_takes_long_to_parse_is_refused_at_once() {
-        let declared =
-            |count: usize| -> String { (0..count).map(|i| format!(" xmlns:n{i} = 'u{i}'")).collect() };
+        let declared = |count: usize| -> String {
+            (0..count)
+                .map(|i| format!(" xmlns:n{i} = 'u{i}'"))
+                .collect()
+        };
         let with_root = |more: &str| MAIN.replacen(" xmlns:p=", &format!("{more} xmlns:p="), 1);
         // Three attributes are those of the document itself.
         assert!(with(&with_root(&declared(MOST_ATTRIBUTES - 3))).is_ok());
-        let nested: String = (0..40_000).map(|i| format!("<a xmlns:n{i}=\"u{i}\">")).collect();
+        let nested: String = (0..40_000)
+            .map(|i| format!("<a xmlns:n{i}=\"u{i}\">"))
+            .collect();
         let attributes: String = (0..40_000).map(|i| format!(" a{i}=\"\"")).collect();
-        let refused = "main.xml: 40003 attributes and declarations of namespaces; allowed: at most 256";
+        let refused =
+            "main.xml: 40003 attributes and declarations of namespaces; allowed: at most 256";
         for more in [declared(40_000), attributes] {
             assert_eq!(with(&with_root(&more)).unwrap_err(), refused);
         }
-        assert_eq!(with(&MAIN.replacen("<Record1>", &format!("<Record1>{nested}"), 1)).unwrap_err(), refused);
+        assert_eq!(
+            with(&MAIN.replacen("<Record1>", &format!("<Record1>{nested}"), 1)).unwrap_err(),
+            refused
+        );
         for marks in ["<", "="] {
             let error = with(&format!("{MAIN}<!--{}-->", marks.repeat(100_000))).unwrap_err();
-            assert_eq!(error, "main.xml: more than a quarter of the characters are < or =; allowed: XML");
+            assert_eq!(
+                error,
+                "main.xml: more than a quarter of the characters are < or =; allowed: XML"
+            );
         }
     }
 }

@@ -48,12 +48,24 @@ pub struct Relaxed<'a> {
 
 impl<'a> Relaxed<'a> {
     pub fn new(body: &'a Body) -> Self {
-        let Foundation { spacing, effective_modulus, .. } = body.foundation;
+        let Foundation {
+            spacing,
+            effective_modulus,
+            ..
+        } = body.foundation;
         let [closing, opening] = [body.closing_work, body.work]
             .map(|work| (std::f64::consts::PI * spacing * work / effective_modulus).sqrt());
         let stiffness = effective_modulus * spacing;
         let (gaps, fragments) = (body.gaps.as_slice(), Vec::new());
-        Relaxed { gaps, stiffness, spacing, closing, opening, indentation: 0.0, fragments }
+        Relaxed {
+            gaps,
+            stiffness,
+            spacing,
+            closing,
+            opening,
+            indentation: 0.0,
+            fragments,
+        }
     }
 
     /// The component of {c ≤ level} (`closed`) or {c < level} around a spring in it.
@@ -70,9 +82,24 @@ impl<'a> Relaxed<'a> {
         while last + 1 < self.gaps.len() && is_in(self.gaps[last + 1]) {
             last += 1;
         }
-        let from = first as f64 - if first == 0 { 0.5 } else { edge(first, first - 1) };
-        let to = last as f64 + if last + 1 == self.gaps.len() { 0.5 } else { edge(last, last + 1) };
-        Part { from, to, first, last }
+        let from = first as f64
+            - if first == 0 {
+                0.5
+            } else {
+                edge(first, first - 1)
+            };
+        let to = last as f64
+            + if last + 1 == self.gaps.len() {
+                0.5
+            } else {
+                edge(last, last + 1)
+            };
+        Part {
+            from,
+            to,
+            first,
+            last,
+        }
     }
 
     /// φ at a level for the stretch of one cell.
@@ -82,12 +109,21 @@ impl<'a> Relaxed<'a> {
 
     /// Springs' gaps next above and below a level.
     fn next_gap(&self, level: f64) -> Option<f64> {
-        self.gaps.iter().copied().filter(|&gap| gap > level).min_by(f64::total_cmp)
+        self.gaps
+            .iter()
+            .copied()
+            .filter(|&gap| gap > level)
+            .min_by(f64::total_cmp)
     }
 
     fn last_gap(&self, level: f64, closed: bool) -> f64 {
         let is_in = |gap: f64| if closed { gap <= level } else { gap < level };
-        self.gaps.iter().copied().filter(|&gap| is_in(gap)).max_by(f64::total_cmp).unwrap_or(0.0)
+        self.gaps
+            .iter()
+            .copied()
+            .filter(|&gap| is_in(gap))
+            .max_by(f64::total_cmp)
+            .unwrap_or(0.0)
     }
 
     pub fn move_to(&mut self, indentation: f64) {
@@ -136,8 +172,13 @@ impl<'a> Relaxed<'a> {
     /// The level to which a fragment grows, up to the next spring's gap.
     fn grow(&self, spring: usize, level: f64, next: f64) -> f64 {
         let holds = |at: f64| self.rest(self.closing, spring, at, at < next) <= self.indentation;
-        let point =
-            |k: usize| if k == POINTS { next } else { level + (next - level) * k as f64 / POINTS as f64 };
+        let point = |k: usize| {
+            if k == POINTS {
+                next
+            } else {
+                level + (next - level) * k as f64 / POINTS as f64
+            }
+        };
         let mut reached = level;
         for k in 1..=POINTS {
             let at = point(k).min(next);
@@ -161,12 +202,19 @@ impl<'a> Relaxed<'a> {
             outer.first <= inner.first && inner.last <= outer.last
         };
         let stays = |a: usize| !(0..parts.len()).any(|b| a != b && is_within(a, b));
-        self.fragments = (0..parts.len()).filter(|&a| stays(a)).map(|a| self.fragments[a]).collect();
+        self.fragments = (0..parts.len())
+            .filter(|&a| stays(a))
+            .map(|a| self.fragments[a])
+            .collect();
     }
 
     fn pull(&mut self) {
         // A part that a spring has just left no longer reaches up to the gap of that spring.
-        let mut waiting: Vec<_> = self.fragments.drain(..).map(|fragment| (fragment, true)).collect();
+        let mut waiting: Vec<_> = self
+            .fragments
+            .drain(..)
+            .map(|fragment| (fragment, true))
+            .collect();
         while let Some((Fragment { spring, level }, closed)) = waiting.pop() {
             let below = self.last_gap(level, closed);
             let stop = below.max(self.indentation);
@@ -176,16 +224,28 @@ impl<'a> Relaxed<'a> {
                 None if below <= self.indentation => {
                     let part = self.part(spring, level, closed);
                     let held = (part.first..=part.last).find(|&spring| self.gaps[spring] <= stop);
-                    self.fragments.extend(held.map(|spring| Fragment { spring, level: stop }));
+                    self.fragments.extend(held.map(|spring| Fragment {
+                        spring,
+                        level: stop,
+                    }));
                 }
                 None => {
                     // Springs of this gap detach, and each lower part goes on by itself.
                     let part = self.part(spring, level, closed);
                     let lower = |spring: usize| self.gaps[spring] < below;
-                    let starts =
-                        |spring: usize| lower(spring) && (spring == part.first || !lower(spring - 1));
+                    let starts = |spring: usize| {
+                        lower(spring) && (spring == part.first || !lower(spring - 1))
+                    };
                     let starts = (part.first..=part.last).filter(|&spring| starts(spring));
-                    waiting.extend(starts.map(|spring| (Fragment { spring, level: below }, false)));
+                    waiting.extend(starts.map(|spring| {
+                        (
+                            Fragment {
+                                spring,
+                                level: below,
+                            },
+                            false,
+                        )
+                    }));
                 }
             }
         }
@@ -204,7 +264,9 @@ impl<'a> Relaxed<'a> {
             let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
             if rest(a) < rest(b) { high = b } else { low = a }
         }
-        let lowest = [low, high, just_above].into_iter().min_by(|&a, &b| rest(a).total_cmp(&rest(b)))?;
+        let lowest = [low, high, just_above]
+            .into_iter()
+            .min_by(|&a, &b| rest(a).total_cmp(&rest(b)))?;
         if rest(lowest) >= self.indentation {
             return None;
         }
@@ -213,14 +275,21 @@ impl<'a> Relaxed<'a> {
 
     /// First and last spring of each fragment.
     pub fn contacts(&self) -> Vec<Patch> {
-        let mut contacts: Vec<_> =
-            self.parts().map(|(_, part)| Patch { first: part.first, last: part.last }).collect();
+        let mut contacts: Vec<_> = self
+            .parts()
+            .map(|(_, part)| Patch {
+                first: part.first,
+                last: part.last,
+            })
+            .collect();
         contacts.sort_unstable();
         contacts
     }
 
     fn parts(&self) -> impl Iterator<Item = (f64, Part)> {
-        self.fragments.iter().map(|one| (one.level, self.part(one.spring, one.level, true)))
+        self.fragments
+            .iter()
+            .map(|one| (one.level, self.part(one.spring, one.level, true)))
     }
 
     /// m
@@ -244,8 +313,16 @@ impl<'a> Relaxed<'a> {
         let mut sum = 0.0;
         for (level, part) in self.parts() {
             let edges = [
-                (part.first as f64 - part.from, self.gaps[part.first], part.first == 0),
-                (part.to - part.last as f64, self.gaps[part.last], part.last + 1 == self.gaps.len()),
+                (
+                    part.first as f64 - part.from,
+                    self.gaps[part.first],
+                    part.first == 0,
+                ),
+                (
+                    part.to - part.last as f64,
+                    self.gaps[part.last],
+                    part.last + 1 == self.gaps.len(),
+                ),
             ];
             for (share, gap, is_end) in edges {
                 sum += share * cell(gap, if is_end { gap } else { level });
@@ -264,7 +341,11 @@ fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> (f64, f
         if middle <= low || middle >= high {
             break;
         }
-        if is_past(middle) { high = middle } else { low = middle }
+        if is_past(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
     }
     (low, high)
 }

@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::index::{Text, TextSpan};
 
 /// Message for a text that is not exactly one value.
-pub(in crate::scene) const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
+pub(in crate::scene) const NOT_ONE_VALUE: &str =
+    "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
 impl Text {
     /// Returns the text with `value` in place of the value at a path.
@@ -22,23 +23,39 @@ impl Text {
     ///
     /// # Errors
     /// Returns an error if there is no group at the path, or if `value` is not exactly one value.
-    pub fn insert(&self, group: &str, name: &str, value: &str, order: &[&str]) -> Result<Text, String> {
+    pub fn insert(
+        &self,
+        group: &str,
+        name: &str,
+        value: &str,
+        order: &[&str],
+    ) -> Result<Text, String> {
         let inside = self.span(group).and_then(|entry| entry.inside.clone());
         let inside = inside.ok_or_else(|| format!("{group} has no fields here"))?;
         let rank = |name: &str| order.iter().position(|other| *other == name);
         let ranked = |entry: &&&TextSpan| rank(entry.path.rsplit('.').next().unwrap_or_default());
         let entries = self.inside(group);
-        let before = entries.iter().filter(|entry| ranked(entry) < rank(name)).max_by_key(ranked);
+        let before = entries
+            .iter()
+            .filter(|entry| ranked(entry) < rank(name))
+            .max_by_key(ranked);
         let new = format!("{name}: {value}");
         let splices = match before.or(entries.last()) {
             None => vec![(inside.start..inside.start, new)],
             Some(anchor) => {
                 let after = anchor.comma.unwrap_or(anchor.value.end);
-                let next = entries.iter().map(|entry| entry.entry.start).find(|start| *start >= after);
+                let next = entries
+                    .iter()
+                    .map(|entry| entry.entry.start)
+                    .find(|start| *start >= after);
                 self.splices_after(anchor, after..next.unwrap_or(inside.end), &new)
             }
         };
-        let path = if group.is_empty() { name.to_string() } else { format!("{group}.{name}") };
+        let path = if group.is_empty() {
+            name.to_string()
+        } else {
+            format!("{group}.{name}")
+        };
         self.spliced(splices, &path, value)
     }
 
@@ -51,24 +68,40 @@ impl Text {
         let mut parts = Vec::new();
         for (place, TextSpan { value, comma, .. }) in old.iter().enumerate() {
             let after = comma.unwrap_or(value.end);
-            let next = old.get(place + 1).map_or(inside.end, |next| next.value.start);
+            let next = old
+                .get(place + 1)
+                .map_or(inside.end, |next| next.value.start);
             let end = self.line_break_in(after..next).unwrap_or(after);
             let before_comma = &self.source[value.end..after - usize::from(comma.is_some())];
             let behind = format!("{before_comma}{}", &self.source[after..end]);
-            parts.push((&self.source[start..value.start], &self.source[value.clone()], behind));
+            parts.push((
+                &self.source[start..value.start],
+                &self.source[value.clone()],
+                behind,
+            ));
             start = end;
         }
         let blank = |before: &'_ str| before[..before.len() - before.trim_start().len()].to_owned();
         let first = blank(parts.first()?.0);
-        let usual = if first.contains('\n') { first.clone() } else { " ".to_owned() };
+        let usual = if first.contains('\n') {
+            first.clone()
+        } else {
+            " ".to_owned()
+        };
         let further = parts.get(1).map_or(usual, |part| blank(part.0));
         let mut new = String::new();
         for (place, (kept, written)) in elements.iter().enumerate() {
             let added = ("", written.as_str(), String::new());
-            let (before, value, behind) = if let Some(at) = kept { parts.get(*at)? } else { &added };
+            let (before, value, behind) = if let Some(at) = kept {
+                parts.get(*at)?
+            } else {
+                &added
+            };
             let has_comma = place + 1 < elements.len() || old.last()?.comma.is_some();
-            let (blank, comma) =
-                (if place == 0 { &first } else { &further }, if has_comma { "," } else { "" });
+            let (blank, comma) = (
+                if place == 0 { &first } else { &further },
+                if has_comma { "," } else { "" },
+            );
             new += &format!("{blank}{}{value}{comma}{behind}", before.trim_start());
         }
         let mut source = self.source.clone();
@@ -79,13 +112,17 @@ impl Text {
     /// Returns the text without the entry at a path, and without its line if nothing else is on the line. Without such an
     /// entry the text stays as it is.
     pub(in crate::scene) fn without_entry(&self, path: &str) -> Text {
-        let Some(TextSpan { entry, comma, .. }) = self.span(path) else { return self.clone() };
+        let Some(TextSpan { entry, comma, .. }) = self.span(path) else {
+            return self.clone();
+        };
         let blanks = [' ', '\t'];
         let before = self.source[..entry.start].trim_end_matches(blanks);
         let end = comma.unwrap_or(entry.end);
         let after = self.source[end..].trim_start_matches(blanks);
         let mut removed = entry.start..self.source.len() - after.len();
-        let line_break = ["\r\n", "\n"].into_iter().find(|line_break| after.starts_with(line_break));
+        let line_break = ["\r\n", "\n"]
+            .into_iter()
+            .find(|line_break| after.starts_with(line_break));
         if let Some(line_break) = line_break
             && (before.is_empty() || before.ends_with('\n'))
         {
@@ -98,7 +135,9 @@ impl Text {
     pub(in crate::scene) fn without_comments_beside(&self, path: &str) -> Text {
         let mut text = self.clone();
         while let Some(range) = text.comment_beside(path) {
-            let before = text.source[..range.start].trim_end_matches([' ', '\t']).len();
+            let before = text.source[..range.start]
+                .trim_end_matches([' ', '\t'])
+                .len();
             let shorter = text.without(before..range.end);
             if shorter == text {
                 break;
@@ -112,7 +151,9 @@ impl Text {
         let end = self.span(path)?.value.end;
         let is_beside = |comment: &&Range<usize>| {
             comment.start >= end
-                && self.source[end..comment.start].chars().all(|c| matches!(c, ' ' | '\t' | ','))
+                && self.source[end..comment.start]
+                    .chars()
+                    .all(|c| matches!(c, ' ' | '\t' | ','))
         };
         self.comments.iter().find(is_beside).cloned()
     }
@@ -126,15 +167,30 @@ impl Text {
 
     /// Returns the insertions that put an entry after another one in the same style: on its own line, after the comment on
     /// the line before, or on the same line.
-    fn splices_after(&self, anchor: &TextSpan, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
+    fn splices_after(
+        &self,
+        anchor: &TextSpan,
+        gap: Range<usize>,
+        new: &str,
+    ) -> Vec<(Range<usize>, String)> {
         let comma = if anchor.comma.is_some() { "," } else { "" };
-        match (indentation(&self.source, anchor.entry.start), self.line_break_in(gap.clone())) {
+        match (
+            indentation(&self.source, anchor.entry.start),
+            self.line_break_in(gap.clone()),
+        ) {
             (Some(indentation), Some(line_break)) => {
-                let newline = if self.source[..line_break].ends_with('\r') { "\r\n" } else { "\n" };
+                let newline = if self.source[..line_break].ends_with('\r') {
+                    "\r\n"
+                } else {
+                    "\n"
+                };
                 let end = line_break + 1 - newline.len();
                 let missing_comma = if anchor.comma.is_some() { "" } else { "," };
                 vec![
-                    (anchor.value.end..anchor.value.end, missing_comma.to_string()),
+                    (
+                        anchor.value.end..anchor.value.end,
+                        missing_comma.to_string(),
+                    ),
                     (end..end, format!("{newline}{indentation}{new}{comma}")),
                 ]
             }
@@ -145,19 +201,28 @@ impl Text {
 
     /// Returns the first line break outside block comments, in a stretch of blanks and comments.
     fn line_break_in(&self, gap: Range<usize>) -> Option<usize> {
-        let mut breaks = self.source[gap.clone()].match_indices('\n').map(|(at, _)| gap.start + at);
+        let mut breaks = self.source[gap.clone()]
+            .match_indices('\n')
+            .map(|(at, _)| gap.start + at);
         let is_outside = |at: &usize| !self.comments.iter().any(|comment| comment.contains(at));
         breaks.find(is_outside)
     }
 
     /// Returns the text after replacements in ascending order. Returns an error unless the value at the path is then exactly
     /// `value`; a comment inside it could hide the text behind it.
-    fn spliced(&self, splices: Vec<(Range<usize>, String)>, path: &str, value: &str) -> Result<Text, String> {
+    fn spliced(
+        &self,
+        splices: Vec<(Range<usize>, String)>,
+        path: &str,
+        value: &str,
+    ) -> Result<Text, String> {
         let mut source = self.source.clone();
         for (range, new) in splices.into_iter().rev() {
             source.replace_range(range, &new);
         }
-        let text = Text::new(source).ok().filter(|text| text.written(path) == Some(value));
+        let text = Text::new(source)
+            .ok()
+            .filter(|text| text.written(path) == Some(value));
         text.ok_or_else(|| NOT_ONE_VALUE.to_string())
     }
 }
@@ -166,7 +231,10 @@ impl Text {
 fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];
-    before.chars().all(|c| matches!(c, ' ' | '\t')).then_some(before)
+    before
+        .chars()
+        .all(|c| matches!(c, ' ' | '\t'))
+        .then_some(before)
 }
 
 #[cfg(test)]
@@ -178,12 +246,19 @@ mod tests {
         for (text, shorter) in [
             ("(a: 1, b: 2, c: 3)", "(a: 1, c: 3)"),
             ("(a: 1, b: 2)", "(a: 1, )"),
-            ("(\n    a: 1,\n    b: 2, // two\n    c: 3,\n)", "(\n    a: 1,\n    // two\n    c: 3,\n)"),
+            (
+                "(\n    a: 1,\n    b: 2, // two\n    c: 3,\n)",
+                "(\n    a: 1,\n    // two\n    c: 3,\n)",
+            ),
             ("(\r\n\ta: 1,\r\n\tb: \"x\ny\",\r\n)", "(\r\n\ta: 1,\r\n)"),
             ("(\n    a: 1,\n    b: 2\n)", "(\n    a: 1,\n)"),
             ("(a: 1)", "(a: 1)"),
         ] {
-            assert_eq!(Text::new(text).unwrap().without_entry("b").as_str(), shorter, "{text}");
+            assert_eq!(
+                Text::new(text).unwrap().without_entry("b").as_str(),
+                shorter,
+                "{text}"
+            );
         }
     }
 
@@ -195,11 +270,21 @@ mod tests {
                 "(\n    a: 1, // one\n    b: 2,\n    // three\n)",
             ),
             ("(a: 1, b: 2 /* x */, /* y */ c: 3)", "(a: 1, b: 2, c: 3)"),
-            ("(b: (2, /* in */ 3), c: 4) // end", "(b: (2, /* in */ 3), c: 4) // end"),
+            (
+                "(b: (2, /* in */ 3), c: 4) // end",
+                "(b: (2, /* in */ 3), c: 4) // end",
+            ),
             ("(b: 2) // end", "(b: 2) // end"),
             ("(a: 1) // one", "(a: 1) // one"),
         ] {
-            assert_eq!(Text::new(text).unwrap().without_comments_beside("b").as_str(), shorter, "{text}");
+            assert_eq!(
+                Text::new(text)
+                    .unwrap()
+                    .without_comments_beside("b")
+                    .as_str(),
+                shorter,
+                "{text}"
+            );
         }
     }
 
@@ -207,19 +292,42 @@ mod tests {
     fn elements_that_stay_keep_their_comments() {
         let lines = "(l: [ // all\n    A(1.0), // press\n    // then\n    B, C // end\n])";
         for (text, elements, arranged) in [
-            ("(l: [A(1.0), /* b */ B])", "1 0", "(l: [/* b */ B, A(1.0)])"),
+            (
+                "(l: [A(1.0), /* b */ B])",
+                "1 0",
+                "(l: [/* b */ B, A(1.0)])",
+            ),
             ("(l: [A,B,])", "0 X 1", "(l: [A,X,B,])"),
             ("(l: [A(1.0)])", "0 X", "(l: [A(1.0), X])"),
             ("(l: [A, B])", "0", "(l: [A])"),
-            ("(l: [\n    A, // press\n    B,\n])", "1 0", "(l: [\n    B,\n    A, // press\n])"),
-            ("(l: [\n    A, // press\n    B\n])", "0 1 X", "(l: [\n    A, // press\n    B,\n    X\n])"),
+            (
+                "(l: [\n    A, // press\n    B,\n])",
+                "1 0",
+                "(l: [\n    B,\n    A, // press\n])",
+            ),
+            (
+                "(l: [\n    A, // press\n    B\n])",
+                "0 1 X",
+                "(l: [\n    A, // press\n    B,\n    X\n])",
+            ),
             (lines, "1 2", "(l: [ // then\n    B,\n    C // end\n])"),
         ] {
-            let elements: Vec<_> =
-                elements.split(' ').map(|one| (one.parse::<usize>().ok(), one.to_owned())).collect();
+            let elements: Vec<_> = elements
+                .split(' ')
+                .map(|one| (one.parse::<usize>().ok(), one.to_owned()))
+                .collect();
             let found = Text::new(text).unwrap().arrange("l", &elements);
-            assert_eq!(found.as_ref().map(Text::as_str), Some(arranged), "{text} {elements:?}");
+            assert_eq!(
+                found.as_ref().map(Text::as_str),
+                Some(arranged),
+                "{text} {elements:?}"
+            );
         }
-        assert_eq!(Text::new("(l: [])").unwrap().arrange("l", &[(None, "A".to_owned())]), None);
+        assert_eq!(
+            Text::new("(l: [])")
+                .unwrap()
+                .arrange("l", &[(None, "A".to_owned())]),
+            None
+        );
     }
 }

@@ -43,20 +43,32 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let ends = |offset: &usize| text.is_char_boundary(*offset);
     let before = &text[..(0..=offset.min(text.len())).rev().find(ends).unwrap_or(0)];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    (
+        before.matches('\n').count() + 1,
+        before[line_start..].chars().count() + 1,
+    )
 }
 
 /// Returns the byte offset of a line and column, or of the end of the line or the text if that comes first.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut lines = text.split_inclusive('\n');
-    let start: usize = lines.by_ref().take(line.saturating_sub(1)).map(str::len).sum();
+    let start: usize = lines
+        .by_ref()
+        .take(line.saturating_sub(1))
+        .map(str::len)
+        .sum();
     let line = lines.next().unwrap_or_default().trim_end_matches('\n');
-    start + line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at)
+    start
+        + line
+            .char_indices()
+            .nth(column.saturating_sub(1))
+            .map_or(line.len(), |(at, _)| at)
 }
 
 /// Returns true if a path equals another path or lies inside it.
 pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
-    path.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    path.strip_prefix(other)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 impl Text {
@@ -67,12 +79,19 @@ impl Text {
     pub fn new(source: impl Into<String>) -> Result<Text, Unreadable> {
         let source = source.into();
         let Scan { tokens, comments } = scan(&source)?;
-        let tokens = Tokens { source: &source, tokens };
+        let tokens = Tokens {
+            source: &source,
+            tokens,
+        };
         let mut spans = Vec::new();
         if let Some(root) = tokens.root() {
             tokens.add(String::new(), (root, root), &mut spans);
         }
-        Ok(Text { source, spans, comments })
+        Ok(Text {
+            source,
+            spans,
+            comments,
+        })
     }
 
     /// Returns the whole text.
@@ -90,7 +109,10 @@ impl Text {
         let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
         let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
         let opening = || Some(self.spans.first()?.inside.as_ref()?.start - 1);
-        found.map(|span| span.value.start).or_else(opening).unwrap_or(0)
+        found
+            .map(|span| span.value.start)
+            .or_else(opening)
+            .unwrap_or(0)
     }
 
     /// Returns the value at a path as written, including `Some(…)` around it.
@@ -112,7 +134,8 @@ impl Text {
     /// Returns the values directly inside the group or list at a path, in order.
     pub(super) fn inside(&self, path: &str) -> Vec<&TextSpan> {
         let group = |path: &str| path.rfind('.').unwrap_or(0);
-        let is_inside = |span: &&TextSpan| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
+        let is_inside =
+            |span: &&TextSpan| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
         self.spans.iter().filter(is_inside).collect()
     }
 
@@ -122,8 +145,13 @@ impl Text {
 
     /// Returns the path of the innermost value whose entry contains a byte offset; empty if there is none.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
-        let around = self.spans.iter().filter(|span| span.entry.contains(&offset));
-        around.max_by_key(|span| span.entry.start).map_or("", |span| &span.path)
+        let around = self
+            .spans
+            .iter()
+            .filter(|span| span.entry.contains(&offset));
+        around
+            .max_by_key(|span| span.entry.start)
+            .map_or("", |span| &span.path)
     }
 }
 
@@ -135,10 +163,19 @@ struct Tokens<'t> {
 impl Tokens<'_> {
     /// Indexes the value that starts at the token `first`, in an entry that starts at the token `start`, and the values
     /// inside it. Returns the token after the value.
-    fn add(&self, path: String, (start, first): (usize, usize), spans: &mut Vec<TextSpan>) -> Option<usize> {
+    fn add(
+        &self,
+        path: String,
+        (start, first): (usize, usize),
+        spans: &mut Vec<TextSpan>,
+    ) -> Option<usize> {
         let (end, inner) = (self.value_end(first)?, self.inside_some(first));
         let bytes = |first: usize, end: usize| self.tokens[first].start..self.tokens[end - 1].end;
-        let open = if self.is(inner, Kind::Word) { inner + 1 } else { inner };
+        let open = if self.is(inner, Kind::Word) {
+            inner + 1
+        } else {
+            inner
+        };
         let brackets = match self.tokens.get(open).map(|token| token.kind) {
             Some(Kind::Open('(', close)) => Some((open, close)),
             Some(Kind::Open('[', close)) if open == inner => Some((open, close)),
@@ -162,7 +199,10 @@ impl Tokens<'_> {
                 if self.value_end(first).is_none_or(|end| end > close) {
                     break;
                 }
-                let path = name.map_or_else(|| format!("{group}{index}"), |name| format!("{group}{name}"));
+                let path = name.map_or_else(
+                    || format!("{group}{index}"),
+                    |name| format!("{group}{name}"),
+                );
                 let end = self.add(path, (start, first), spans)?;
                 // Without a comma this is the last entry, regardless of the text after it.
                 if !self.is(end, Kind::Comma) {
@@ -184,7 +224,11 @@ impl Tokens<'_> {
                 return Some(index);
             }
             index += 1;
-            if let Some(Token { kind: Kind::Open('[', close), .. }) = self.tokens.get(index) {
+            if let Some(Token {
+                kind: Kind::Open('[', close),
+                ..
+            }) = self.tokens.get(index)
+            {
                 index = close + 1;
             }
         }
@@ -192,8 +236,13 @@ impl Tokens<'_> {
 
     /// Returns the index of the token after the value that starts at this token.
     fn value_end(&self, first: usize) -> Option<usize> {
-        match (self.tokens.get(first)?.kind, self.tokens.get(first + 1).map(|token| token.kind)) {
-            (Kind::Open(_, close), _) | (Kind::Word, Some(Kind::Open('(', close))) => Some(close + 1),
+        match (
+            self.tokens.get(first)?.kind,
+            self.tokens.get(first + 1).map(|token| token.kind),
+        ) {
+            (Kind::Open(_, close), _) | (Kind::Word, Some(Kind::Open('(', close))) => {
+                Some(close + 1)
+            }
             (Kind::Quoted | Kind::Word, _) => Some(first + 1),
             (Kind::Close | Kind::Comma | Kind::Colon, _) => None,
         }
@@ -213,12 +262,17 @@ impl Tokens<'_> {
     }
 
     fn is(&self, index: usize, kind: Kind) -> bool {
-        self.tokens.get(index).is_some_and(|token| token.kind == kind)
+        self.tokens
+            .get(index)
+            .is_some_and(|token| token.kind == kind)
     }
 
     /// Returns the word at a token, without the mark `r#` of a raw identifier.
     fn word(&self, index: usize) -> Option<&str> {
-        let token = self.tokens.get(index).filter(|token| token.kind == Kind::Word)?;
+        let token = self
+            .tokens
+            .get(index)
+            .filter(|token| token.kind == Kind::Word)?;
         let word = &self.source[token.start..token.end];
         Some(word.strip_prefix("r#").unwrap_or(word))
     }

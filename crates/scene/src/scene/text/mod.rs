@@ -16,7 +16,9 @@ pub(crate) mod scan;
 /// brackets.
 pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
     let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
-    ron::Options::default().with_default_extension(extensions).from_str(text)
+    ron::Options::default()
+        .with_default_extension(extensions)
+        .from_str(text)
 }
 
 /// Writes a number in RON with a decimal point, in the shortest text that reads back as the same number. A number much
@@ -60,10 +62,16 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_strings_escaped_only_where_they_must_be() {
-        let texts =
-            "2.0e6 1.0e-4 2.5e-7 0.5 -40.0 1.0e-3 0.0011 0.005 99999.0 -99999.5 1.0e5 0.0 -0.0 NaN -inf";
-        assert!(texts.split(' ').all(|text| ron_float(text.parse().unwrap()) == text));
-        assert_eq!(ron_string("κ \"a\" \\ \n\u{1b}"), r#""κ \"a\" \\ \n\u{1b}""#);
+        let texts = "2.0e6 1.0e-4 2.5e-7 0.5 -40.0 1.0e-3 0.0011 0.005 99999.0 -99999.5 1.0e5 0.0 -0.0 NaN -inf";
+        assert!(
+            texts
+                .split(' ')
+                .all(|text| ron_float(text.parse().unwrap()) == text)
+        );
+        assert_eq!(
+            ron_string("κ \"a\" \\ \n\u{1b}"),
+            r#""κ \"a\" \\ \n\u{1b}""#
+        );
     }
 
     proptest! {

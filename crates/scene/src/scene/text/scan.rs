@@ -42,17 +42,26 @@ pub(super) struct Scan {
     pub(super) comments: Vec<Range<usize>>,
 }
 
-const BLANKS: [char; 11] =
-    [' ', '\t', '\n', '\r', '\x0B', '\x0C', '\u{85}', '\u{200E}', '\u{200F}', '\u{2028}', '\u{2029}'];
+const BLANKS: [char; 11] = [
+    ' ', '\t', '\n', '\r', '\x0B', '\x0C', '\u{85}', '\u{200E}', '\u{200F}', '\u{2028}', '\u{2029}',
+];
 
 /// Divides a text with matching brackets into tokens.
 pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
-    let Scan { mut tokens, mut comments } = Scan::default();
+    let Scan {
+        mut tokens,
+        mut comments,
+    } = Scan::default();
     let mut open: Vec<(usize, char)> = Vec::new();
     let mut at = skip_blank(text, 0, &mut comments)?;
     while let Some(c) = text[at..].chars().next() {
         let start = at;
-        let fail = |reason| Err(Unreadable { offset: start, reason });
+        let fail = |reason| {
+            Err(Unreadable {
+                offset: start,
+                reason,
+            })
+        };
         at += c.len_utf8();
         let kind = match c {
             '(' | '[' | '{' => {
@@ -60,7 +69,9 @@ pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
                 Kind::Open(c, 0)
             }
             ')' | ']' | '}' => {
-                let Some((opener, bracket)) = open.pop().filter(|(_, bracket)| closing(*bracket) == c) else {
+                let Some((opener, bracket)) =
+                    open.pop().filter(|(_, bracket)| closing(*bracket) == c)
+                else {
                     return fail("this bracket closes nothing");
                 };
                 tokens[opener].kind = Kind::Open(bracket, tokens.len());
@@ -80,13 +91,18 @@ pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
                 }
             },
         };
-        tokens.push(Token { kind, start, end: at });
+        tokens.push(Token {
+            kind,
+            start,
+            end: at,
+        });
         at = skip_blank(text, at, &mut comments)?;
     }
     match open.last() {
-        Some((opener, _)) => {
-            Err(Unreadable { offset: tokens[*opener].start, reason: "this bracket is not closed" })
-        }
+        Some((opener, _)) => Err(Unreadable {
+            offset: tokens[*opener].start,
+            reason: "this bracket is not closed",
+        }),
         None => Ok(Scan { tokens, comments }),
     }
 }
@@ -100,7 +116,11 @@ fn closing(bracket: char) -> char {
 }
 
 /// Returns the offset of the first byte from `at` on that is neither blank nor comment, and records the comments before it.
-fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result<usize, Unreadable> {
+fn skip_blank(
+    text: &str,
+    at: usize,
+    comments: &mut Vec<Range<usize>>,
+) -> Result<usize, Unreadable> {
     let mut at = at;
     loop {
         let rest = &text[at..];
@@ -143,7 +163,10 @@ fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
             _ => index += 1,
         }
     }
-    Err(Unreadable { offset: at, reason: "this comment is not closed" })
+    Err(Unreadable {
+        offset: at,
+        reason: "this comment is not closed",
+    })
 }
 
 /// Returns the end of the string or character that starts at this byte; `None` if none starts there.
@@ -184,7 +207,11 @@ fn word_end(text: &str, at: usize) -> usize {
     let rest = &text[at..];
     let mut characters = rest.char_indices().skip(1);
     let end = characters.find(|(_, c)| {
-        BLANKS.contains(c) || matches!(c, '(' | ')' | '[' | ']' | '{' | '}' | ',' | ':' | '"' | '\'' | '/')
+        BLANKS.contains(c)
+            || matches!(
+                c,
+                '(' | ')' | '[' | ']' | '{' | '}' | ',' | ':' | '"' | '\'' | '/'
+            )
     });
     at + end.map_or(rest.len(), |(end, _)| end)
 }

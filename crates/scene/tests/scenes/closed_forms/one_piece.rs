@@ -31,7 +31,13 @@ pub type Ranges = Vec<(f64, f64)>;
 
 impl OnePiece {
     pub fn new(form: Form, modulus: f64, work: f64, widest: f64) -> Self {
-        OnePiece { form, modulus, work, widest, by_rule: false }
+        OnePiece {
+            form,
+            modulus,
+            work,
+            widest,
+            by_rule: false,
+        }
     }
 
     /// g, dg/da and G at a radius.
@@ -43,10 +49,15 @@ impl OnePiece {
         match self.form {
             Form::Paraboloid { radius } => power(1.0 / radius, 2.0),
             Form::Cone { angle } => power(0.5 * PI * angle.tan(), 1.0),
-            Form::Power { coefficient, exponent } => {
-                power(power_law_factor(exponent) * coefficient, exponent)
-            }
-            Form::WavySphere { radius, amplitude, wavelength } => {
+            Form::Power {
+                coefficient,
+                exponent,
+            } => power(power_law_factor(exponent) * coefficient, exponent),
+            Form::WavySphere {
+                radius,
+                amplitude,
+                wavelength,
+            } => {
                 let [g, slope, area] = power(1.0 / radius, 2.0);
                 let (turns, scale) = (2.0 * PI * a / wavelength, 0.5 * PI * amplitude);
                 let h0 = struve_0(turns);
@@ -54,9 +65,15 @@ impl OnePiece {
                 let derivative = (8.0 * difference(1e-3) - difference(2e-3)) / 12e-3;
                 // ∫ z H₀ dz = z H₁ with H₁ = 2/π − dH₀/dz.
                 let rise = 2.0 * PI / wavelength * (h0 + turns * derivative);
-                [g + scale * turns * h0, slope + scale * rise, area + scale * a * (2.0 / PI - derivative)]
+                [
+                    g + scale * turns * h0,
+                    slope + scale * rise,
+                    area + scale * a * (2.0 / PI - derivative),
+                ]
             }
-            Form::Punch { .. } | Form::Table { .. } => unreachable!("not in one piece with a smooth edge"),
+            Form::Punch { .. } | Form::Table { .. } => {
+                unreachable!("not in one piece with a smooth edge")
+            }
         }
     }
 
@@ -67,7 +84,14 @@ impl OnePiece {
 
     /// g at a radius, m: without the derivative of waves, which takes most of the time of [`OnePiece::profile`].
     fn depth(&self, a: f64) -> f64 {
-        let Form::WavySphere { radius, amplitude, wavelength } = self.form else { return self.profile(a)[0] };
+        let Form::WavySphere {
+            radius,
+            amplitude,
+            wavelength,
+        } = self.form
+        else {
+            return self.profile(a)[0];
+        };
         let turns = 2.0 * PI * a / wavelength;
         a * a / radius + 0.5 * PI * amplitude * turns * struve_0(turns)
     }
@@ -88,15 +112,25 @@ impl OnePiece {
 
     /// Evenly spaced radii, 400 for each wave.
     fn radii(&self, to: f64) -> Vec<f64> {
-        let wave = if let Form::WavySphere { wavelength, .. } = self.form { wavelength } else { to };
+        let wave = if let Form::WavySphere { wavelength, .. } = self.form {
+            wavelength
+        } else {
+            to
+        };
         let steps = (400.0 * (to / wave).max(1.0)).ceil() as u32;
-        (1..=steps).map(|k| to * f64::from(k) / f64::from(steps)).collect()
+        (1..=steps)
+            .map(|k| to * f64::from(k) / f64::from(steps))
+            .collect()
     }
 
     /// Ranges over which d rises.
     fn stable(&self) -> Ranges {
         let radii = self.radii(self.widest);
-        let mut ends: Vec<f64> = if self.slope(radii[0]) > 0.0 { vec![0.0] } else { Vec::new() };
+        let mut ends: Vec<f64> = if self.slope(radii[0]) > 0.0 {
+            vec![0.0]
+        } else {
+            Vec::new()
+        };
         for pair in radii.windows(2) {
             let sign = self.slope(pair[1]).signum();
             if self.slope(pair[0]).signum() != sign {
@@ -104,7 +138,9 @@ impl OnePiece {
             }
         }
         ends.push(self.widest);
-        ends.chunks_exact(2).map(|ends| (ends[0], ends[1])).collect()
+        ends.chunks_exact(2)
+            .map(|ends| (ends[0], ends[1]))
+            .collect()
     }
 
     /// Part of a range over which d rises in which the profile is deeper than anywhere inside.
@@ -114,7 +150,11 @@ impl OnePiece {
             (slopes[0] > 0.0 && slopes[1] <= 0.0)
                 .then(|| self.depth(invert(|a| -self.profile(a)[1], 0.0, pair[0], pair[1])))
         };
-        let inside = self.radii(low).windows(2).filter_map(crest).fold(0.0, f64::max);
+        let inside = self
+            .radii(low)
+            .windows(2)
+            .filter_map(crest)
+            .fold(0.0, f64::max);
         let deepest = |range| invert(|a| self.depth(a), inside, range, high);
         if self.depth(low) >= inside {
             Some((low, high))
@@ -125,7 +165,10 @@ impl OnePiece {
 
     /// Range of radii of a range between two indentations.
     fn between(&self, from: f64, to: f64, (low, high): (f64, f64)) -> (f64, f64) {
-        (invert(|a| self.indentation(a), from, low, high), invert(|a| self.indentation(a), to, low, high))
+        (
+            invert(|a| self.indentation(a), from, low, high),
+            invert(|a| self.indentation(a), to, low, high),
+        )
     }
 
     /// The ranges of a loading from one indentation to another: the edge is at the smallest radius at which d first exceeds
@@ -147,9 +190,18 @@ impl OnePiece {
     /// which d falls under the indentation.
     pub fn unloading(&self, turn: f64) -> Ranges {
         let (mut path, mut level) = (Vec::new(), f64::INFINITY);
-        let stable = self.stable().into_iter().rev().filter(|range| range.0 < turn);
-        let ranges =
-            stable.filter_map(|range| if self.by_rule { self.deepest_edges(range) } else { Some(range) });
+        let stable = self
+            .stable()
+            .into_iter()
+            .rev()
+            .filter(|range| range.0 < turn);
+        let ranges = stable.filter_map(|range| {
+            if self.by_rule {
+                self.deepest_edges(range)
+            } else {
+                Some(range)
+            }
+        });
         for (low, high) in ranges {
             if path.is_empty() {
                 path.push((low, turn));
@@ -166,15 +218,26 @@ impl OnePiece {
     /// Radius at an indentation along a path.
     pub fn radius(&self, path: &Ranges, d: f64) -> f64 {
         let mut ranges = path.iter().filter(|range| d <= self.indentation(range.1));
-        let (low, high) =
-            *ranges.find(|range| d >= self.indentation(range.0)).unwrap_or(&path[path.len() - 1]);
+        let (low, high) = *ranges
+            .find(|range| d >= self.indentation(range.0))
+            .unwrap_or(&path[path.len() - 1]);
         invert(|a| self.indentation(a), d, low, high)
     }
 
     /// ∫F dd over a path, J.
     fn work_along(&self, path: &Ranges) -> f64 {
         let along = |&(low, high): &(f64, f64)| {
-            integral(|a| if a > 0.0 { self.force(a) * self.slope(a) } else { 0.0 }, low, high)
+            integral(
+                |a| {
+                    if a > 0.0 {
+                        self.force(a) * self.slope(a)
+                    } else {
+                        0.0
+                    }
+                },
+                low,
+                high,
+            )
         };
         path.iter().map(along).sum()
     }
@@ -194,10 +257,20 @@ pub struct Loop {
 impl Loop {
     /// Creates the loop of a body with another work of adhesion on closing, J/m².
     pub fn new(opening: OnePiece, closing_work: f64, deepest: f64) -> Self {
-        let closing = OnePiece { work: closing_work, ..opening.clone() };
+        let closing = OnePiece {
+            work: closing_work,
+            ..opening.clone()
+        };
         let loading = closing.loading(0.0, deepest);
         let radius = loading[loading.len() - 1].1;
-        Loop { unloading: opening.unloading(radius), closing, opening, loading, deepest, radius }
+        Loop {
+            unloading: opening.unloading(radius),
+            closing,
+            opening,
+            loading,
+            deepest,
+            radius,
+        }
     }
 
     /// Force on loading at an indentation, N.
@@ -216,14 +289,17 @@ impl Loop {
 
     /// Indentation and force of pull-off under force control.
     pub fn pull_off(&self) -> (f64, f64) {
-        let Loop { opening, unloading, .. } = self;
+        let Loop {
+            opening, unloading, ..
+        } = self;
         let mut best = (f64::INFINITY, 0.0);
         for &(low, high) in unloading {
             // dF/da = 2E* (a dd/da − stretch) is zero inside, or the smallest force is at the end before a jump.
             let steps = opening.radii(high).len() as u32;
             let radius = |k: u32| low + (high - low) * f64::from(k) / f64::from(steps);
             let change = |a: f64| a * opening.slope(a) - opening.stretch(a);
-            let turns = (0..steps).filter(|&k| change(radius(k)) < 0.0 && change(radius(k + 1)) >= 0.0);
+            let turns =
+                (0..steps).filter(|&k| change(radius(k)) < 0.0 && change(radius(k + 1)) >= 0.0);
             let turns = turns.map(|k| invert(change, 0.0, radius(k), radius(k + 1)));
             for a in turns.chain([low, high]) {
                 if opening.force(a) < best.0 {

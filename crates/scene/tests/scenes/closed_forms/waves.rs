@@ -19,12 +19,22 @@ const GENTLE: f64 = 0.01 / 13.0;
 const STEEP: f64 = 2.0e-3;
 
 fn form(amplitude: f64, wavelength: f64) -> Form {
-    Form::WavySphere { radius: 1.0, amplitude, wavelength }
+    Form::WavySphere {
+        radius: 1.0,
+        amplitude,
+        wavelength,
+    }
 }
 
 /// A sphere with waves of 0.1 m, pressed to an indentation.
 fn problem(amplitude: f64, work: f64, deepest: f64) -> Problem {
-    Problem { form: Some(form(amplitude, 0.1)), length: 1.0, modulus: MODULUS, works: [work; 2], deepest }
+    Problem {
+        form: Some(form(amplitude, 0.1)),
+        length: 1.0,
+        modulus: MODULUS,
+        works: [work; 2],
+        deepest,
+    }
 }
 
 /// Errors of the smallest force, of the place of separation and of the energy.
@@ -36,7 +46,11 @@ fn errors(problem: &Problem, expected: [f64; 3], edges: Edges, points: usize) ->
 }
 
 fn expected(exact: &Loop) -> [f64; 3] {
-    [exact.pull_off().1, exact.separation().0, exact.dissipated_energy()]
+    [
+        exact.pull_off().1,
+        exact.separation().0,
+        exact.dissipated_energy(),
+    ]
 }
 
 #[test]
@@ -70,7 +84,12 @@ fn wavy_spheres_follow_both_branches_and_jumps_of_their_closed_form() {
     let history = problem.body(Edges::SubCell, 1601).history(&targets, 401);
     let body = exact.opening;
     let again = body.loading(BACK, deepest);
-    let paths = [(&exact.loading, 0), (&exact.unloading, 1), (&again, 1), (&exact.unloading, 1)];
+    let paths = [
+        (&exact.loading, 0),
+        (&exact.unloading, 1),
+        (&again, 1),
+        (&exact.unloading, 1),
+    ];
     let pull_off = -history.legs[3].smallest.force;
     for (record, (path, most)) in history.legs.iter().zip(paths) {
         let (mut jumps, mut followed, mut before) = (0, 0, None);
@@ -85,9 +104,18 @@ fn wavy_spheres_follow_both_branches_and_jumps_of_their_closed_form() {
                 continue;
             }
             let expected = body.radius(path, d);
-            assert!((found - expected).abs() < 0.01, "d = {d}: {found} {expected}");
-            assert!((body.indentation(found) - d).abs() < 2e-5, "d = {d}: {found} {expected}");
-            assert!((point.force - body.force(expected)).abs() < 2e-3 * pull_off, "{point:?}");
+            assert!(
+                (found - expected).abs() < 0.01,
+                "d = {d}: {found} {expected}"
+            );
+            assert!(
+                (body.indentation(found) - d).abs() < 2e-5,
+                "d = {d}: {found} {expected}"
+            );
+            assert!(
+                (point.force - body.force(expected)).abs() < 2e-3 * pull_off,
+                "{point:?}"
+            );
             jumps += usize::from(before.is_some_and(|before: f64| (before - found).abs() > 0.02));
             (before, followed) = (Some(found), followed + 1);
         }
@@ -104,24 +132,46 @@ fn steep_waves_detach_by_the_rule_before_jkr() {
     for deepest in [0.02, 0.06, 0.1] {
         let problem = problem(STEEP, 1e3, deepest);
         let jkr = problem.closed_form();
-        let rule = Loop::new(OnePiece { by_rule: true, ..jkr.opening.clone() }, 1e3, deepest);
+        let rule = Loop::new(
+            OnePiece {
+                by_rule: true,
+                ..jkr.opening.clone()
+            },
+            1e3,
+            deepest,
+        );
         let errors = errors(&problem, expected(&rule), Edges::SubCell, 4001);
-        assert!(errors.iter().all(|error| *error < 1e-4), "to {deepest}: {errors:?}");
+        assert!(
+            errors.iter().all(|error| *error < 1e-4),
+            "to {deepest}: {errors:?}"
+        );
         assert!(rule.dissipated_energy() < jkr.dissipated_energy());
         if deepest == 0.06 {
             let [jkr, rule] = [jkr, rule].map(|exact| -exact.pull_off().1 / SMOOTH);
-            assert!((jkr - 1.556_549).abs() < 1e-6 && (rule - 1.511_869).abs() < 1e-6, "{jkr} {rule}");
+            assert!(
+                (jkr - 1.556_549).abs() < 1e-6 && (rule - 1.511_869).abs() < 1e-6,
+                "{jkr} {rule}"
+            );
         }
     }
     let gentle = problem(GENTLE, 1e3, 0.06).closed_form();
-    let by_rule = Loop::new(OnePiece { by_rule: true, ..gentle.opening.clone() }, 1e3, 0.06);
+    let by_rule = Loop::new(
+        OnePiece {
+            by_rule: true,
+            ..gentle.opening.clone()
+        },
+        1e3,
+        0.06,
+    );
     assert_eq!(gentle.pull_off(), by_rule.pull_off());
 }
 
 #[test]
 fn steep_waves_of_a_scene_agree_with_the_closed_form() {
     let of = |amplitude: f64, wavelength: f64, work: f64| {
-        let form = format!("WavySphere(radius: 1.0, amplitude: {amplitude:?}, wavelength: {wavelength:?})");
+        let form = format!(
+            "WavySphere(radius: 1.0, amplitude: {amplitude:?}, wavelength: {wavelength:?})"
+        );
         let fields = [
             ("form", form),
             ("material", "(effective_modulus: 1.0e6)".to_owned()),
@@ -139,9 +189,15 @@ fn steep_waves_of_a_scene_agree_with_the_closed_form() {
         let wavelength = wavelength * critical;
         let amplitude = amplitude * (2.0 * wavelength * 1e3 / (PI * MODULUS)).sqrt();
         let body = OnePiece::new(form(amplitude, wavelength), MODULUS, 1e3, 5.0 * critical);
-        let factor = -Loop::new(body.clone(), 1e3, body.indentation(3.0 * critical)).pull_off().1 / SMOOTH;
+        let factor = -Loop::new(body.clone(), 1e3, body.indentation(3.0 * critical))
+            .pull_off()
+            .1
+            / SMOOTH;
         let found = of(amplitude, wavelength, 1e3).unwrap();
-        assert!((found.jkr_factor / factor - 1.0).abs() < 0.02, "{found:?} {factor}");
+        assert!(
+            (found.jkr_factor / factor - 1.0).abs() < 0.02,
+            "{found:?} {factor}"
+        );
         assert!((found.ratio - wavelength.powi(2) / amplitude).abs() < 1e-9 * found.ratio);
     }
     assert_eq!(of(0.01, 0.4, 1e3), None);

@@ -19,22 +19,44 @@ pub(super) struct List {
 
 /// Finds the columns of a list of points; `None` if the columns are rows of a map.
 pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceError> {
-    let places = |role: Role| columns.iter().enumerate().filter(move |(_, column)| column.role == role);
+    let places = |role: Role| {
+        columns
+            .iter()
+            .enumerate()
+            .filter(move |(_, column)| column.role == role)
+    };
     // `point 1`, `point 2` … are names of other things.
     let single = |role: Role| {
         let mut found = places(role).map(|(place, _)| place);
         found.next().filter(|_| found.next().is_none())
     };
     let beside = [single(Role::Number), single(Role::Valid)];
-    let rest: Vec<usize> = (0..columns.len()).filter(|place| !beside.contains(&Some(*place))).collect();
+    let rest: Vec<usize> = (0..columns.len())
+        .filter(|place| !beside.contains(&Some(*place)))
+        .collect();
     let (x, y, height) = (single(Role::X), single(Role::Y), single(Role::Height));
-    let list =
-        |x: Option<usize>, y: Option<usize>, height: usize| Ok(Some(List { x, y, height, valid: beside[1] }));
-    let other = |one: usize, two: usize| rest.iter().copied().find(|place| *place != one && *place != two);
-    let has_unknown_name =
-        || rest.iter().any(|&place| columns[place].role == Role::Unknown && !columns[place].name.is_empty());
+    let list = |x: Option<usize>, y: Option<usize>, height: usize| {
+        Ok(Some(List {
+            x,
+            y,
+            height,
+            valid: beside[1],
+        }))
+    };
+    let other = |one: usize, two: usize| {
+        rest.iter()
+            .copied()
+            .find(|place| *place != one && *place != two)
+    };
+    let has_unknown_name = || {
+        rest.iter()
+            .any(|&place| columns[place].role == Role::Unknown && !columns[place].name.is_empty())
+    };
     let is_usual = || {
-        [x, y, height].into_iter().zip(&rest).all(|(found, usual)| found.is_none_or(|found| found == *usual))
+        [x, y, height]
+            .into_iter()
+            .zip(&rest)
+            .all(|(found, usual)| found.is_none_or(|found| found == *usual))
     };
     match rest[..] {
         [height] => return list(None, None, height),
@@ -54,16 +76,21 @@ pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceErr
                 return list(Some(first), Some(second), third);
             }
         }
-        _ if rest.len() > MOST_NAMED && beside == [None; 2] && (x.is_none() || y.or(height).is_none()) => {
+        _ if rest.len() > MOST_NAMED
+            && beside == [None; 2]
+            && (x.is_none() || y.or(height).is_none()) =>
+        {
             return Ok(None);
         }
         _ => {}
     }
-    let names: Vec<String> =
-        columns.iter().take(8).map(|column| format!("{:?}", shown(&column.name))).collect();
+    let names: Vec<String> = columns
+        .iter()
+        .take(8)
+        .map(|column| format!("{:?}", shown(&column.name)))
+        .collect();
     let fault = format!("{} columns {}", columns.len(), names.join(", "));
-    let allowed =
-        "a height, x and a height, or x, y and a height, beside a number of the point and a column valid";
+    let allowed = "a height, x and a height, or x, y and a height, beside a number of the point and a column valid";
     Err(refused(Place::File, fault, allowed))
 }
 
@@ -100,10 +127,16 @@ mod tests {
         }
         assert_eq!(list("point 1,point 2,point 3,point 4"), Ok(None));
         assert_eq!(list("a,b,c,d"), Ok(None));
-        for names in ["x,z,intensity", "x,y,z,intensity", "index,a,b,c,d", "index,valid"] {
+        for names in [
+            "x,z,intensity",
+            "x,y,z,intensity",
+            "index,a,b,c,d",
+            "index,valid",
+        ] {
             let error = list(names).unwrap_err();
             assert!(
-                error.contains("columns \"") && error.contains("; allowed: a height, x and a height"),
+                error.contains("columns \"")
+                    && error.contains("; allowed: a height, x and a height"),
                 "{error}"
             );
         }

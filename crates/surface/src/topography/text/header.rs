@@ -1,7 +1,9 @@
 //! Header before the numbers of a text: units, sizes, and the lines that may name columns.
 
 use super::super::Unit;
-use asperity_data::text_table::{COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, is_one_of};
+use asperity_data::text_table::{
+    COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, is_one_of,
+};
 
 /// Largest length in bytes of a header line that is examined.
 const LONGEST: usize = 4096;
@@ -18,7 +20,12 @@ const OF_POSITIONS: &str = "xy lateral position positions distance";
 const OF_ALL: &str = "length lengths de измерения";
 
 /// Keys of the distance between points of a map, along both axes and along each.
-const SPACING: [&str; 4] = ["xy calibration", "pixel size", "sampling distance", "pixel_size"];
+const SPACING: [&str; 4] = [
+    "xy calibration",
+    "pixel size",
+    "sampling distance",
+    "pixel_size",
+];
 const SPACING_OF_AXIS: [&str; 2] = ["scale x", "scale y"];
 
 /// Keys of the number of columns and of rows.
@@ -68,7 +75,10 @@ pub struct TextHeader {
 impl TextHeader {
     /// Creates a header that states this unit for all lengths.
     pub fn in_unit(unit: Option<Unit>) -> TextHeader {
-        TextHeader { unit, ..TextHeader::default() }
+        TextHeader {
+            unit,
+            ..TextHeader::default()
+        }
     }
 
     /// Reads a line. It may be `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may
@@ -82,29 +92,47 @@ impl TextHeader {
     }
 
     fn take_entry(&mut self, line: &str) -> bool {
-        let Some((key, value)) = entry(line) else { return false };
+        let Some((key, value)) = entry(line) else {
+            return false;
+        };
         if is_one_of(&key, CHANNEL) {
             self.channel = Some(value);
         } else if let Some(axes) = axes_of_unit(&key) {
-            match (value.trim_matches(['[', ']', '(', ')']).parse().ok(), &axes[..]) {
+            match (
+                value.trim_matches(['[', ']', '(', ')']).parse().ok(),
+                &axes[..],
+            ) {
                 (Some(unit), []) => self.unit = Some(unit),
                 (Some(unit), axes) => axes.iter().for_each(|axis| self.units[*axis] = Some(unit)),
                 (None, [2]) => self.other_unit = Some(value),
                 (None, _) => return false,
             }
-        } else if let Some(axis) = [WIDTH, HEIGHT].iter().position(|names| is_one_of(&key, names)) {
+        } else if let Some(axis) = [WIDTH, HEIGHT]
+            .iter()
+            .position(|names| is_one_of(&key, names))
+        {
             // Lengths of SPIP are in nm, unless it states a unit for the axis.
-            let bare = number(&value).filter(|_| key.ends_with("length")).map(|size| (size, None));
-            let Some(size) = length(&value).or(bare) else { return false };
+            let bare = number(&value)
+                .filter(|_| key.ends_with("length"))
+                .map(|size| (size, None));
+            let Some(size) = length(&value).or(bare) else {
+                return false;
+            };
             self.sizes[axis] = Some(size);
         } else if SPACING.contains(&&*key) {
-            let Some(spacing) = length(&value) else { return self.take_wyko(&key, &value) };
+            let Some(spacing) = length(&value) else {
+                return self.take_wyko(&key, &value);
+            };
             self.spacing = [Some(spacing); 2];
         } else if let Some(axis) = SPACING_OF_AXIS.iter().position(|name| *name == key) {
-            let Some(spacing) = number(&value) else { return false };
+            let Some(spacing) = number(&value) else {
+                return false;
+            };
             self.spacing[axis] = Some((spacing, None));
         } else if let Some(axis) = COUNTS.iter().position(|names| is_one_of(&key, names)) {
-            let Ok(count) = value.parse() else { return false };
+            let Ok(count) = value.parse() else {
+                return false;
+            };
             self.counts[axis] = Some(count);
         } else {
             return self.take_factor(&key, &value) || self.take_wyko(&key, &value);
@@ -140,7 +168,12 @@ impl TextHeader {
             self.units[2] = NANOMETRE.parse().ok();
             return true;
         }
-        let Some(number) = value.rsplit(' ').next().and_then(number).filter(|_| self.is_along_y) else {
+        let Some(number) = value
+            .rsplit(' ')
+            .next()
+            .and_then(number)
+            .filter(|_| self.is_along_y)
+        else {
             return false;
         };
         let unit: Option<Unit> = MILLIMETRE.parse().ok();
@@ -171,10 +204,13 @@ impl TextHeader {
         };
         let nanometre = NANOMETRE.parse().ok();
         let size = |axis: usize| metres(&self.sizes, axis, nanometre);
-        let of_sizes =
-            size(0).zip(size(1)).map(|(width, height)| [width / columns as f64, height / rows as f64]);
+        let of_sizes = size(0)
+            .zip(size(1))
+            .map(|(width, height)| [width / columns as f64, height / rows as f64]);
         of_sizes.or_else(|| {
-            metres(&self.spacing, 0, None).zip(metres(&self.spacing, 1, None)).map(<[f64; 2]>::from)
+            metres(&self.spacing, 0, None)
+                .zip(metres(&self.spacing, 1, None))
+                .map(<[f64; 2]>::from)
         })
     }
 
@@ -182,14 +218,20 @@ impl TextHeader {
     pub fn scale(&self) -> f64 {
         let of_unit = self.nanometres.filter(|_| self.units[2].is_none());
         let of_data = self.data_scale.0.filter(|_| self.data_scale.1);
-        [self.factor, of_unit, of_data].into_iter().flatten().product()
+        [self.factor, of_unit, of_data]
+            .into_iter()
+            .flatten()
+            .product()
     }
 
     /// Returns the unit of x (0), y (1) or heights (2): as the column states, else as a key states.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
-        let of_axis =
-            self.units[axis].or_else(|| self.nanometres.filter(|_| axis == 2).and(NANOMETRE.parse().ok()));
+        let of_axis = self.units[axis].or_else(|| {
+            self.nanometres
+                .filter(|_| axis == 2)
+                .and(NANOMETRE.parse().ok())
+        });
         of_column.or(of_axis).or(self.unit)
     }
 }
@@ -209,7 +251,10 @@ fn entry(line: &str) -> Option<(String, String)> {
 /// Returns the axes whose unit a key states: x (0), y (1) and heights (2). The list is empty for the unit of all lengths, and
 /// `None` for another key.
 fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
-    let words = || key.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let words = || {
+        key.split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty())
+    };
     if !words().any(|word| is_one_of(word, UNIT)) {
         return None;
     }
@@ -223,7 +268,11 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
             _ => return None,
         });
     }
-    if key == "値の単位" { Some(vec![2]) } else { Some(axes) }
+    if key == "値の単位" {
+        Some(vec![2])
+    } else {
+        Some(axes)
+    }
 }
 
 /// Reads a number in any notation.
@@ -238,7 +287,11 @@ fn number(text: &str) -> Option<f64> {
 fn length(text: &str) -> Option<Length> {
     let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
     let (value, unit) = text.split_at(end);
-    let unit = unit.split('/').next()?.trim().trim_matches(['[', ']', '(', ')']);
+    let unit = unit
+        .split('/')
+        .next()?
+        .trim()
+        .trim_matches(['[', ']', '(', ')']);
     Some((number(value)?, Some(unit.parse().ok()?)))
 }
 
@@ -257,7 +310,8 @@ mod tests {
     fn units(lines: &[&str]) -> [Option<&'static str>; 2] {
         let header = header(lines);
         let columns = header.lines.columns(2, 2, Separator::SPACE, Unit::is_name);
-        [(0, 0), (2, 1)].map(|(axis, column)| header.unit(axis, Some(&columns[column])).map(Unit::name))
+        [(0, 0), (2, 1)]
+            .map(|(axis, column)| header.unit(axis, Some(&columns[column])).map(Unit::name))
     }
 
     #[test]
@@ -305,7 +359,10 @@ mod tests {
         use Role::{Height, Number, Unknown, Valid, X, Y};
         for (line, roles) in [
             ("x y z", vec![X, Y, Height]),
-            ("Index;Position X;Position Y;Height [nm]", vec![Number, X, Y, Height]),
+            (
+                "Index;Position X;Position Y;Height [nm]",
+                vec![Number, X, Y, Height],
+            ),
             (",z,x", vec![Number, Height, X]),
             ("no. of point;a", vec![Number, Unknown]),
             ("X;Y;valid", vec![X, Y, Valid]),
@@ -315,25 +372,44 @@ mod tests {
             let count = roles.len();
             let mut header = TextHeader::default();
             header.lines.take(line);
-            let found = header.lines.columns(count, count, Separator::of(line), Unit::is_name);
-            assert_eq!(found.iter().map(|column| column.role).collect::<Vec<_>>(), roles, "{line}");
+            let found = header
+                .lines
+                .columns(count, count, Separator::of(line), Unit::is_name);
+            assert_eq!(
+                found.iter().map(|column| column.role).collect::<Vec<_>>(),
+                roles,
+                "{line}"
+            );
         }
     }
 
     #[test]
     fn sizes_distances_and_channels_are_entries() {
-        let sizes = header(&["# Width: 2,5 µm", "# Height: 1.0mm", "# Width of nothing: 5"]).distances(1, 1);
+        let sizes = header(&[
+            "# Width: 2,5 µm",
+            "# Height: 1.0mm",
+            "# Width of nothing: 5",
+        ])
+        .distances(1, 1);
         assert_eq!(sizes, Some([2.5e-6, 1e-3]));
         for [width, height, channel, unit] in [
             ["Breite: 4,0 µm", "Höhe: 3 µm", "Kanal: A", "Einheiten: nm"],
-            ["Šířka: 4 µm", "Výška: 3 (µm)", "Kanál: A", "Jednotky hodnot: nm"],
+            [
+                "Šířka: 4 µm",
+                "Výška: 3 (µm)",
+                "Kanál: A",
+                "Jednotky hodnot: nm",
+            ],
             ["Largeur = 4 µm", "Hauteur: 3 µm", "Canal : A", "Unités: nm"],
             ["幅：4 µm", "高さ：3 µm", "チャネル：A", "値の単位：nm"],
         ] {
             let found = header(&[width, height, channel, unit]);
             assert_eq!(found.distances(1, 1), Some([4e-6, 3e-6]), "{width}");
             assert_eq!(
-                (found.channel.as_deref(), found.unit(2, None).map(Unit::name)),
+                (
+                    found.channel.as_deref(),
+                    found.unit(2, None).map(Unit::name)
+                ),
                 (Some("A"), Some("nm"))
             );
         }
@@ -344,8 +420,14 @@ mod tests {
             "\"Unit\",\"um\"",
             "\"Height\"",
         ]);
-        assert_eq!((keyence.distances(40, 2), keyence.counts), (Some([5e-7; 2]), [Some(40), None]));
+        assert_eq!(
+            (keyence.distances(40, 2), keyence.counts),
+            (Some([5e-7; 2]), [Some(40), None])
+        );
         assert_eq!(keyence.unit(2, None).map(Unit::name), Some("µm"));
-        assert_eq!(header(&["Value units: deg"]).other_unit.as_deref(), Some("deg"));
+        assert_eq!(
+            header(&["Value units: deg"]).other_unit.as_deref(),
+            Some("deg")
+        );
     }
 }

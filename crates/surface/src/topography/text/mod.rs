@@ -36,19 +36,30 @@ struct Part {
 /// lengths.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     // Tables of results are in SI units.
-    let metre = bytes.starts_with(PROVENANCE.as_bytes()).then_some(Unit::METRE);
-    let mut parts = vec![Part { header: TextHeader::in_unit(metre), table: None }];
+    let metre = bytes
+        .starts_with(PROVENANCE.as_bytes())
+        .then_some(Unit::METRE);
+    let mut parts = vec![Part {
+        header: TextHeader::in_unit(metre),
+        table: None,
+    }];
     let (mut before, mut last_line) = (None::<(usize, String)>, 0);
     each_line(bytes, |number, line| {
         last_line = number;
         let is_comment = line.starts_with(COMMENT);
         if is_new_part(&parts, line, is_comment) {
             if parts.len() == MOST_PARTS {
-                return Err(refused(Place::Line(number), format!("more than {MOST_PARTS} headers"), "fewer"));
+                return Err(refused(
+                    Place::Line(number),
+                    format!("more than {MOST_PARTS} headers"),
+                    "fewer",
+                ));
             }
             parts.push(Part::default());
         }
-        let Some(Part { header, table }) = parts.last_mut() else { return Ok(()) };
+        let Some(Part { header, table }) = parts.last_mut() else {
+            return Ok(());
+        };
         match table {
             Some(table) if line.is_empty() => table.pause(),
             Some(_) if is_comment => {}
@@ -60,14 +71,21 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
             }
             None => {
                 let before = before.take();
-                *table =
-                    Some(Table::new(before.as_ref().map(|(number, line)| (*number, &**line)), number, line)?);
+                *table = Some(Table::new(
+                    before.as_ref().map(|(number, line)| (*number, &**line)),
+                    number,
+                    line,
+                )?);
             }
         }
         Ok(())
     })?;
     let (chosen, rows) = chosen(&parts, channel)?;
-    let Part { header, table: Some(table) } = parts.swap_remove(chosen) else {
+    let Part {
+        header,
+        table: Some(table),
+    } = parts.swap_remove(chosen)
+    else {
         return Err(no_numbers());
     };
     // Behind the last line end is an empty line.
@@ -77,7 +95,12 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
 
 /// Returns true for a line after numbers that begins another header: words, or a comment with the name of a channel.
 fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
-    let Some(Part { table: Some(table), .. }) = parts.last() else { return false };
+    let Some(Part {
+        table: Some(table), ..
+    }) = parts.last()
+    else {
+        return false;
+    };
     if !is_comment {
         return !line.is_empty() && table.is_heading(line);
     }
@@ -87,24 +110,37 @@ fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
 }
 
 fn no_numbers() -> SurfaceError {
-    refused(Place::File, "no line of numbers", "a line of numbers for each point or row")
+    refused(
+        Place::File,
+        "no line of numbers",
+        "a line of numbers for each point or row",
+    )
 }
 
 /// Returns the index of the part and the rows of the channel with this number. Without a number, chooses the only channel, or the
 /// only one whose heights are lengths.
 fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), SurfaceError> {
-    let with_numbers =
-        parts.iter().enumerate().filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
+    let with_numbers = parts
+        .iter()
+        .enumerate()
+        .filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
     let channels: Vec<(usize, Range<usize>)> = with_numbers
         .flat_map(|(index, table)| table.parts().into_iter().map(move |rows| (index, rows)))
         .collect();
     if let [only] = &channels[..] {
         return Ok(only.clone());
     }
-    let is_length = |(part, _): &&(usize, Range<usize>)| parts[*part].header.unit(2, None).is_some();
-    let may_be_length = |(part, _): &&(usize, Range<usize>)| parts[*part].header.other_unit.is_none();
-    let wanted = channel.and_then(|channel| channels.get(channel as usize)).filter(may_be_length);
-    let mut lengths = channels.iter().filter(is_length).filter(|_| channel.is_none());
+    let is_length =
+        |(part, _): &&(usize, Range<usize>)| parts[*part].header.unit(2, None).is_some();
+    let may_be_length =
+        |(part, _): &&(usize, Range<usize>)| parts[*part].header.other_unit.is_none();
+    let wanted = channel
+        .and_then(|channel| channels.get(channel as usize))
+        .filter(may_be_length);
+    let mut lengths = channels
+        .iter()
+        .filter(is_length)
+        .filter(|_| channel.is_none());
     match (wanted.or(lengths.next()), lengths.next()) {
         (Some(chosen), None) => return Ok(chosen.clone()),
         _ if channels.is_empty() => return Err(no_numbers()),
@@ -112,19 +148,39 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
     }
     let describe = |(number, (part, rows)): (usize, &(usize, Range<usize>))| {
         let Part { header, table } = &parts[*part];
-        let name = header.channel.as_ref().map(|name| format!(" {:?}", shown(name))).unwrap_or_default();
-        let unit = header.unit(2, None).map(Unit::name).or(header.other_unit.as_deref());
-        let unit = unit.map(|unit| format!(" in {}", shown(unit))).unwrap_or_default();
+        let name = header
+            .channel
+            .as_ref()
+            .map(|name| format!(" {:?}", shown(name)))
+            .unwrap_or_default();
+        let unit = header
+            .unit(2, None)
+            .map(Unit::name)
+            .or(header.other_unit.as_deref());
+        let unit = unit
+            .map(|unit| format!(" in {}", shown(unit)))
+            .unwrap_or_default();
         let line = table.as_ref().map_or(0, |table| table.line(rows.start));
         format!("{number}{name}{unit} from line {line}")
     };
-    let mut listed: Vec<String> = channels.iter().enumerate().take(MOST_LISTED).map(describe).collect();
+    let mut listed: Vec<String> = channels
+        .iter()
+        .enumerate()
+        .take(MOST_LISTED)
+        .map(describe)
+        .collect();
     if channels.len() > MOST_LISTED {
         listed.push("…".to_owned());
     }
-    let none = channel.map(|channel| format!("no lengths in channel {channel} of ")).unwrap_or_default();
+    let none = channel
+        .map(|channel| format!("no lengths in channel {channel} of "))
+        .unwrap_or_default();
     let fault = format!("{none}{} channels: {}", channels.len(), listed.join(", "));
-    Err(refused(Place::File, fault, "--channel with the number of one, in a scene roughness.channel"))
+    Err(refused(
+        Place::File,
+        fault,
+        "--channel with the number of one, in a scene roughness.channel",
+    ))
 }
 
 #[cfg(test)]
@@ -158,12 +214,30 @@ mod tests {
     #[test]
     fn wrong_lines_are_named() {
         for (lines, expected) in [
-            ("1 2\n1 3", "line 2: x = 1e0 after 1e0; allowed: another position than before"),
-            ("1 2\n2 3\n1.5 3", "line 3: x = 1.5e0 after 2e0; allowed: ascending positions, as before"),
-            ("3 2\n2 3\n2.5 3", "line 3: x = 2.5e0 after 2e0; allowed: descending positions, as before"),
-            ("1 2\n2 3 4", "line 1: 1 2 is no count of the 1 lines of 3 columns that follow"),
-            ("1 2\n2 3\n3 4 5", "line 3: 3 columns; allowed: 2, position and height"),
-            ("1 2 3 4\n1 2 3", "line 2: 3 columns; allowed: 4, as in the first row"),
+            (
+                "1 2\n1 3",
+                "line 2: x = 1e0 after 1e0; allowed: another position than before",
+            ),
+            (
+                "1 2\n2 3\n1.5 3",
+                "line 3: x = 1.5e0 after 2e0; allowed: ascending positions, as before",
+            ),
+            (
+                "3 2\n2 3\n2.5 3",
+                "line 3: x = 2.5e0 after 2e0; allowed: descending positions, as before",
+            ),
+            (
+                "1 2\n2 3 4",
+                "line 1: 1 2 is no count of the 1 lines of 3 columns that follow",
+            ),
+            (
+                "1 2\n2 3\n3 4 5",
+                "line 3: 3 columns; allowed: 2, position and height",
+            ),
+            (
+                "1 2 3 4\n1 2 3",
+                "line 2: 3 columns; allowed: 4, as in the first row",
+            ),
             (
                 "7\n1 2\n2 3\n3 4",
                 "line 1: 7 is no count of the 3 lines of 2 columns that follow; allowed: numbers of lines, of",
@@ -173,11 +247,20 @@ mod tests {
                 "3 columns \"x\", \"z\", \"error\"; allowed: a height, x and a height, or",
             ),
             ("0 1 what 3\n1 2 3 4", "line 1: \"what\"; allowed: a number"),
-            ("1 2\n2 what", "line 2: \"what\"; allowed: a number from -1e9 to 1e9"),
+            (
+                "1 2\n2 what",
+                "line 2: \"what\"; allowed: a number from -1e9 to 1e9",
+            ),
             ("1 2\ninf 2", "line 2: \"inf\"; allowed: a number from"),
-            ("0,5;1\n1.5;2", "line 2: \"1.5\" has another decimal mark than the numbers before"),
+            (
+                "0,5;1\n1.5;2",
+                "line 2: \"1.5\" has another decimal mark than the numbers before",
+            ),
             ("1;2\n;3", "line 2: a position is missing"),
-            ("x;z\n", "no line of numbers; allowed: a line of numbers for each point or row"),
+            (
+                "x;z\n",
+                "no line of numbers; allowed: a line of numbers for each point or row",
+            ),
         ] {
             let error = text(lines).unwrap_err();
             assert!(error.starts_with(expected), "{lines:?}: {error}");
@@ -224,22 +307,38 @@ mod tests {
     fn channels_are_chosen_and_never_joined() {
         let channel = |name: &str, unit: &str, first: f64| {
             let rows = format!("{first} 2 3 4\n5 6 7 9\n");
-            format!("# Channel: {name}\n# Width: 4 nm\n# Height: 2 nm\n# Value units: {unit}\n{rows}")
+            format!(
+                "# Channel: {name}\n# Width: 4 nm\n# Height: 2 nm\n# Value units: {unit}\n{rows}"
+            )
         };
-        let both = format!("{}\n{}", channel("Phase", "deg", 10.0), channel("Height", "nm", 20.0));
+        let both = format!(
+            "{}\n{}",
+            channel("Phase", "deg", 10.0),
+            channel("Height", "nm", 20.0)
+        );
         let found = text(&both).unwrap();
-        assert_eq!((found.heights[0], found.heights.len(), found.spacing), (20.0, 8, Some([1e-9; 2])));
-        let two = format!("{}{}", channel("Height", "nm", 10.0), channel("Retrace", "nm", 20.0));
+        assert_eq!(
+            (found.heights[0], found.heights.len(), found.spacing),
+            (20.0, 8, Some([1e-9; 2]))
+        );
+        let two = format!(
+            "{}{}",
+            channel("Height", "nm", 10.0),
+            channel("Retrace", "nm", 20.0)
+        );
         assert_eq!(
             text(&two).unwrap_err(),
             "2 channels: 0 \"Height\" in nm from line 5, 1 \"Retrace\" in nm from line 11; allowed: --channel with the number \
              of one, in a scene roughness.channel"
         );
-        let chosen =
-            |text: &str, channel| read(text.as_bytes(), Some(channel)).map_err(|error| error.to_string());
+        let chosen = |text: &str, channel| {
+            read(text.as_bytes(), Some(channel)).map_err(|error| error.to_string())
+        };
         assert_eq!(chosen(&two, 1).unwrap().heights[0], 20.0);
         assert!(
-            chosen(&two, 2).unwrap_err().starts_with("no lengths in channel 2 of 2 channels: 0 \"Height\"")
+            chosen(&two, 2)
+                .unwrap_err()
+                .starts_with("no lengths in channel 2 of 2 channels: 0 \"Height\"")
         );
         assert!(
             chosen(&both, 0)
@@ -254,13 +353,31 @@ mod tests {
                 .starts_with("2 channels: 0 from line 1, 1 from line 4; allowed: --channel")
         );
         assert_eq!(chosen(rows, 1).unwrap().heights[0], 11.0);
-        assert_eq!(text("1 2 3 4\n\n5 6 7 9\n\n1 2 3 4\n").unwrap().heights.len(), 12);
+        assert_eq!(
+            text("1 2 3 4\n\n5 6 7 9\n\n1 2 3 4\n")
+                .unwrap()
+                .heights
+                .len(),
+            12
+        );
         let profiles = "x z\n0 1\n1 2\nx z\n0 5\n1 6\n";
-        assert!(text(profiles).unwrap_err().starts_with("2 channels: 0 from line 2, 1 from line 5"));
+        assert!(
+            text(profiles)
+                .unwrap_err()
+                .starts_with("2 channels: 0 from line 2, 1 from line 5")
+        );
         assert_eq!(chosen(profiles, 1).unwrap().heights, [5.0, 6.0]);
-        assert!(text("0 1\n1 2\n\n0 5\n1 6\n").unwrap_err().starts_with("line 4: x = 0e0 after 1e0"));
+        assert!(
+            text("0 1\n1 2\n\n0 5\n1 6\n")
+                .unwrap_err()
+                .starts_with("line 4: x = 0e0 after 1e0")
+        );
         let many = "0 1\nx z\n".repeat(MOST_PARTS);
-        assert!(text(&many).unwrap_err().starts_with("line 512: more than 256 headers"));
+        assert!(
+            text(&many)
+                .unwrap_err()
+                .starts_with("line 512: more than 256 headers")
+        );
     }
 
     #[test]
@@ -279,8 +396,16 @@ mod tests {
                 [0.5, 0.25],
                 1.0,
             ),
-            ("# x-length = 2000\n# y-length = 500\n# Bit2nm = 0.1", [0.5, 0.25], 0.1),
-            ("# x-length: 2\n# y-length: 0.5\n# x-unit: um\n# y-unit: um\n# z-unit: nm", [0.5, 0.25], 1.0),
+            (
+                "# x-length = 2000\n# y-length = 500\n# Bit2nm = 0.1",
+                [0.5, 0.25],
+                0.1,
+            ),
+            (
+                "# x-length: 2\n# y-length: 0.5\n# x-unit: um\n# y-unit: um\n# z-unit: nm",
+                [0.5, 0.25],
+                1.0,
+            ),
             (&format!("{nova}no"), [0.5, 0.25], 1.0),
             (&format!("{nova}yes"), [0.5, 0.25], 0.1),
             (
@@ -288,7 +413,11 @@ mod tests {
                 [0.25; 2],
                 0.1,
             ),
-            ("Width=2µm\nHeight: 0.5 (µm)\nValue units: nm", [0.5, 0.25], 1.0),
+            (
+                "Width=2µm\nHeight: 0.5 (µm)\nValue units: nm",
+                [0.5, 0.25],
+                1.0,
+            ),
             (&wyko("1"), [0.25, 0.5], 1.0),
             (&wyko("0"), [0.25, 0.5], 10.0),
         ] {
@@ -296,9 +425,15 @@ mod tests {
                 .map_err(|error| format!("{header}: {error}"))
                 .unwrap();
             let lateral = found.units[0].unwrap();
-            let distances =
-                found.spacing.unwrap().map(|distance| (lateral.to_metres(distance) * 1e9).round() / 1e3);
-            assert_eq!((distances, found.units[2].map(Unit::name)), (spacing, Some("nm")), "{header}");
+            let distances = found
+                .spacing
+                .unwrap()
+                .map(|distance| (lateral.to_metres(distance) * 1e9).round() / 1e3);
+            assert_eq!(
+                (distances, found.units[2].map(Unit::name)),
+                (spacing, Some("nm")),
+                "{header}"
+            );
             // Lines of Wyko run along y.
             let (columns, order) = if header.starts_with("Wyko") {
                 (2, [1.0, 5.0, 2.0, 7.0, 3.0, 6.0, 4.0, 8.0])
@@ -324,9 +459,14 @@ mod tests {
         );
         // The distance has a unit of its own, so that the option is that of the heights.
         let with = |unit: &str| {
-            let options = ReadOptions { unit: unit.parse().ok(), ..ReadOptions::default() };
+            let options = ReadOptions {
+                unit: unit.parse().ok(),
+                ..ReadOptions::default()
+            };
             let found = read(keyence.as_bytes(), None).unwrap().resolve(&options);
-            found.map(|map| (map.heights[0], map.spacing().unwrap())).map_err(|error| error.to_string())
+            found
+                .map(|map| (map.heights[0], map.spacing().unwrap()))
+                .map_err(|error| error.to_string())
         };
         assert_eq!(with("um"), Ok((1e-6, [5e-7; 2])));
         assert!(
@@ -340,21 +480,43 @@ mod tests {
             "4 columns of numbers, 5 in the header; allowed: as many as the header states"
         );
         let points = text("x [mm] y [µm] z [nm]\n0 0 1\n1 0 2\n0 5 3\n1 5 4\n").unwrap();
-        assert_eq!((points.spacing, units(&points)), (Some([1.0, 5.0]), [Some("mm"), Some("nm")]));
+        assert_eq!(
+            (points.spacing, units(&points)),
+            (Some([1.0, 5.0]), [Some("mm"), Some("nm")])
+        );
         assert_eq!(points.units[1].map(Unit::name), Some("µm"));
         let one = text("x [mm] y z [nm]\n0 0 1\n1 0 2\n0 5 3\n1 5 4\n").unwrap_err();
-        assert!(one.starts_with("mm is the unit of one position, and the other one has none"), "{one}");
+        assert!(
+            one.starts_with("mm is the unit of one position, and the other one has none"),
+            "{one}"
+        );
         let rough = |row: usize| {
-            (0..9).map(move |column| (3.7 * ((row * 9 + column) * (column + 2)) as f64).sin().to_string())
+            (0..9).map(move |column| {
+                (3.7 * ((row * 9 + column) * (column + 2)) as f64)
+                    .sin()
+                    .to_string()
+            })
         };
-        let positions =
-            (0..9).map(|column| format!("{}", 0.25 * f64::from(column))).collect::<Vec<_>>().join(",");
-        let rows =
-            (0..9).map(|row| format!("{},{}\n", 0.5 * row as f64, rough(row).collect::<Vec<_>>().join(",")));
-        let matrix =
-            format!("Unit X = um\nUnit Y = um\nUnit Z = nm\ny\\x,{positions}\n{}", rows.collect::<String>());
+        let positions = (0..9)
+            .map(|column| format!("{}", 0.25 * f64::from(column)))
+            .collect::<Vec<_>>()
+            .join(",");
+        let rows = (0..9).map(|row| {
+            format!(
+                "{},{}\n",
+                0.5 * row as f64,
+                rough(row).collect::<Vec<_>>().join(",")
+            )
+        });
+        let matrix = format!(
+            "Unit X = um\nUnit Y = um\nUnit Z = nm\ny\\x,{positions}\n{}",
+            rows.collect::<String>()
+        );
         let found = text(&matrix).unwrap();
-        assert_eq!((found.columns, found.heights.len(), found.spacing), (9, 81, Some([0.25, 0.5])));
+        assert_eq!(
+            (found.columns, found.heights.len(), found.spacing),
+            (9, 81, Some([0.25, 0.5]))
+        );
         assert_eq!(
             (found.heights[80].to_string(), units(&found)),
             (rough(8).next_back().unwrap(), [Some("µm"), Some("nm")])
@@ -363,8 +525,9 @@ mod tests {
 
     #[test]
     fn a_number_that_is_cut_off_is_a_warning() {
-        let rows: String =
-            (0..50).map(|i| format!("{:.2e} 3e-9 1e-9 2e-9\n", 1e-9 * f64::from(i * i % 11))).collect();
+        let rows: String = (0..50)
+            .map(|i| format!("{:.2e} 3e-9 1e-9 2e-9\n", 1e-9 * f64::from(i * i % 11)))
+            .collect();
         let cut = |end: usize| text(&rows[..rows.len() - end]).unwrap().warnings;
         assert_eq!((cut(0), cut(1)), (vec![], vec![]));
         let warnings = cut(4);
@@ -374,6 +537,9 @@ mod tests {
         );
         let fill = rows.replacen("1e-9", "-9999", 1);
         let warnings = text(&fill).unwrap().warnings;
-        assert!(warnings[0].starts_with("line 1: the height -9.999e3 is "), "{warnings:?}");
+        assert!(
+            warnings[0].starts_with("line 1: the height -9.999e3 is "),
+            "{warnings:?}"
+        );
     }
 }

@@ -51,9 +51,15 @@ fn widths(separator: Separator, line: &str) -> (usize, usize) {
 
 /// Returns an error if one of the two axes of positions has a unit and the other has none.
 fn check_both([x, y]: [Option<Unit>; 2]) -> Result<(), SurfaceError> {
-    let (Some(unit), None) = (x.or(y), x.and(y)) else { return Ok(()) };
+    let (Some(unit), None) = (x.or(y), x.and(y)) else {
+        return Ok(());
+    };
     let found = format!("{unit} is the unit of one position, and the other one has none");
-    Err(refused(Place::File, found, "units of both x and y in the file, or of none"))
+    Err(refused(
+        Place::File,
+        found,
+        "units of both x and y in the file, or of none",
+    ))
 }
 
 fn is_word(cell: &str) -> bool {
@@ -93,17 +99,29 @@ impl Table {
 
     /// Begins a table with its first line of numbers. The line before belongs to the table if it has as many cells, most of them
     /// numbers: positions after a word, as in `y\x 0 1 2`.
-    pub fn new(before: Option<(usize, &str)>, number: usize, line: &str) -> Result<Self, SurfaceError> {
+    pub fn new(
+        before: Option<(usize, &str)>,
+        number: usize,
+        line: &str,
+    ) -> Result<Self, SurfaceError> {
         let mut table = Table::empty(line);
         if let Some((number, before)) = before {
             let separator = table.separator;
-            let is_number =
-                |cell: &str| matches!(Decimal::default().read(cell, separator), TextCell::Number(_));
+            let is_number = |cell: &str| {
+                matches!(
+                    Decimal::default().read(cell, separator),
+                    TextCell::Number(_)
+                )
+            };
             let mut cells = separator.split(before);
             let first = cells.next().unwrap_or_default();
-            let numbers = separator.split(before).filter(|cell| is_number(cell)).count();
+            let numbers = separator
+                .split(before)
+                .filter(|cell| is_number(cell))
+                .count();
             let is_same = widths(separator, before).1 == table.width;
-            let has_corner = numbers > MOST_COUNTS && numbers + 1 == table.width && !is_number(first);
+            let has_corner =
+                numbers > MOST_COUNTS && numbers + 1 == table.width && !is_number(first);
             if is_same && (has_corner || (2 * numbers > table.width && is_number(first))) {
                 table.take_cells(number, before, has_corner)?;
             }
@@ -121,8 +139,13 @@ impl Table {
     }
 
     pub fn line(&self, row: usize) -> usize {
-        let run = self.lines.partition_point(|(first, _)| *first <= row).saturating_sub(1);
-        self.lines.get(run).map_or(0, |(first, line)| line + row - first)
+        let run = self
+            .lines
+            .partition_point(|(first, _)| *first <= row)
+            .saturating_sub(1);
+        self.lines
+            .get(run)
+            .map_or(0, |(first, line)| line + row - first)
     }
 
     pub fn pause(&mut self) {
@@ -132,32 +155,47 @@ impl Table {
     /// Returns true for a line of words between or after lines of numbers.
     pub fn is_heading(&self, line: &str) -> bool {
         // Most lines have no letters but those of exponents.
-        if line.bytes().all(|byte| byte.is_ascii() && !(byte.is_ascii_alphabetic() && byte | 32 != b'e')) {
+        if line
+            .bytes()
+            .all(|byte| byte.is_ascii() && !(byte.is_ascii_alphabetic() && byte | 32 != b'e'))
+        {
             return false;
         }
         let mut decimal = self.decimal;
-        let is_number = |cell: &str| matches!(decimal.read(cell, self.separator), TextCell::Number(_));
+        let is_number =
+            |cell: &str| matches!(decimal.read(cell, self.separator), TextCell::Number(_));
         let width = widths(self.separator, line).1;
-        let is_other =
-            width != self.width || (width < FEW_COLUMNS && !self.separator.split(line).any(is_number));
+        let is_other = width != self.width
+            || (width < FEW_COLUMNS && !self.separator.split(line).any(is_number));
         is_other && self.separator.split(line).any(is_word)
     }
 
     /// Reads a line without white space around it. The first lines may count the rows and columns that follow.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
-        let are_counts = self.values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
+        let are_counts = self
+            .values
+            .iter()
+            .all(|value| *value >= 1.0 && value.fract() == 0.0);
         if (1..=MOST_COUNTS).contains(&self.values.len()) && self.counts.is_none() && are_counts {
             let table = Table::empty(line);
             if table.cells > self.cells {
                 let counts = (self.line(0), std::mem::take(&mut self.values));
-                *self = Table { counts: Some(counts), ..table };
+                *self = Table {
+                    counts: Some(counts),
+                    ..table
+                };
             }
         }
         self.take_cells(number, line, false)
     }
 
     /// Reads a line; with `has_corner` its first cell may be a word.
-    fn take_cells(&mut self, number: usize, line: &str, has_corner: bool) -> Result<(), SurfaceError> {
+    fn take_cells(
+        &mut self,
+        number: usize,
+        line: &str,
+        has_corner: bool,
+    ) -> Result<(), SurfaceError> {
         let (start, row) = (self.values.len(), self.rows());
         let (mut found, mut width) = (0, 0);
         reserve(&mut self.values, self.cells)?;
@@ -166,7 +204,11 @@ impl Table {
                 width = found + 1;
             }
             if found < self.cells {
-                let value = if has_corner && found == 0 { f64::NAN } else { self.value(number, cell)? };
+                let value = if has_corner && found == 0 {
+                    f64::NAN
+                } else {
+                    self.value(number, cell)?
+                };
                 self.values.push(value);
                 self.is_filled[found] |= !cell.is_empty();
                 if found < FEW_COLUMNS {
@@ -186,10 +228,18 @@ impl Table {
                 3 => "3, two positions and height".to_owned(),
                 columns => format!("{columns}, as in the first row"),
             };
-            return Err(refused(Place::Line(number), format!("{found} columns"), expected));
+            return Err(refused(
+                Place::Line(number),
+                format!("{found} columns"),
+                expected,
+            ));
         }
         self.values.resize(start + self.cells, f64::NAN);
-        if self.lines.last().is_none_or(|(first, line)| line + row - first != number) {
+        if self
+            .lines
+            .last()
+            .is_none_or(|(first, line)| line + row - first != number)
+        {
             push(&mut self.lines, (row, number))?;
         }
         if std::mem::take(&mut self.is_paused) && row > 0 {
@@ -204,19 +254,26 @@ impl Table {
             TextCell::Number(value) if value.abs() <= LARGEST * 1e12 => return Ok(value),
             TextCell::Missing => return Ok(f64::NAN),
             TextCell::OtherMark => {
-                let fault = format!("{} has another decimal mark than the numbers before", quoted());
+                let fault = format!(
+                    "{} has another decimal mark than the numbers before",
+                    quoted()
+                );
                 (fault, ONE_MARK.to_owned())
             }
-            TextCell::Number(_) | TextCell::NoNumber => {
-                (quoted(), format!("a number from -{LARGEST:e} to {LARGEST:e}"))
-            }
+            TextCell::Number(_) | TextCell::NoNumber => (
+                quoted(),
+                format!("a number from -{LARGEST:e} to {LARGEST:e}"),
+            ),
         };
         Err(refused(Place::Line(number), fault, allowed))
     }
 
     /// Returns the number of columns up to the last one with a cell that is not empty.
     fn columns(&self) -> usize {
-        self.is_filled.iter().rposition(|is_filled| *is_filled).map_or(1, |last| last + 1)
+        self.is_filled
+            .iter()
+            .rposition(|is_filled| *is_filled)
+            .map_or(1, |last| last + 1)
     }
 
     /// Returns the ranges of rows between empty lines where these separate channels. A single range is returned if each row
@@ -225,7 +282,12 @@ impl Table {
         let (rows, columns) = (self.rows(), self.columns());
         let are_apart = (columns == 1 || columns >= FEW_COLUMNS) && self.breaks.len() + 1 < rows;
         let starts = std::iter::once(0).chain(self.breaks.iter().copied().filter(|_| are_apart));
-        let ends = self.breaks.iter().copied().filter(|_| are_apart).chain([rows]);
+        let ends = self
+            .breaks
+            .iter()
+            .copied()
+            .filter(|_| are_apart)
+            .chain([rows]);
         starts.zip(ends).map(|(start, end)| start..end).collect()
     }
 
@@ -244,7 +306,9 @@ impl Table {
             self.breaks.clear();
             self.lines = vec![(0, self.line(rows.start))];
         }
-        let columns = header.lines.columns(self.columns(), cells, self.separator, Unit::is_name);
+        let columns = header
+            .lines
+            .columns(self.columns(), cells, self.separator, Unit::is_name);
         let Some(list) = list_of(&columns)? else {
             return Ok(self.map(header, is_open)?.scaled(|_| false, header.scale()));
         };
@@ -257,7 +321,8 @@ impl Table {
                     1.0 => {}
                     0.0 => *height = f64::NAN,
                     other => {
-                        let fault = format!("{other:e} in the column {:?}", shown(&columns[valid].name));
+                        let fault =
+                            format!("{other:e} in the column {:?}", shown(&columns[valid].name));
                         return Err(refused(place(row), fault, "1 for a measured point, or 0"));
                     }
                 }
@@ -267,7 +332,11 @@ impl Table {
         let warnings = warnings::of_heights(&heights, is_open, place);
         let reading = self.points(header, &columns, list, heights)?;
         let reading = reading.scaled(|_| false, header.scale());
-        Ok(Reading { first_missing, warnings, ..reading })
+        Ok(Reading {
+            first_missing,
+            warnings,
+            ..reading
+        })
     }
 
     fn points(
@@ -293,19 +362,36 @@ impl Table {
                 let map = map_of([&xs, &ys], &heights, [digits(x), digits(y)], place)?;
                 check_both([of_x, of_y])?;
                 let units = [of_x, of_y, of_heights];
-                Ok(Reading::even(format, map.heights, map.columns, map.distances, units))
+                Ok(Reading::even(
+                    format,
+                    map.heights,
+                    map.columns,
+                    map.distances,
+                    units,
+                ))
             }
             (Some(x), None) => {
                 let lateral = unit(if is_y(x) { 1 } else { 0 }, x);
                 let mut positions = self.take_positions(x)?;
                 move_to_printed_grid(&mut positions, digits(x))?;
                 self.check_order(&positions)?;
-                Ok(Reading::profile(format, positions, heights, [lateral, of_heights]))
+                Ok(Reading::profile(
+                    format,
+                    positions,
+                    heights,
+                    [lateral, of_heights],
+                ))
             }
             (None, _) => {
                 let count = heights.len();
                 let lateral = header.unit(0, None);
-                Ok(Reading::even(format, heights, count, None, [lateral, lateral, of_heights]))
+                Ok(Reading::even(
+                    format,
+                    heights,
+                    count,
+                    None,
+                    [lateral, lateral, of_heights],
+                ))
             }
         }
     }
@@ -321,23 +407,33 @@ impl Table {
         let values = std::mem::take(&mut self.values);
         let place = |row: usize| Place::Line(self.line(row));
         let digits = [self.first_line, self.digits[0]];
-        let Map { heights, columns: found, distances } =
-            matrix::without_positions(values, columns, digits, place)?;
+        let Map {
+            heights,
+            columns: found,
+            distances,
+        } = matrix::without_positions(values, columns, digits, place)?;
         // Positions take the first row and column.
         let above = columns - found;
         let line_of = |index: usize| place(index / found + above);
         let rows = heights.len() / found;
         self.check_counts(&[found, rows])?;
-        for (count, stated, name) in [(found, header.counts[0], "columns"), (rows, header.counts[1], "rows")]
-        {
+        for (count, stated, name) in [
+            (found, header.counts[0], "columns"),
+            (rows, header.counts[1], "rows"),
+        ] {
             if stated.is_some_and(|stated| stated != count) {
-                let fault =
-                    format!("{count} {name} of numbers, {} in the header", stated.unwrap_or_default());
+                let fault = format!(
+                    "{count} {name} of numbers, {} in the header",
+                    stated.unwrap_or_default()
+                );
                 return Err(refused(Place::File, fault, "as many as the header states"));
             }
         }
         let warnings = warnings::of_heights(&heights, is_open, line_of);
-        let first_missing = heights.iter().position(|height| height.is_nan()).map(line_of);
+        let first_missing = heights
+            .iter()
+            .position(|height| height.is_nan())
+            .map(line_of);
         let stated = header.distances(found, rows);
         // Sizes are in m.
         let of_axes = if stated.is_some() {
@@ -351,12 +447,20 @@ impl Table {
         let units = [of_axes[0], of_axes[1], header.unit(2, None)];
         let (heights, found, stated) = if header.is_along_y {
             let turned = (0..found).flat_map(|y| heights.iter().skip(y).step_by(found).copied());
-            (gathered(heights.len(), turned)?, rows, stated.map(|[y, x]| [x, y]))
+            (
+                gathered(heights.len(), turned)?,
+                rows,
+                stated.map(|[y, x]| [x, y]),
+            )
         } else {
             (heights, found, stated)
         };
         let reading = Reading::even("text matrix", heights, found, stated.or(distances), units);
-        Ok(Reading { first_missing, warnings, ..reading })
+        Ok(Reading {
+            first_missing,
+            warnings,
+            ..reading
+        })
     }
 
     /// Returns the positions in a column. They take the memory of all numbers, which are no longer needed.
@@ -373,8 +477,14 @@ impl Table {
     }
 
     fn check_measured(&self, positions: &[f64]) -> Result<(), SurfaceError> {
-        let Some(row) = positions.iter().position(|x| x.is_nan()) else { return Ok(()) };
-        Err(refused(Place::Line(self.line(row)), "a position is missing", "a number for each position"))
+        let Some(row) = positions.iter().position(|x| x.is_nan()) else {
+            return Ok(());
+        };
+        Err(refused(
+            Place::Line(self.line(row)),
+            "a position is missing",
+            "a number for each position",
+        ))
     }
 
     fn column(&self, column: usize) -> Result<Vec<f64>, SurfaceError> {
@@ -385,8 +495,14 @@ impl Table {
     /// Returns an error unless the numbers before the first row are the numbers of rows, of distances between them, of columns or
     /// of points.
     fn check_counts(&self, of_map: &[usize]) -> Result<(), SurfaceError> {
-        let Some((line, counts)) = &self.counts else { return Ok(()) };
-        let rows = if of_map.is_empty() { self.rows() } else { of_map[1] };
+        let Some((line, counts)) = &self.counts else {
+            return Ok(());
+        };
+        let rows = if of_map.is_empty() {
+            self.rows()
+        } else {
+            of_map[1]
+        };
         let columns = of_map.first().copied().unwrap_or(self.columns());
         let known = [rows, rows - 1, columns, rows * columns].map(|count| count as f64);
         let is_known = counts.iter().all(|count| known.contains(count));
@@ -394,15 +510,20 @@ impl Table {
             return Ok(());
         }
         let counts: Vec<String> = counts.iter().map(f64::to_string).collect();
-        let fault =
-            format!("{} is no count of the {rows} lines of {columns} columns that follow", counts.join(" "));
-        let allowed = format!("numbers of lines, of columns or of points, or {columns} columns throughout");
+        let fault = format!(
+            "{} is no count of the {rows} lines of {columns} columns that follow",
+            counts.join(" ")
+        );
+        let allowed =
+            format!("numbers of lines, of columns or of points, or {columns} columns throughout");
         Err(refused(Place::Line(*line), fault, allowed))
     }
 
     /// Returns an error unless the positions of a profile all ascend or all descend.
     fn check_order(&self, positions: &[f64]) -> Result<(), SurfaceError> {
-        let [first, second, ..] = positions else { return Ok(()) };
+        let [first, second, ..] = positions else {
+            return Ok(());
+        };
         let (is_before, allowed): (fn(f64, f64) -> bool, _) = if first < second {
             (|before, x| before < x, "ascending positions, as before")
         } else if first > second {
@@ -410,7 +531,9 @@ impl Table {
         } else {
             (|_, _| false, "another position than before")
         };
-        let turn = positions.windows(2).position(|pair| !is_before(pair[0], pair[1]));
+        let turn = positions
+            .windows(2)
+            .position(|pair| !is_before(pair[0], pair[1]));
         let Some(row) = turn else { return Ok(()) };
         let fault = format!("x = {:e} after {:e}", positions[row + 1], positions[row]);
         Err(refused(Place::Line(self.line(row + 1)), fault, allowed))

@@ -15,16 +15,32 @@ const ALONE_AT_OPEN_END: f64 = 10.0;
 const SAMPLE: usize = 4096;
 
 /// Returns warnings for finite heights in the order of the file. `is_open` is true if the last line has no line end.
-pub(super) fn of_heights(heights: &[f64], is_open: bool, place: impl Fn(usize) -> Place) -> Vec<String> {
+pub(super) fn of_heights(
+    heights: &[f64],
+    is_open: bool,
+    place: impl Fn(usize) -> Place,
+) -> Vec<String> {
     let step = heights.len().div_ceil(SAMPLE).max(1);
-    let finite = heights.iter().step_by(step).copied().filter(|height| height.is_finite());
+    let finite = heights
+        .iter()
+        .step_by(step)
+        .copied()
+        .filter(|height| height.is_finite());
     let mut sample: Vec<f64> = finite.collect();
-    let Some(level) = median(&mut sample) else { return Vec::new() };
-    sample.iter_mut().for_each(|height| *height = (*height - level).abs());
+    let Some(level) = median(&mut sample) else {
+        return Vec::new();
+    };
+    sample
+        .iter_mut()
+        .for_each(|height| *height = (*height - level).abs());
     let usual = median(&mut sample).unwrap_or_default();
     let distance = |height: f64| (height - level).abs();
     let (mut largest, mut next) = ((0.0, 0), 0.0);
-    for (index, height) in heights.iter().enumerate().filter(|(_, height)| height.is_finite()) {
+    for (index, height) in heights
+        .iter()
+        .enumerate()
+        .filter(|(_, height)| height.is_finite())
+    {
         if distance(*height) > largest.0 {
             (largest, next) = ((distance(*height), index), largest.0);
         } else if distance(*height) > next {
@@ -48,8 +64,11 @@ pub(super) fn of_heights(heights: &[f64], is_open: bool, place: impl Fn(usize) -
             largest / next
         )];
     }
-    let mut far = (0..heights.len()).filter(|index| usual > 0.0 && distance(heights[*index]) > FAR * usual);
-    let Some(first) = far.next() else { return Vec::new() };
+    let mut far =
+        (0..heights.len()).filter(|index| usual > 0.0 && distance(heights[*index]) > FAR * usual);
+    let Some(first) = far.next() else {
+        return Vec::new();
+    };
     vec![format!(
         "{}the height {:e} and {} others are more than {FAR:e} times as far from the median as heights usually are: marks of \
          missing points, or other units",
@@ -65,7 +84,9 @@ mod tests {
 
     #[test]
     fn heights_far_from_all_others_are_named() {
-        let mut heights: Vec<f64> = (0..100).map(|i| 1e-8 * (0.7 * f64::from(i * i)).sin()).collect();
+        let mut heights: Vec<f64> = (0..100)
+            .map(|i| 1e-8 * (0.7 * f64::from(i * i)).sin())
+            .collect();
         let warnings =
             |heights: &[f64], is_open| of_heights(heights, is_open, |index| Place::Line(index + 3));
         assert_eq!(warnings(&heights, true), [""; 0]);
@@ -73,18 +94,29 @@ mod tests {
         assert_eq!(warnings(&heights, false), [""; 0]);
         let cut = warnings(&heights, true);
         assert!(
-            cut[0].starts_with("line 102: the last number, -2e-7, is far from all others, and its line"),
+            cut[0].starts_with(
+                "line 102: the last number, -2e-7, is far from all others, and its line"
+            ),
             "{cut:?}"
         );
         heights[50] = 4e-5;
         let alone = warnings(&heights, false);
-        assert!(alone[0].starts_with("line 53: the height 4e-5 is 2e2 times as far from"), "{alone:?}");
+        assert!(
+            alone[0].starts_with("line 53: the height 4e-5 is 2e2 times as far from"),
+            "{alone:?}"
+        );
         (heights[20], heights[30], heights[40]) = (-9999.0, f64::NAN, -9999.0);
         let far = warnings(&heights, true);
         assert!(
             far[0].starts_with("line 23: the height -9.999e3 and 1 others are more than 1e6 times"),
             "{far:?}"
         );
-        assert_eq!((warnings(&[0.0, 0.0, 5.0], false), warnings(&[f64::NAN], true)), (vec![], vec![]));
+        assert_eq!(
+            (
+                warnings(&[0.0, 0.0, 5.0], false),
+                warnings(&[f64::NAN], true)
+            ),
+            (vec![], vec![])
+        );
     }
 }
